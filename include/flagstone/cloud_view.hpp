@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+namespace flagstone {
+
+/// One point in the sensor frame: metres, x forward, y left, z up, origin in the sensor.
+struct Point {
+  float x, y, z;
+};
+
+/// Where x, y and z of point i lie: `data + i * stride + offset`, in bytes. Any alignment is fine.
+/// Offsets may exceed the stride, so planar storage works too: N x-values, then N y-values, then N
+/// z-values is {4, 0, 4 * N, 8 * N}.
+struct CloudLayout {
+  std::ptrdiff_t stride;
+  std::ptrdiff_t x, y, z;
+};
+
+/// A struct of the user's with float members x, y and z (PCL's point types, for one).
+template <class T>
+concept XyzPoint = std::is_standard_layout_v<T> && requires(const T& point) {
+  requires std::same_as<std::remove_cvref_t<decltype(point.x)>, float>;
+  requires std::same_as<std::remove_cvref_t<decltype(point.y)>, float>;
+  requires std::same_as<std::remove_cvref_t<decltype(point.z)>, float>;
+};
+
+/// A point cloud somebody else owns: pointer, count and layout, never a copy.
+/// The memory must outlive the view and stay unchanged while a segmenter reads it.
+class CloudView {
+ public:
+  /// The empty cloud.
+  constexpr CloudView() noexcept = default;
+
+  /// `count` points of `floats_per_point` 32-bit floats each, x, y and z first: 3 for packed xyz, 4 for
+  /// KITTI (x, y, z, intensity), 5 for nuScenes (with ring).
+  constexpr CloudView(const float* points, std::size_t count,
+                      std::size_t floats_per_point = 3) noexcept
+      : data_(points),
+        count_(count),
+        layout_{static_cast<std::ptrdiff_t>(floats_per_point * sizeof(float)), 0, sizeof(float),
+                2 * sizeof(float)} {}
+
+  /// Any other memory: a PointCloud2-like blob, a column-major matrix, a strided array.
+  constexpr CloudView(const void* data, std::size_t count, CloudLayout layout) noexcept
+      : data_(data), count_(count), layout_(layout) {}
+
+  /// Contiguous structs with float members x, y and z.
+  template <XyzPoint T>
+  explicit CloudView(std::span<const T> points) noexcept
+      : data_(points.data()), count_(points.size()), layout_{sizeof(T), 0, 0, 0} {
+    if (!points.empty()) {
+      const auto* base = reinterpret_cast<const std::byte*>(points.data());
+      layout_.x = reinterpret_cast<const std::byte*>(&points[0].x) - base;
+      layout_.y = reinterpret_cast<const std::byte*>(&points[0].y) - base;
+      layout_.z = reinterpret_cast<const std::byte*>(&points[0].z) - base;
+    }
+  }
+
+  [[nodiscard]] constexpr std::size_t size() const noexcept { return count_; }
+  [[nodiscard]] constexpr bool empty() const noexcept { return count_ == 0; }
+  [[nodiscard]] constexpr const void* data() const noexcept { return data_; }
+  [[nodiscard]] constexpr const CloudLayout& layout() const noexcept { return layout_; }
+
+  /// Point `i`, 0 <= i < size(); not checked.
+  [[nodiscard]] Point operator[](std::size_t i) const noexcept {
+    const std::byte* p =
+        static_cast<const std::byte*>(data_) + static_cast<std::ptrdiff_t>(i) * layout_.stride;
+    return {load(p + layout_.x), load(p + layout_.y), load(p + layout_.z)};
+  }
+
+ private:
+  static float load(const std::byte* p) noexcept {
+    float value;
+    std::memcpy(&value, p, sizeof value);  // any alignment
+    return value;
+  }
+
+  const void* data_ = nullptr;
+  std::size_t count_ = 0;
+  CloudLayout layout_{3 * sizeof(float), 0, sizeof(float), 2 * sizeof(float)};
+};
+
+}  // namespace flagstone

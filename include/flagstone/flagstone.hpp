@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Everything a user of the library includes.
+
+#include "flagstone/cloud_view.hpp"        // IWYU pragma: export
+#include "flagstone/label.hpp"             // IWYU pragma: export
+#include "flagstone/patch.hpp"             // IWYU pragma: export
+#include "flagstone/patchwork.hpp"         // IWYU pragma: export
+#include "flagstone/patchwork_config.hpp"  // IWYU pragma: export
+#include "flagstone/segmentation.hpp"      // IWYU pragma: export
+#include "flagstone/segmenter.hpp"         // IWYU pragma: export
+#include "flagstone/status.hpp"            // IWYU pragma: export
+#include "flagstone/version.hpp"           // IWYU pragma: export

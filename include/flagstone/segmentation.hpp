@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "flagstone/label.hpp"
+#include "flagstone/patch.hpp"
+
+namespace flagstone {
+
+/// The result of segmenting one scan. Keep one and hand it in again: its buffers are reused, so that
+/// after the first scans nothing is allocated. What an earlier scan left in it has no influence.
+class Segmentation {
+ public:
+  /// One label per input point, in input order.
+  [[nodiscard]] std::span<const Label> labels() const noexcept { return labels_; }
+
+  /// The bins that hold at least one point, ordered by zone, ring and sector.
+  /// Empty for methods that do not work on patches.
+  [[nodiscard]] std::span<const Patch> patches() const noexcept { return patches_; }
+
+  /// How many points have this label. Over all labels the counts add up to labels().size().
+  [[nodiscard]] std::size_t count(Label label) const noexcept {
+    return counts_[static_cast<std::size_t>(label)];
+  }
+
+  /// @name For those who write a Segmenter
+  /// Buffers keep their capacity; growing them may throw std::bad_alloc.
+  /// @{
+
+  /// Starts a result of `points` labels, all nonground, without patches. Returns the labels to fill.
+  std::span<Label> start(std::size_t points) {
+    patches_.clear();
+    counts_ = {};
+    labels_.assign(points, Label::nonground);
+    return labels_;
+  }
+
+  /// The patches to fill.
+  [[nodiscard]] std::vector<Patch>& mutable_patches() noexcept { return patches_; }
+
+  /// Counts the labels; call it once they are final.
+  void finish() noexcept {
+    counts_ = {};
+    for (const Label label : labels_) ++counts_[static_cast<std::size_t>(label)];
+  }
+
+  /// @}
+
+ private:
+  std::vector<Label> labels_;
+  std::vector<Patch> patches_;
+  std::array<std::size_t, label_count> counts_{};
+};
+
+}  // namespace flagstone
