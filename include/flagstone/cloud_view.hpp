@@ -38,8 +38,8 @@ class CloudView {
   /// The empty cloud.
   constexpr CloudView() noexcept = default;
 
-  /// `count` points of `floats_per_point` 32-bit floats each, x, y and z first: 3 for packed xyz, 4 for
-  /// KITTI (x, y, z, intensity), 5 for nuScenes (with ring).
+  /// `count` points of `floats_per_point` 32-bit floats each, x, y and z first: 3 for packed xyz, 4
+  /// for KITTI (x, y, z, intensity), 5 for nuScenes (with ring).
   constexpr CloudView(const float* points, std::size_t count,
                       std::size_t floats_per_point = 3) noexcept
       : data_(points),

@@ -10,9 +10,9 @@ namespace flagstone {
 /// What a point is. The codes are part of the data contract: they are what label files hold and
 /// will not change. Every input point gets exactly one.
 enum class Label : std::uint8_t {
-  nonground = 0,     ///< stands on the ground, hangs above it, or lies in a patch that is not ground
-  ground = 1,        ///< belongs to the ground surface
-  noise = 2,         ///< below any ground there can be at that place (multipath, reflections)
+  nonground = 0,  ///< stands on the ground, hangs above it, or lies in a patch that is not ground
+  ground = 1,     ///< belongs to the ground surface
+  noise = 2,      ///< below any ground there can be at that place (multipath, reflections)
   out_of_range = 3,  ///< nearer than the first ring or beyond the last
   invalid = 4,       ///< a coordinate is not finite, or all three are zero ("no echo")
 };

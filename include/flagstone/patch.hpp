@@ -9,12 +9,12 @@ namespace flagstone {
 
 /// Why a patch was taken for ground, or was not.
 enum class Verdict : std::uint8_t {
-  ground,           ///< passed every term of the ground likelihood
-  ground_flat,      ///< too high for the elevation term, brought back by its flatness
-  too_few_points,   ///< not enough points in the bin to fit a plane
-  no_plane,         ///< fewer than three points survived the fit
-  not_upright,      ///< the normal leans too far: a wall, a hedge, a trunk
-  too_high,         ///< lies above where ground can be at that range, and is not flat enough
+  ground,          ///< passed every term of the ground likelihood
+  ground_flat,     ///< too high for the elevation term, brought back by its flatness
+  too_few_points,  ///< not enough points in the bin to fit a plane
+  no_plane,        ///< fewer than three points survived the fit
+  not_upright,     ///< the normal leans too far: a wall, a hedge, a trunk
+  too_high,        ///< lies above where ground can be at that range, and is not flat enough
 };
 
 /// Name of a verdict, e.g. "not_upright".
@@ -38,18 +38,19 @@ struct Patch {
   std::uint16_t sector = 0;  ///< j - 1: counted counter-clockwise from -x, i.e. from theta = -pi
   Verdict verdict = Verdict::too_few_points;
 
-  std::uint32_t point_count = 0;   ///< points of the bin, |S_n|
-  std::uint32_t ground_count = 0;  ///< points of the bin labelled ground; 0 if the patch is rejected
+  std::uint32_t point_count = 0;  ///< points of the bin, |S_n|
+  std::uint32_t ground_count =
+      0;  ///< points of the bin labelled ground; 0 if the patch is rejected
 
   std::array<float, 3> mean{};         ///< mean of the ground set, metres, sensor frame
   std::array<float, 3> normal{};       ///< n = v_3, unit length, pointing up (z >= 0), eq. (3)
   float d = 0;                         ///< plane: normal . p + d = 0, metres
   std::array<float, 3> eigenvalues{};  ///< of the covariance, lambda_1 >= lambda_2 >= lambda_3, m^2
 
-  float uprightness = 0;       ///< phi, eq. (8): 1 upright enough, 0 not
-  float elevation = 0;         ///< psi, eq. (9): 0..1, above 0.5 low enough to be ground
-  float flatness = 0;          ///< varphi, eq. (10): 1, or the gain that may bring a high patch back
-  float likelihood = 0;        ///< f, eq. (7): product of the three; ground if above 0.5, eq. (11)
+  float uprightness = 0;  ///< phi, eq. (8): 1 upright enough, 0 not
+  float elevation = 0;    ///< psi, eq. (9): 0..1, above 0.5 low enough to be ground
+  float flatness = 0;     ///< varphi, eq. (10): 1, or the gain that may bring a high patch back
+  float likelihood = 0;   ///< f, eq. (7): product of the three; ground if above 0.5, eq. (11)
   float surface_variable = 0;  ///< sigma = lambda_3 / (lambda_1 + lambda_2 + lambda_3), 0..1/3
 
   /// Does this patch count as ground?

@@ -9,7 +9,8 @@
 
 namespace flagstone {
 
-/// Patchwork: concentric zone-based region-wise ground segmentation with ground likelihood estimation.
+/// Patchwork: concentric zone-based region-wise ground segmentation with ground likelihood
+/// estimation.
 ///
 /// H. Lim, M. Oh, H. Myung, "Patchwork: Concentric Zone-based Region-wise Ground Segmentation with
 /// Ground Likelihood Estimation Using a 3D LiDAR Sensor", IEEE RA-L 6(4), 2021.

@@ -18,12 +18,13 @@ struct Zone {
   /// N_theta,m: sectors a ring is cut into, 1 to 3,600.
   int sectors = 32;
 
-  /// M_h of this zone: when seeds are chosen, points below M_h * h_s are passed over as reflections.
-  /// Below -1; the lower, the looser. Minus infinity passes over none.
+  /// M_h of this zone: when seeds are chosen, points below M_h * h_s are passed over as
+  /// reflections. Below -1; the lower, the looser. Minus infinity passes over none.
   float height_margin = -1.1f;
 };
 
-/// `count` rings of equal width from `inner` to `outer` metres: the outer radii, as eq. (2) has them.
+/// `count` rings of equal width from `inner` to `outer` metres: the outer radii, as eq. (2) has
+/// them.
 std::vector<float> equal_rings(float inner, float outer, int count);
 
 /// Every setting of Patchwork. The initial values are the preset `default`.
@@ -36,25 +37,29 @@ struct PatchworkConfig {
   /// h_s: height of the sensor above the ground, metres, -100 to 100.
   float sensor_height = 1.73f;
 
-  // Concentric Zone Model, section III-B -----------------------------------------------------------
+  // Concentric Zone Model, section III-B
+  // -----------------------------------------------------------
 
   /// L_min: nearer points are out of range, metres, 0 to 1,000. Keeps the own vehicle out.
   float min_range = 2.7f;
 
-  /// Z_1 .. Z_Nz, from the sensor outward; 1 to 16. L_max is the last ring's radius, at most 1,000 m;
-  /// at most 65,535 bins in all.
+  /// Z_1 .. Z_Nz, from the sensor outward; 1 to 16. L_max is the last ring's radius, at most 1,000
+  /// m; at most 65,535 bins in all.
   std::vector<Zone> zones = default_zones();
 
-  // Points below any ground ------------------------------------------------------------------------
+  // Points below any ground
+  // ------------------------------------------------------------------------
 
-  /// Points lower than -h_s - noise_depth - noise_slope * r are noise, with r the outer radius of the
-  /// point's ring. Metres, 0 to 1,000 or infinity for none.
+  /// Points lower than -h_s - noise_depth - noise_slope * r are noise, with r the outer radius of
+  /// the point's ring. Metres, 0 to 1,000 or infinity for none.
   float noise_depth = 2.0f;
 
-  /// Steepest descent of ground from below the sensor that is still believed, metres a metre, 0 to 10.
+  /// Steepest descent of ground from below the sensor that is still believed, metres a metre, 0
+  /// to 10.
   float noise_slope = 0.0f;
 
-  // Region-wise Ground Plane Fitting, section III-C ------------------------------------------------
+  // Region-wise Ground Plane Fitting, section III-C
+  // ------------------------------------------------
 
   /// Bins with fewer points than this are not fitted, 3 to 1,000,000.
   int min_points = 10;
@@ -65,22 +70,23 @@ struct PatchworkConfig {
   /// N_seed: the lowest points whose mean height starts the fit, 1 to 1,000.
   int seed_count = 20;
 
-  /// z_seed: points lower than the seeds' mean plus this form the first ground set, eq. (4); metres,
-  /// above 0, up to 100.
+  /// z_seed: points lower than the seeds' mean plus this form the first ground set, eq. (4);
+  /// metres, above 0, up to 100.
   float seed_height = 0.5f;
 
   /// Whether points below a zone's height margin may enter the first ground set. They never count
   /// for the seeds' mean.
   bool keep_below_margin = true;
 
-  /// M_d: points less than this above the plane are its ground set, eq. (5) and (6); metres, above 0,
-  /// up to 100.
+  /// M_d: points less than this above the plane are its ground set, eq. (5) and (6); metres, above
+  /// 0, up to 100.
   float distance_margin = 0.125f;
 
   /// Plane fits a bin; the paper's and everybody's 3. 1 to 100.
   int iterations = 3;
 
-  // Ground Likelihood Estimation, section III-D ----------------------------------------------------
+  // Ground Likelihood Estimation, section III-D
+  // ----------------------------------------------------
 
   /// Whether the likelihood judges the final ground set, as the paper has it, at the price of one
   /// more fit, or the set that the last plane was fitted to, as the public code does.
@@ -89,8 +95,8 @@ struct PatchworkConfig {
   /// phi, eq. (8): the patch's normal must stand up.
   struct Uprightness {
     bool enabled = true;
-    /// theta_tau: smallest angle between the normal and the x-y plane, degrees, 0 to 90. The larger,
-    /// the stricter.
+    /// theta_tau: smallest angle between the normal and the x-y plane, degrees, 0 to 90. The
+    /// larger, the stricter.
     float angle = 45.0f;
   } uprightness;
 
@@ -104,8 +110,8 @@ struct PatchworkConfig {
     float growth = 0.0987f;
     /// L_tau: bins centred beyond this radius are not judged by elevation; metres, 0 to 1,000.
     float range = 13.3f;
-    /// Width of the step, metres, above 0, up to 1,000. 1 is the paper's formula; towards 0 psi becomes
-    /// the step of the public code.
+    /// Width of the step, metres, above 0, up to 1,000. 1 is the paper's formula; towards 0 psi
+    /// becomes the step of the public code.
     float scale = 1.0f;
   } elevation;
 
@@ -115,11 +121,11 @@ struct PatchworkConfig {
     bool enabled = true;
     /// zeta: above 1, up to 1,000.
     float gain = 1.2f;
-    /// sigma_tau of each ring from the innermost on; the last one holds for the rings beyond. Each 0
-    /// to 1/3, no unit; 1 to 1,000 of them.
+    /// sigma_tau of each ring from the innermost on; the last one holds for the rings beyond. Each
+    /// 0 to 1/3, no unit; 1 to 1,000 of them.
     std::vector<float> thresholds = {0.0005f, 0.000725f, 0.001f, 0.001f};
-    /// Width of the step in units of sigma, above 0, up to 1,000. 1 is the paper's formula; towards 0
-    /// varphi becomes the step of the public code.
+    /// Width of the step in units of sigma, above 0, up to 1,000. 1 is the paper's formula; towards
+    /// 0 varphi becomes the step of the public code.
     float scale = 1e-7f;
   } flatness;
 

@@ -12,8 +12,9 @@
 
 namespace flagstone {
 
-/// The result of segmenting one scan. Keep one and hand it in again: its buffers are reused, so that
-/// after the first scans nothing is allocated. What an earlier scan left in it has no influence.
+/// The result of segmenting one scan. Keep one and hand it in again: its buffers are reused, so
+/// that after the first scans nothing is allocated. What an earlier scan left in it has no
+/// influence.
 class Segmentation {
  public:
   /// One label per input point, in input order.
@@ -32,10 +33,17 @@ class Segmentation {
   /// Buffers keep their capacity; growing them may throw std::bad_alloc.
   /// @{
 
-  /// Starts a result of `points` labels, all nonground, without patches. Returns the labels to fill.
-  std::span<Label> start(std::size_t points) {
+  /// No labels, no patches.
+  void clear() noexcept {
     patches_.clear();
+    labels_.clear();
     counts_ = {};
+  }
+
+  /// Starts a result of `points` labels, all nonground, without patches. Returns the labels to
+  /// fill.
+  std::span<Label> start(std::size_t points) {
+    clear();
     labels_.assign(points, Label::nonground);
     return labels_;
   }

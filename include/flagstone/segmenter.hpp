@@ -15,9 +15,9 @@ class Segmenter {
 
   /// Labels every point of `cloud` and replaces what `result` held.
   ///
-  /// The same cloud gives the same bytes every time, whatever came before. Once buffers have grown to
-  /// the largest scan nothing is allocated; nothing is thrown or printed. Any bit pattern is allowed
-  /// in the coordinates.
+  /// The same cloud gives the same bytes every time, whatever came before. Once buffers have grown
+  /// to the largest scan nothing is allocated; nothing is thrown or printed. Any bit pattern is
+  /// allowed in the coordinates.
   ///
   /// Fails with `out_of_memory`, or with `invalid_argument` for a null cloud that claims points or
   /// one of more than 2^32 - 1 points; `result` then holds no labels.

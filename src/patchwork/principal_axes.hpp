@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "patchwork/moments.hpp"
+
+namespace flagstone::patchwork {
+
+/// What principal component analysis of a covariance gives, eq. (3).
+struct PrincipalAxes {
+  Vector3 eigenvalues;  ///< lambda_1 >= lambda_2 >= lambda_3 >= 0, m^2
+  Vector3 normal;       ///< v_3, unit length, z >= 0
+};
+
+/// Eigenvalues and the normal of a covariance, by + - * / and square root alone, so that the bits
+/// do not depend on a mathematics library.
+///
+/// Where the points do not fix a plane, the most upright one is taken: through points on a line
+/// (lambda_2 - lambda_3 within 1e-10 of the trace) the plane that contains the line and leans
+/// least, through a single place the horizontal one.
+PrincipalAxes principal_axes(const Symmetric3& covariance) noexcept;
+
+}  // namespace flagstone::patchwork
