@@ -8,7 +8,7 @@
 namespace flagstone {
 
 /// Why a patch was taken for ground, or was not.
-enum class Verdict : std::uint8_t {
+enum class Verdict : std::uint16_t {
   ground,          ///< passed every term of the ground likelihood
   ground_flat,     ///< too high for the elevation term, brought back by its flatness
   too_few_points,  ///< not enough points in the bin to fit a plane

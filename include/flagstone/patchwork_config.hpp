@@ -27,6 +27,43 @@ struct Zone {
 /// them.
 std::vector<float> equal_rings(float inner, float outer, int count);
 
+/// phi, eq. (8): the patch's normal must stand up.
+struct UprightnessTerm {
+  bool enabled = true;
+  /// theta_tau: smallest angle between the normal and the x-y plane, degrees, 0 to 90. The larger,
+  /// the stricter.
+  float angle = 45.0f;
+};
+
+/// psi, eq. (9): near the sensor the ground cannot be high.
+/// psi = 1 / (1 + exp((mean z - kappa(r)) / scale)), kappa(r) = -h_s + base * exp(growth * r).
+struct ElevationTerm {
+  bool enabled = true;
+  /// Height above -h_s at which psi is 0.5, extrapolated to r = 0; metres, 0 to 100.
+  float base = 0.333f;
+  /// How fast that height grows with range, per metre, 0 to 1.
+  float growth = 0.0987f;
+  /// L_tau: bins centred beyond this radius are not judged by elevation; metres, 0 to 1,000.
+  float range = 13.266f;
+  /// Width of the step, metres, above 0, up to 1,000. 1 is the paper's formula; towards 0 psi
+  /// becomes the step of the public code.
+  float scale = 1.0f;
+};
+
+/// varphi, eq. (10): brings back patches that are too high but definitely even: steep slopes.
+/// varphi = gain * exp(-(sigma - threshold) / scale) where psi < 0.5, else 1.
+struct FlatnessTerm {
+  bool enabled = true;
+  /// zeta: above 1, up to 1,000.
+  float gain = 1.2f;
+  /// sigma_tau of each ring from the innermost on; the last one holds for the rings beyond. Each 0
+  /// to 1/3, no unit; 1 to 1,000 of them.
+  std::vector<float> thresholds = {0.0005f, 0.000725f, 0.001f};
+  /// Width of the step in units of sigma, above 0, up to 1,000. 1 is the paper's formula; towards 0
+  /// varphi becomes the step of the public code.
+  float scale = 1e-7f;
+};
+
 /// Every setting of Patchwork. The initial values are the preset `default`.
 ///
 /// Three presets of one parameter set, never three code paths:
@@ -82,6 +119,11 @@ struct PatchworkConfig {
   /// 0, up to 100.
   float distance_margin = 0.125f;
 
+  /// Points farther than this below the plane (or below the seeds' mean, at the start) are left out
+  /// of its ground set, and are noise if the patch is ground; metres, above 0, up to 1,000, or
+  /// infinity as in the paper, whose sets have no lower bound.
+  float noise_margin = 0.5f;
+
   /// Plane fits a bin; the paper's and everybody's 3. 1 to 100.
   int iterations = 3;
 
@@ -92,42 +134,9 @@ struct PatchworkConfig {
   /// more fit, or the set that the last plane was fitted to, as the public code does.
   bool judge_final_set = false;
 
-  /// phi, eq. (8): the patch's normal must stand up.
-  struct Uprightness {
-    bool enabled = true;
-    /// theta_tau: smallest angle between the normal and the x-y plane, degrees, 0 to 90. The
-    /// larger, the stricter.
-    float angle = 45.0f;
-  } uprightness;
-
-  /// psi, eq. (9): near the sensor the ground cannot be high.
-  /// psi = 1 / (1 + exp((mean z - kappa(r)) / scale)), kappa(r) = -h_s + base * exp(growth * r).
-  struct Elevation {
-    bool enabled = true;
-    /// Height above -h_s at which psi is 0.5, extrapolated to r = 0; metres, 0 to 100.
-    float base = 0.333f;
-    /// How fast that height grows with range, per metre, 0 to 1.
-    float growth = 0.0987f;
-    /// L_tau: bins centred beyond this radius are not judged by elevation; metres, 0 to 1,000.
-    float range = 13.3f;
-    /// Width of the step, metres, above 0, up to 1,000. 1 is the paper's formula; towards 0 psi
-    /// becomes the step of the public code.
-    float scale = 1.0f;
-  } elevation;
-
-  /// varphi, eq. (10): brings back patches that are too high but definitely even: steep slopes.
-  /// varphi = gain * exp(-(sigma - threshold) / scale) where psi < 0.5, else 1.
-  struct Flatness {
-    bool enabled = true;
-    /// zeta: above 1, up to 1,000.
-    float gain = 1.2f;
-    /// sigma_tau of each ring from the innermost on; the last one holds for the rings beyond. Each
-    /// 0 to 1/3, no unit; 1 to 1,000 of them.
-    std::vector<float> thresholds = {0.0005f, 0.000725f, 0.001f, 0.001f};
-    /// Width of the step in units of sigma, above 0, up to 1,000. 1 is the paper's formula; towards
-    /// 0 varphi becomes the step of the public code.
-    float scale = 1e-7f;
-  } flatness;
+  UprightnessTerm uprightness{};
+  ElevationTerm elevation{};
+  FlatnessTerm flatness{};
 
   /// The preset of that name. Throws std::invalid_argument naming the presets there are.
   static PatchworkConfig preset(std::string_view name);

@@ -100,6 +100,7 @@ PatchworkConfig paper() {
   config.seed_height = 0.5f;
   config.keep_below_margin = false;
   config.distance_margin = 0.15f;
+  config.noise_margin = infinity;
   config.iterations = 3;
   config.judge_final_set = true;
   config.uprightness = {.enabled = true, .angle = 45};
@@ -133,6 +134,7 @@ PatchworkConfig reference() {
   config.seed_height = 0.5f;
   config.keep_below_margin = true;
   config.distance_margin = 0.125f;
+  config.noise_margin = infinity;
   config.iterations = 3;
   config.judge_final_set = false;
   config.uprightness = {.enabled = true, .angle = 45};
@@ -179,6 +181,9 @@ void PatchworkConfig::check() const {
   check_between("seed_count", seed_count, 1, 1000, "");
   check_above("seed_height", seed_height, 0, 100, " m");
   check_above("distance_margin", distance_margin, 0, 100, " m");
+  if (noise_margin != infinity) {
+    check_above("noise_margin", noise_margin, 0, 1000, " m, or infinity for none");
+  }
   check_between("iterations", iterations, 1, 100, "");
   check_between("uprightness.angle", uprightness.angle, 0, 90, " degrees");
   check_between("elevation.base", elevation.base, 0, 100, " m");

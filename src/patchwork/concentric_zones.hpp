@@ -14,6 +14,9 @@
 
 namespace flagstone::patchwork {
 
+/// Farther above or below the sensor a coordinate is no height: the point is out of range, metres.
+inline constexpr float max_height = 10000;
+
 /// One ring of bins, with everything that its bins share.
 struct Ring {
   std::uint16_t zone;           ///< m - 1
@@ -54,7 +57,8 @@ class ConcentricZones {
     if (!finite || (p.x == 0 && p.y == 0 && p.z == 0)) return invalid();
 
     const float squared_range = p.x * p.x + p.y * p.y;  // rho^2, infinite where it overflows
-    if (!(squared_range >= squared_radii_.front() && squared_range < squared_radii_.back())) {
+    if (!(squared_range >= squared_radii_.front() && squared_range < squared_radii_.back() &&
+          std::abs(p.z) <= max_height)) {
       return out_of_range();
     }
     const Ring& ring = rings_[ring_of(squared_range)];

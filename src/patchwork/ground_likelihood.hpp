@@ -31,10 +31,10 @@ class GroundLikelihood {
     double flat;      ///< sigma_tau of this ring
   };
 
-  PatchworkConfig::Uprightness uprightness_;
+  UprightnessTerm uprightness_;
   double smallest_normal_z_;  ///< cos(pi/2 - theta_tau)
   double elevation_scale_;
-  PatchworkConfig::Flatness flatness_;
+  FlatnessTerm flatness_;
   std::vector<RingLimits> rings_;
 };
 

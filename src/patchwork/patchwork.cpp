@@ -101,18 +101,19 @@ struct Patchwork::Pipeline {
     if (patch.is_ground()) label_ground_set(fitted.last, bin_runs, patch, labels);
   }
 
-  /// The final ground set, eq. (6) of the last plane. All other points stay nonground.
+  /// The final ground set, eq. (6) of the last plane, and the noise below it. All other points stay
+  /// nonground.
   void label_ground_set(const Plane& plane, std::span<const Run> bin_runs, Patch& patch,
                         std::span<Label> labels) const noexcept {
-    const double limit = config.distance_margin - plane.d;  // M_d
+    const double top = config.distance_margin - plane.d;  // M_d
+    const double bottom = -config.noise_margin - plane.d;
     const Vector3& n = plane.normal;
     std::size_t i = 0;
     for (const Run& run : bin_runs) {
       for (Label& label : labels.subspan(run.begin, run.length)) {
-        const bool ground =
-            n[0] * points.x()[i] + n[1] * points.y()[i] + n[2] * points.z()[i] < limit;
-        label = ground ? Label::ground : Label::nonground;
-        patch.ground_count += ground;
+        const double height = n[0] * points.x()[i] + n[1] * points.y()[i] + n[2] * points.z()[i];
+        label = height >= top ? Label::nonground : height >= bottom ? Label::ground : Label::noise;
+        patch.ground_count += label == Label::ground;
         ++i;
       }
     }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 
 #include "patchwork/principal_axes.hpp"
 
@@ -51,31 +50,36 @@ PlaneFit::PlaneFit(const PatchworkConfig& config) noexcept
     : seed_count_(config.seed_count),
       seed_height_(config.seed_height),
       distance_margin_(config.distance_margin),
+      noise_margin_(config.noise_margin),
       iterations_(config.iterations),
       keep_below_margin_(config.keep_below_margin),
       judge_final_set_(config.judge_final_set) {}
 
 PlaneFit::Result PlaneFit::fit(const PackedPoints& points, double seed_cut) noexcept {
   const double initial_height = mean_seed_height(points, seed_cut);
-  const Vector3 origin = {points.x()[0], points.y()[0], initial_height};
+  const Vector3 origin = {points.x()[0], points.y()[0], points.z()[0]};
 
   // G^0, eq. (4), with the points below the margin kept out where the paper has it so.
-  const double floor =
-      keep_below_margin_ ? -std::numeric_limits<double>::infinity() : seed_cut - initial_height;
-  Moments moments = moments_of(
-      points, origin, [&](double, double, double z) { return z < seed_height_ && z >= floor; });
+  const double ceiling = initial_height + seed_height_ - origin[2];
+  const double lowest = initial_height - noise_margin_;
+  const double floor = (keep_below_margin_ ? lowest : std::max(lowest, seed_cut)) - origin[2];
+  Moments moments = moments_of(points, origin,
+                               [&](double, double, double z) { return z < ceiling && z >= floor; });
 
-  // G^(l+1), eqs. (5) and (6): the points less than M_d above the plane of G^l. The moments of one
-  // iteration's set are taken while the set is chosen.
+  // G^(l+1), eqs. (5) and (6): the points less than M_d above the plane of G^l, and not so far
+  // below it that they are noise. The moments of one iteration's set are taken while the set is
+  // chosen.
   Plane plane;
   for (int l = 0; l < iterations_; ++l) {
     plane = plane_of(moments);
     if (!plane.exists()) return {};
     if (l + 1 == iterations_ && !judge_final_set_) break;
     const Vector3 n = plane.normal;
-    const double limit = distance_margin_ - plane.d;
+    const double top = distance_margin_ - plane.d;
+    const double bottom = -noise_margin_ - plane.d;
     moments = moments_of(points, origin, [&](double x, double y, double z) {
-      return n[0] * x + n[1] * y + n[2] * z < limit;
+      const double height = n[0] * x + n[1] * y + n[2] * z;
+      return height < top && height >= bottom;
     });
   }
 

@@ -44,6 +44,7 @@ class PlaneFit {
   int seed_count_;          // N_seed
   double seed_height_;      // z_seed
   double distance_margin_;  // M_d
+  double noise_margin_;
   int iterations_;
   bool keep_below_margin_;
   bool judge_final_set_;

@@ -8,9 +8,9 @@
 namespace flagstone::patchwork {
 namespace {
 
-/// Gap between eigenvalues, as a share of their sum, under which they count as equal: float
-/// coordinates of points on a line leave about 1e-12.
-constexpr double equal_share = 1e-10;
+/// Gap between eigenvalues, as a share of their sum, under which they count as equal. Wide enough
+/// that rounding (1e-16 of a determinant, divided by lambda_2) decides nothing.
+constexpr double equal_share = 1e-6;
 
 Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -47,7 +47,7 @@ double smallest_root(double c1, double c0) {
 Vector3 most_upright_normal_of_line(const Vector3& direction) {
   const Vector3 along = unit_upward(direction);
   const Vector3 upright = {-along[2] * along[0], -along[2] * along[1], 1 - along[2] * along[2]};
-  if (squared_length(upright) < equal_share) return {1, 0, 0};  // a vertical line
+  if (squared_length(upright) < 1e-10) return {1, 0, 0};  // a vertical line
   return unit_upward(upright);
 }
 
@@ -68,7 +68,8 @@ PrincipalAxes principal_axes(const Symmetric3& c) noexcept {
   const double determinant =
       xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
 
-  const double l3 = smallest_root(minors, determinant);
+  const bool on_a_line = minors <= equal_share;  // about lambda_2 + lambda_3; the rest is rounding
+  const double l3 = on_a_line ? 0 : smallest_root(minors, determinant);
   const double rest = 1 - l3;                 // lambda_1 + lambda_2
   const double product = minors - l3 * rest;  // lambda_1 * lambda_2
   const double gap = std::sqrt(std::max(rest * rest - 4 * product, 0.0));

@@ -16,7 +16,7 @@ struct PrincipalAxes {
 /// do not depend on a mathematics library.
 ///
 /// Where the points do not fix a plane, the most upright one is taken: through points on a line
-/// (lambda_2 - lambda_3 within 1e-10 of the trace) the plane that contains the line and leans
+/// (lambda_2 - lambda_3 at most 1e-6 of the trace) the plane that contains the line and leans
 /// least, through a single place the horizontal one.
 PrincipalAxes principal_axes(const Symmetric3& covariance) noexcept;
 

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/config_toml.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <variant>
+#include <vector>
+
+namespace flagstone::cli {
+namespace {
+
+struct Setting {
+  std::string_view key;  ///< dotted: "elevation.scale" is `scale` in the table `elevation`
+  std::variant<float*, int*, bool*, std::vector<float>*> value;
+  std::string_view comment;
+};
+
+/// All settings but the zones, in the order they are printed.
+std::vector<Setting> settings_of(PatchworkConfig& c) {
+  return {
+      {"sensor_height", &c.sensor_height, "h_s: sensor above ground, metres; -100 to 100"},
+      {"min_range", &c.min_range, "L_min: nearer points are out of range, metres; 0 to 1000"},
+      {"noise_depth", &c.noise_depth,
+       "points lower than -h_s - noise_depth - noise_slope * r are noise, metres; 0 to 1000, inf: "
+       "none"},
+      {"noise_slope", &c.noise_slope, "steepest descent of ground still believed, m/m; 0 to 10"},
+      {"min_points", &c.min_points, "bins with fewer points are not fitted; 3 to 1000000"},
+      {"few_points_are_ground", &c.few_points_are_ground, "what the points of such bins are"},
+      {"seed_count", &c.seed_count, "N_seed: lowest points that start the fit; 1 to 1000"},
+      {"seed_height", &c.seed_height, "z_seed, eq. (4), metres; above 0, up to 100"},
+      {"keep_below_margin", &c.keep_below_margin,
+       "whether points below a zone's height margin may enter the first ground set"},
+      {"distance_margin", &c.distance_margin, "M_d, eqs. (5) and (6), metres; above 0, up to 100"},
+      {"noise_margin", &c.noise_margin,
+       "points farther below the plane are no part of it but noise, metres; above 0, up to 1000, "
+       "inf: none"},
+      {"iterations", &c.iterations, "plane fits a bin; 1 to 100"},
+      {"judge_final_set", &c.judge_final_set,
+       "whether the likelihood judges the final ground set (paper) or the last fitted one (public "
+       "code)"},
+      {"uprightness.enabled", &c.uprightness.enabled, "phi, eq. (8)"},
+      {"uprightness.angle", &c.uprightness.angle,
+       "theta_tau: smallest angle between normal and x-y plane, degrees; 0 to 90"},
+      {"elevation.enabled", &c.elevation.enabled, "psi, eq. (9)"},
+      {"elevation.base", &c.elevation.base,
+       "kappa(r) = -h_s + base * exp(growth * r), metres; 0 to 100"},
+      {"elevation.growth", &c.elevation.growth, "per metre; 0 to 1"},
+      {"elevation.range", &c.elevation.range,
+       "L_tau: bins centred beyond are not judged by elevation, metres; 0 to 1000"},
+      {"elevation.scale", &c.elevation.scale,
+       "width of the step, metres; above 0, up to 1000; 1 is the paper's formula"},
+      {"flatness.enabled", &c.flatness.enabled, "varphi, eq. (10)"},
+      {"flatness.gain", &c.flatness.gain, "zeta; above 1, up to 1000"},
+      {"flatness.thresholds", &c.flatness.thresholds,
+       "sigma_tau of each ring, the last one for all beyond; each 0 to 1/3"},
+      {"flatness.scale", &c.flatness.scale,
+       "width of the step, units of sigma; above 0, up to 1000; 1 is the paper's formula"},
+  };
+}
+
+/// The shortest text that reads back to the same float, and to a float in TOML.
+std::string toml_text(float value) {
+  std::string text = fmt::format("{}", value);
+  if (std::isfinite(value) && text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+std::string toml_text(int value) { return fmt::format("{}", value); }
+std::string toml_text(bool value) { return value ? "true" : "false"; }
+std::string toml_text(const std::vector<float>& values) {
+  std::vector<std::string> texts;
+  for (const float value : values) texts.push_back(toml_text(value));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+std::string zones_text(const std::vector<Zone>& zones) {
+  std::string text =
+      "\n# Zones Z_1, Z_2, ... from the sensor outward, 1 to 16; each begins where the one before "
+      "ends.\n"
+      "# ring_radii: outer radius of each ring, metres, ascending, up to 1000; the last ends the "
+      "zone\n"
+      "# sectors: N_theta, 1 to 3600\n"
+      "# height_margin: M_h; seeds are not chosen below M_h * h_s; below -1, -inf for no margin\n";
+  for (const Zone& zone : zones) {
+    text += fmt::format("\n[[zones]]\nring_radii = {}\nsectors = {}\nheight_margin = {}\n",
+                        toml_text(zone.ring_radii), zone.sectors, toml_text(zone.height_margin));
+  }
+  return text;
+}
+
+/// Says where in the source a node stands.
+class Place {
+ public:
+  Place(std::string_view source, const toml::source_region& region) {
+    text_ = fmt::format("{}: line {}, column {}", source, region.begin.line, region.begin.column);
+  }
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw std::invalid_argument(text_ + ": " + reason);
+  }
+
+ private:
+  std::string text_;
+};
+
+std::string type_name(const toml::node& node) {
+  std::ostringstream name;
+  name << node.type();
+  return name.str();
+}
+
+void assign(const toml::node& node, const std::string& key, const Place& place, float& value) {
+  if (!node.is_number()) place.refuse(key + " is a number, not a " + type_name(node));
+  value = static_cast<float>(*node.value<double>());
+}
+
+void assign(const toml::node& node, const std::string& key, const Place& place, int& value) {
+  const auto number = node.value_exact<std::int64_t>();
+  if (!number) place.refuse(key + " is a whole number, not a " + type_name(node));
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  value = static_cast<int>(std::clamp(*number, -most, most));
+}
+
+void assign(const toml::node& node, const std::string& key, const Place& place, bool& value) {
+  const auto flag = node.value_exact<bool>();
+  if (!flag) place.refuse(key + " is true or false, not a " + type_name(node));
+  value = *flag;
+}
+
+void assign(const toml::node& node, const std::string& key, const Place& place,
+            std::vector<float>& values) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) place.refuse(key + " is an array of numbers, not a " + type_name(node));
+  values.clear();
+  for (const toml::node& element : *array) assign(element, key, place, values.emplace_back());
+}
+
+Zone zone_of(const toml::node& node, const std::string& name, std::string_view source) {
+  const Place place(source, node.source());
+  const toml::table* table = node.as_table();
+  if (table == nullptr) place.refuse(name + " is a table with ring_radii, sectors, height_margin");
+  Zone zone;
+  for (const auto& [key, value] : *table) {
+    const Place here(source, value.source());
+    const std::string full = name + "." + std::string(key.str());
+    if (key == "ring_radii") {
+      assign(value, full, here, zone.ring_radii);
+    } else if (key == "sectors") {
+      assign(value, full, here, zone.sectors);
+    } else if (key == "height_margin") {
+      assign(value, full, here, zone.height_margin);
+    } else {
+      here.refuse(full + " is no setting; a zone has ring_radii, sectors and height_margin");
+    }
+  }
+  return zone;
+}
+
+void assign_zones(const toml::node& node, std::string_view source, std::vector<Zone>& zones) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr) {
+    Place(source, node.source()).refuse("zones is an array of tables, not a " + type_name(node));
+  }
+  zones.clear();
+  for (const toml::node& element : *array) {
+    zones.push_back(zone_of(element, fmt::format("zones[{}]", zones.size()), source));
+  }
+}
+
+void apply_table(const toml::table& table, const std::string& prefix, std::string_view source,
+                 const std::vector<Setting>& settings, PatchworkConfig& config) {
+  for (const auto& [key, node] : table) {
+    const std::string full = prefix + std::string(key.str());
+    const Place place(source, node.source());
+    const auto setting = std::ranges::find(settings, full, &Setting::key);
+    const bool is_section = std::ranges::any_of(
+        settings, [&](const Setting& s) { return s.key.starts_with(full + "."); });
+    if (full == "zones") {
+      assign_zones(node, source, config.zones);
+    } else if (setting != settings.end()) {
+      std::visit([&](auto* value) { assign(node, full, place, *value); }, setting->value);
+    } else if (is_section && node.is_table()) {
+      apply_table(*node.as_table(), full + ".", source, settings, config);
+    } else {
+      place.refuse(full + " is no setting; 'flagstone config' prints all there are");
+    }
+  }
+}
+
+}  // namespace
+
+std::string to_toml(PatchworkConfig config) {
+  std::string text;
+  std::string_view section;
+  for (const Setting& setting : settings_of(config)) {
+    const std::size_t dot = setting.key.find('.');
+    const std::string_view own_section =
+        dot == std::string_view::npos ? std::string_view() : setting.key.substr(0, dot);
+    if (own_section != section) text += fmt::format("\n[{}]\n", own_section);
+    section = own_section;
+    const std::string_view name =
+        dot == std::string_view::npos ? setting.key : setting.key.substr(dot + 1);
+    const std::string value =
+        std::visit([](const auto* pointer) { return toml_text(*pointer); }, setting.value);
+    text += fmt::format("{} = {}  # {}\n", name, value, setting.comment);
+  }
+  return text + zones_text(config.zones);
+}
+
+void apply_toml(std::string_view text, std::string_view source, PatchworkConfig& config) {
+  try {
+    const toml::table table = toml::parse(text, source);
+    apply_table(table, "", source, settings_of(config), config);
+  } catch (const toml::parse_error& error) {
+    Place(source, error.source()).refuse(std::string(error.description()));
+  }
+}
+
+}  // namespace flagstone::cli

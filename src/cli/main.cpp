@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+
+#include "cli/config_command.hpp"
+#include "cli/demo_command.hpp"
+#include "cli/info_command.hpp"
+#include "cli/segment_command.hpp"
+#include "flagstone/version.hpp"
+
+namespace {
+
+constexpr int wrong_usage = 2;
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "Ground segmentation for 3D LiDAR.\n\n"
+      "Example:  flagstone segment scan.bin --output out --picture\n\n"
+      "'flagstone COMMAND --help' explains a command.");
+  app.set_version_flag("--version", FLAGSTONE_VERSION);
+  app.require_subcommand(1);
+  int exit_code = 0;
+  flagstone::cli::add_segment_command(app, exit_code);
+  flagstone::cli::add_demo_command(app, exit_code);
+  flagstone::cli::add_info_command(app, exit_code);
+  flagstone::cli::add_config_command(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "flagstone: {}; see 'flagstone --help'\n", error.what());
+    return wrong_usage;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "flagstone: {}\n", error.what());
+    return wrong_usage;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "flagstone: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/scan_job.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <system_error>
+#include <vector>
+
+#include "cli/stopwatch.hpp"
+#include "eval/protocol.hpp"
+#include "io/write_cloud.hpp"
+#include "render/birds_eye.hpp"
+
+namespace flagstone::cli {
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path with_suffix(const fs::path& stem, const std::string& suffix) {
+  return fs::path(stem.string() + suffix);  // replace_extension would cut "scan.v2" short
+}
+
+/// The extension that a scan's name has, ".pcd.bin" included.
+std::string scan_extension(const fs::path& file) {
+  return file.filename().string().substr(without_scan_extension(file.filename()).string().size());
+}
+
+bool is_lidarseg(const fs::path& labels) {
+  return labels.filename().string().ends_with("_lidarseg.bin");
+}
+
+/// The protocols that fit the ids of a label file; pictures show the first.
+std::vector<const eval::Protocol*> protocols_for(const fs::path& labels) {
+  if (is_lidarseg(labels)) return {&eval::lidarseg_protocol()};
+  return {&eval::patchwork_protocol(), &eval::patchwork_plusplus_protocol()};
+}
+
+std::string subtitle(const ScanReport& report) {
+  std::string text = fmt::format("{} points, {:.1f} % ground, {} patches, {:.2f} ms", report.points,
+                                 100 * report.ground_share(), report.patches, report.segment_ms);
+  if (report.scores.empty()) return text;
+  const auto& [protocol, confusion] = report.scores.front();
+  return text + fmt::format("; precision {:.2f} %, recall {:.2f} %, F1 {:.2f} % (protocol {})",
+                            100 * confusion.precision(), 100 * confusion.recall(),
+                            100 * confusion.f1(), protocol);
+}
+
+}  // namespace
+
+fs::path reference_file(const fs::path& reference, const ScanInput& input) {
+  std::error_code error;
+  if (!fs::is_directory(reference, error)) return reference;
+  const fs::path name = input.output_stem.filename();
+  const std::array candidates = {
+      with_suffix(reference / input.output_stem, ".label"),
+      with_suffix(reference / name, ".label"),
+      with_suffix(reference / name, "_lidarseg.bin"),
+  };
+  for (const fs::path& candidate : candidates) {
+    if (fs::exists(candidate, error)) return candidate;
+  }
+  return candidates.front();
+}
+
+ScanReport ScanWorker::run(const ScanInput& input) noexcept {
+  ScanReport report;
+  report.file = input.file;
+  try {
+    const Status status = work(input, report);
+    if (!status.ok()) report.error = status.message();
+  } catch (const std::exception& error) {
+    report.error = fmt::format("{}: {}", input.file.string(), error.what());
+  }
+  return report;
+}
+
+Status ScanWorker::work(const ScanInput& input, ScanReport& report) {
+  Stopwatch watch;
+  if (Status status = io::read_cloud(input.file, job_.read, cloud_); !status.ok()) return status;
+  report.read_ms = watch.lap();
+
+  Status status = patchwork_.segment(cloud_.view(), result_);
+  report.segment_ms = watch.lap();
+  if (!status.ok()) {
+    return Status(status.code(), fmt::format("{}: {} points are more than the memory holds",
+                                             input.file.string(), cloud_.size()));
+  }
+  report.points = cloud_.size();
+  report.patches = result_.patches().size();
+  for (std::size_t code = 0; code < label_count; ++code) {
+    report.counts[code] = result_.count(static_cast<Label>(code));
+  }
+
+  watch.lap();
+  status = write(input, report);
+  report.write_ms = watch.lap();
+  if (!status.ok()) return status;
+
+  if (!job_.picture && job_.reference.empty()) return {};
+  return score_and_draw(input, report);
+}
+
+Status ScanWorker::write(const ScanInput& input, ScanReport& report) {
+  const fs::path stem = job_.output / input.output_stem;
+  std::error_code error;
+  fs::create_directories(stem.parent_path(), error);
+  if (error) {
+    return Status(
+        StatusCode::unwritable,
+        fmt::format("{}: cannot be made: {}", stem.parent_path().string(), error.message()));
+  }
+
+  if (job_.format == OutputFormat::split) return write_split(input, report);
+  if (job_.format == OutputFormat::label) {
+    report.outputs = {with_suffix(stem, ".label")};
+    return io::write_label_file(report.outputs.front(), result_.labels(), job_.label_map);
+  }
+  const char* extension = job_.format == OutputFormat::npy   ? ".npy"
+                          : job_.format == OutputFormat::pcd ? ".pcd"
+                                                             : ".ply";
+  report.outputs = {with_suffix(stem, extension)};
+  io::Cloud labelled;
+  Status status = io::with_labels(cloud_, result_.labels(), labelled);
+  return status.ok() ? io::write_cloud(report.outputs.front(), labelled) : status;
+}
+
+Status ScanWorker::write_split(const ScanInput& input, ScanReport& report) {
+  for (const bool ground : {true, false}) {
+    std::vector<std::uint8_t> mask(cloud_.size());
+    for (std::size_t i = 0; i < mask.size(); ++i) {
+      mask[i] = (result_.labels()[i] == Label::ground) == ground;
+    }
+    io::Cloud part;
+    if (Status status = io::select_where(cloud_, mask, part); !status.ok()) return status;
+    const fs::path file =
+        with_suffix(job_.output / input.output_stem,
+                    (ground ? ".ground" : ".nonground") + scan_extension(input.file));
+    if (Status status = io::write_cloud(file, part); !status.ok()) return status;
+    report.outputs.push_back(file);
+  }
+  return {};
+}
+
+Status ScanWorker::score_and_draw(const ScanInput& input, ScanReport& report) {
+  std::vector<Truth> truth;  // under the first protocol
+  if (!job_.reference.empty()) {
+    const fs::path labels = reference_file(job_.reference, input);
+    std::vector<std::uint32_t> classes;
+    Status status = io::read_reference(labels, cloud_.size(), classes);
+    if (!status.ok()) return status;
+    for (const eval::Protocol* protocol : protocols_for(labels)) {
+      std::vector<Truth> under = eval::truth_of(*protocol, cloud_.view(), classes);
+      report.scores.push_back({protocol->name, eval::compare(result_.labels(), under)});
+      if (truth.empty()) truth = std::move(under);
+    }
+  }
+  if (!job_.picture) return {};
+
+  Stopwatch watch;
+  render::BirdsEye options;
+  options.title = input.file.filename().string();
+  options.subtitle = subtitle(report);
+  options.zones = &job_.config;
+  options.tint_patches = job_.tint_patches;
+  options.reference = truth;
+  const fs::path picture = with_suffix(job_.output / input.output_stem, ".png");
+  Status status = render::draw_birds_eye(picture, cloud_.view(), result_, options);
+  report.picture_ms = watch.lap();
+  if (status.ok()) report.outputs.push_back(picture);
+  return status;
+}
+
+}  // namespace flagstone::cli

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/scan_inputs.hpp"
+#include "cli/scan_report.hpp"
+#include "flagstone/patchwork.hpp"
+#include "io/cloud.hpp"
+#include "io/label_files.hpp"
+#include "io/read_cloud.hpp"
+
+namespace flagstone::cli {
+
+/// What is written for a scan.
+enum class OutputFormat {
+  label,  ///< STEM.label, one uint32 per point
+  npy,    ///< STEM.npy, the cloud with a field `label`
+  pcd,    ///< STEM.pcd, likewise
+  ply,    ///< STEM.ply, likewise
+  split,  ///< STEM.ground.EXT and STEM.nonground.EXT in the format of the input
+};
+
+/// What to do with every scan.
+struct ScanJob {
+  PatchworkConfig config;
+  io::ReadOptions read;
+  std::filesystem::path output;
+  OutputFormat format = OutputFormat::label;
+  io::LabelMap label_map = io::LabelMap::flagstone;
+  bool picture = false;
+  bool tint_patches = false;
+  std::filesystem::path reference;  ///< a label file, or a folder of them; empty for none
+};
+
+/// Reads, segments and writes one scan after another, reusing its memory. One per thread.
+class ScanWorker {
+ public:
+  explicit ScanWorker(const ScanJob& job) : job_(job), patchwork_(job.config) {}
+
+  /// Never throws: what goes wrong with this scan is in the report.
+  ScanReport run(const ScanInput& input) noexcept;
+
+ private:
+  Status work(const ScanInput& input, ScanReport& report);
+  Status write(const ScanInput& input, ScanReport& report);
+  Status write_split(const ScanInput& input, ScanReport& report);
+  Status score_and_draw(const ScanInput& input, ScanReport& report);
+
+  const ScanJob& job_;
+  Patchwork patchwork_;
+  Segmentation result_;
+  io::Cloud cloud_;
+};
+
+/// The label file of a scan: `reference` itself, or in that folder the scan's stem with .label or
+/// _lidarseg.bin. Where there is none, the first name that was tried.
+std::filesystem::path reference_file(const std::filesystem::path& reference,
+                                     const ScanInput& input);
+
+}  // namespace flagstone::cli

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/scan_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace flagstone::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+Json counts_json(const ScanReport& report) {
+  Json counts;
+  for (std::size_t code = 0; code < label_count; ++code) {
+    counts[to_string(static_cast<Label>(code))] = report.counts[code];
+  }
+  return counts;
+}
+
+Json scores_json(const ScanReport& report) {
+  Json scores;
+  for (const auto& [protocol, confusion] : report.scores) {
+    scores[protocol] = {{"precision", confusion.precision()},
+                        {"recall", confusion.recall()},
+                        {"f1", confusion.f1()},
+                        {"accuracy", confusion.accuracy()}};
+  }
+  return scores;
+}
+
+std::string scores_text(std::span<const ScanReport> reports) {
+  struct Sum {
+    double precision = 0, recall = 0, f1 = 0;
+    std::size_t scans = 0;
+  };
+  std::map<std::string, Sum> sums;
+  for (const ScanReport& report : reports) {
+    for (const auto& [protocol, confusion] : report.scores) {
+      Sum& sum = sums[protocol];
+      sum.precision += confusion.precision();
+      sum.recall += confusion.recall();
+      sum.f1 += confusion.f1();
+      ++sum.scans;
+    }
+  }
+  std::string text;
+  for (const auto& [protocol, sum] : sums) {
+    const double percent = 100 / static_cast<double>(sum.scans);
+    text += fmt::format(
+        "protocol {:<12} precision {:6.2f}  recall {:6.2f}  F1 {:6.2f}  (mean of {} scans, %)\n",
+        protocol, sum.precision * percent, sum.recall * percent, sum.f1 * percent, sum.scans);
+  }
+  return text;
+}
+
+}  // namespace
+
+double ScanReport::ground_share() const noexcept {
+  const std::size_t ground = counts[static_cast<std::size_t>(Label::ground)];
+  return points == 0 ? 0 : static_cast<double>(ground) / static_cast<double>(points);
+}
+
+std::string text_line(const ScanReport& report) {
+  std::string line = fmt::format(
+      "{}: {} points, {:.1f} % ground, {} patches; read {:.1f} ms, segment {:.2f} ms, write {:.1f} "
+      "ms",
+      report.file.string(), report.points, 100 * report.ground_share(), report.patches,
+      report.read_ms, report.segment_ms, report.write_ms);
+  for (const auto& [protocol, confusion] : report.scores) {
+    line += fmt::format("; F1 {:.2f} % ({})", 100 * confusion.f1(), protocol);
+  }
+  return line;
+}
+
+std::string json_line(const ScanReport& report) {
+  Json json;
+  json["file"] = report.file.string();
+  if (report.error) {
+    json["error"] = *report.error;
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  json["points"] = report.points;
+  json["counts"] = counts_json(report);
+  json["patches"] = report.patches;
+  json["milliseconds"] = {
+      {"read", report.read_ms}, {"segment", report.segment_ms}, {"write", report.write_ms}};
+  if (report.picture_ms > 0) json["milliseconds"]["picture"] = report.picture_ms;
+  if (!report.scores.empty()) json["scores"] = scores_json(report);
+  json["outputs"] = Json::array();
+  for (const auto& output : report.outputs) json["outputs"].push_back(output.string());
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // file names may not be UTF-8
+}
+
+std::string summary_text(std::span<const ScanReport> reports) {
+  std::vector<double> times;
+  std::size_t points = 0;
+  for (const ScanReport& report : reports) {
+    if (report.error) continue;
+    times.push_back(report.segment_ms);
+    points += report.points;
+  }
+  std::string text = scores_text(reports);
+  text += fmt::format("{} of {} scans segmented, {} points", times.size(), reports.size(), points);
+  if (!times.empty()) text += fmt::format(", median {:.2f} ms a scan", median(std::move(times)));
+  return text + "\n";
+}
+
+}  // namespace flagstone::cli

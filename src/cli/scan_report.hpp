@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "eval/confusion.hpp"
+#include "flagstone/label.hpp"
+
+namespace flagstone::cli {
+
+/// Labels compared with a reference under one protocol.
+struct Score {
+  std::string protocol;
+  eval::Confusion confusion;
+};
+
+/// What became of one scan.
+struct ScanReport {
+  std::filesystem::path file;
+  std::optional<std::string> error;  ///< one line; the rest is not filled then
+
+  std::size_t points = 0;
+  std::array<std::size_t, label_count> counts{};
+  std::size_t patches = 0;
+  double read_ms = 0;
+  double segment_ms = 0;
+  double write_ms = 0;    ///< labels or clouds, without the picture
+  double picture_ms = 0;  ///< 0 without a picture
+  std::vector<Score> scores;
+  std::vector<std::filesystem::path> outputs;
+
+  [[nodiscard]] double ground_share() const noexcept;
+};
+
+/// One line for people.
+std::string text_line(const ScanReport& report);
+
+/// One JSON object, without line breaks.
+std::string json_line(const ScanReport& report);
+
+/// The last lines for people: how many scans, the median time, mean scores.
+std::string summary_text(std::span<const ScanReport> reports);
+
+}  // namespace flagstone::cli

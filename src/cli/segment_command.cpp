@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/segment_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/interrupt.hpp"
+#include "cli/method_options.hpp"
+#include "cli/progress.hpp"
+#include "cli/scan_job.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+struct SegmentOptions {
+  std::vector<std::string> scans;
+  std::string output;
+  MethodOptions method;
+  OutputFormat format = OutputFormat::label;
+  io::LabelMap label_map = io::LabelMap::flagstone;
+  int columns = 0;
+  std::string reference;
+  bool picture = false;
+  bool tint_patches = false;
+  unsigned threads = 0;
+  bool json = false;
+};
+
+/// Collects what workers report and prints it in the order of the scans.
+class Reporter {
+ public:
+  Reporter(std::size_t scans, bool json) : reports_(scans), progress_(scans), json_(json) {
+    progress_.show(0);
+  }
+
+  void add(std::size_t index, ScanReport report) {
+    const std::scoped_lock lock(mutex_);
+    reports_[index] = std::move(report);
+    ++done_;
+    if (next_ < reports_.size() && reports_[next_]) progress_.clear();
+    for (; next_ < reports_.size() && reports_[next_]; ++next_) print(*reports_[next_]);
+    progress_.show(done_);
+  }
+
+  /// Takes the progress bar away, prints what is left to print; returns what was reported.
+  std::vector<ScanReport> finish() {
+    progress_.clear();
+    std::vector<ScanReport> finished;
+    for (std::size_t i = 0; i < reports_.size(); ++i) {
+      if (!reports_[i]) continue;
+      if (i >= next_) print(*reports_[i]);
+      finished.push_back(std::move(*reports_[i]));
+    }
+    return finished;
+  }
+
+ private:
+  void print(const ScanReport& report) const {
+    if (report.error) fmt::print(stderr, "flagstone: {}\n", *report.error);
+    if (json_) {
+      fmt::print("{}\n", json_line(report));
+    } else if (!report.error) {
+      fmt::print("{}\n", text_line(report));
+    }
+    std::fflush(stdout);
+  }
+
+  std::mutex mutex_;
+  std::vector<std::optional<ScanReport>> reports_;
+  std::size_t next_ = 0;  // first one not printed
+  std::size_t done_ = 0;
+  Progress progress_;
+  bool json_;
+};
+
+void run_all(const std::vector<ScanInput>& scans, const ScanJob& job, unsigned threads,
+             Reporter& reporter) {
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    ScanWorker worker(job);
+    while (!interrupted()) {
+      const std::size_t index = next++;
+      if (index >= scans.size()) return;
+      reporter.add(index, worker.run(scans[index]));
+    }
+  };
+  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t count = std::min<std::size_t>(threads, scans.size());
+  std::vector<std::jthread> crew;
+  for (std::size_t i = 1; i < count; ++i) crew.emplace_back(work);
+  work();
+}
+
+int segment(const SegmentOptions& options) {
+  const ScanJob job{.config = options.method.resolve(),
+                    .read = {.columns = options.columns},
+                    .output = options.output,
+                    .format = options.format,
+                    .label_map = options.label_map,
+                    .picture = options.picture,
+                    .tint_patches = options.tint_patches,
+                    .reference = options.reference};
+  const std::vector<ScanInput> scans = list_scans(options.scans);
+
+  catch_interrupts();
+  Reporter reporter(scans.size(), options.json);
+  run_all(scans, job, options.threads, reporter);
+  const std::vector<ScanReport> reports = reporter.finish();
+
+  if (!options.json && scans.size() > 1) fmt::print("{}", summary_text(reports));
+  const bool failed =
+      std::ranges::any_of(reports, [](const auto& r) { return r.error.has_value(); });
+  if (interrupted()) {
+    fmt::print(stderr,
+               "flagstone: interrupted, {} of {} scans are done; run it again for the rest\n",
+               reports.size(), scans.size());
+  }
+  return failed || reports.size() < scans.size() ? 1 : 0;
+}
+
+}  // namespace
+
+void add_segment_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SegmentOptions>();
+  CLI::App* command =
+      app.add_subcommand("segment",
+                         "Label every point of scans.\n\n"
+                         "Example:  flagstone segment scans/ --output labels --picture\n");
+  command
+      ->add_option("scans", options->scans,
+                   "Scans, or folders of them (.bin, .pcd.bin, .pcd, .ply, .npy)")
+      ->required()
+      ->type_name("SCAN...");
+  command->add_option("-o,--output", options->output, "Folder for what is written; made if missing")
+      ->required()
+      ->type_name("DIR");
+  options->method.add_to(*command);
+  const std::map<std::string, OutputFormat> formats = {{"label", OutputFormat::label},
+                                                       {"npy", OutputFormat::npy},
+                                                       {"pcd", OutputFormat::pcd},
+                                                       {"ply", OutputFormat::ply},
+                                                       {"split", OutputFormat::split}};
+  command
+      ->add_option(
+          "--format", options->format,
+          "label: labels alone, uint32 each; npy, pcd, ply: the cloud with a field 'label'; "
+          "split: ground and nonground clouds. Default: label")
+      ->transform(CLI::CheckedTransformer(formats).description("{label,npy,pcd,ply,split}"));
+  const std::map<std::string, io::LabelMap> maps = {
+      {"flagstone", io::LabelMap::flagstone}, {"semantic-kitti", io::LabelMap::semantic_kitti}};
+  command
+      ->add_option("--label-map", options->label_map,
+                   "Codes in .label files: flagstone (0..4), or semantic-kitti (40 ground, 0 else)")
+      ->transform(CLI::CheckedTransformer(maps).description("{flagstone,semantic-kitti}"));
+  command
+      ->add_option("--columns", options->columns,
+                   "Floats a point in .bin files. Default: 5 for .pcd.bin, else 4")
+      ->check(CLI::Range(3, 1024))
+      ->type_name("N");
+  command
+      ->add_option(
+          "--reference", options->reference,
+          "True labels to compare with: a file, or a folder of STEM.label or STEM_lidarseg.bin")
+      ->type_name("LABELS");
+  command->add_flag("--picture", options->picture, "Draw each scan from above, as PNG");
+  command->add_flag("--tint-patches", options->tint_patches,
+                    "In the picture, tint every patch by its verdict");
+  command->add_option("--threads", options->threads, "Scans worked on at once. Default: all cores")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  command->add_flag("--json", options->json, "Print one JSON object per scan instead of text");
+  command->callback([options, &exit_code] { exit_code = segment(*options); });
+}
+
+}  // namespace flagstone::cli

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace flagstone {
+
+/// What a point really is, by a reference labelling and an evaluation protocol.
+enum class Truth : std::uint8_t {
+  ground,
+  not_ground,
+  ignored,  ///< not scored
+};
+
+}  // namespace flagstone

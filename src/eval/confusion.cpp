@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "eval/confusion.hpp"
+
+namespace flagstone::eval {
+
+Confusion compare(std::span<const Label> labels, std::span<const Truth> truth) {
+  Confusion confusion;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (truth[i] == Truth::ignored) continue;
+    const bool found = labels[i] == Label::ground;
+    const bool is = truth[i] == Truth::ground;
+    confusion.true_positives += found && is;
+    confusion.false_positives += found && !is;
+    confusion.false_negatives += !found && is;
+    confusion.true_negatives += !found && !is;
+  }
+  return confusion;
+}
+
+}  // namespace flagstone::eval

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+// Accuracy on real scans, per preset and protocol; the definitions are in eval/protocol.hpp.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "eval/confusion.hpp"
+#include "eval/protocol.hpp"
+#include "flagstone/patchwork.hpp"
+#include "io/cloud.hpp"
+#include "io/label_files.hpp"
+#include "io/read_cloud.hpp"
+#include "real_scans.hpp"
+
+namespace flagstone {
+namespace {
+
+/// Mean F1 over the full-density KITTI scans, percent.
+double mean_f1(const std::vector<tests::RealScan>& scans, const std::string& preset,
+               const eval::Protocol& protocol) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (const tests::RealScan& scan : scans) {
+    if (!scan.is_full_density()) continue;
+    io::Cloud cloud;
+    std::vector<std::uint32_t> classes;
+    EXPECT_TRUE(io::read_cloud(scan.points, {}, cloud).ok());
+    EXPECT_TRUE(io::read_reference(scan.labels, cloud.size(), classes).ok());
+    PatchworkConfig config = PatchworkConfig::preset(preset);
+    config.sensor_height = scan.sensor_height;
+    Patchwork patchwork(config);
+    Segmentation result;
+    EXPECT_TRUE(patchwork.segment(cloud.view(), result).ok());
+    sum += eval::compare(result.labels(), eval::truth_of(protocol, cloud.view(), classes)).f1();
+    ++count;
+  }
+  const double mean = 100 * sum / static_cast<double>(count);
+  std::printf("preset %s, protocol %s: mean F1 %.2f %% over %zu KITTI scans\n", preset.c_str(),
+              protocol.name.c_str(), mean, count);
+  return mean;
+}
+
+TEST(Accuracy, DefaultPresetOnKitti) {
+  const auto scans = tests::real_scans("kitti");
+  FLAGSTONE_REQUIRE_SCANS(scans);
+
+  EXPECT_GE(mean_f1(scans, "default", eval::patchwork_protocol()), 94.5);
+  EXPECT_GE(mean_f1(scans, "default", eval::patchwork_plusplus_protocol()), 97.7);
+}
+
+TEST(Accuracy, ReferencePresetIsWithinHalfAPointOfTheAuthorsPackageOnKitti) {
+  const auto scans = tests::real_scans("kitti");
+  FLAGSTONE_REQUIRE_SCANS(scans);
+
+  // pypatchworkpp 1.4.1, class patchwork, sensor height 1.73 m, on the same scans; docs/presets.md
+  EXPECT_NEAR(mean_f1(scans, "reference", eval::patchwork_protocol()), 95.07, 0.5);
+  EXPECT_NEAR(mean_f1(scans, "reference", eval::patchwork_plusplus_protocol()), 98.07, 0.5);
+}
+
+}  // namespace
+}  // namespace flagstone

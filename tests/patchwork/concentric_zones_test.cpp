@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "patchwork/concentric_zones.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace flagstone::patchwork {
+namespace {
+
+/// Zone, ring, sector and distance to the nearest bin boundary, computed as eq. (2) reads.
+struct Expected {
+  std::uint32_t bin = 0;
+  double to_boundary = 0;  ///< as a share of the range
+};
+
+Expected by_equation(Point p, const PatchworkConfig& config) {
+  const double rho = std::hypot(static_cast<double>(p.x), static_cast<double>(p.y));
+  const double theta = std::atan2(static_cast<double>(p.y), static_cast<double>(p.x));
+  Expected expected{0, std::abs(rho - config.min_range) / rho};
+  double inner = config.min_range;
+  for (const Zone& zone : config.zones) {
+    for (const float outer : zone.ring_radii) {
+      expected.to_boundary = std::min(expected.to_boundary, std::abs(rho - outer) / rho);
+      if (rho >= inner && rho < outer) {
+        const double turn = (theta + std::numbers::pi) / (2 * std::numbers::pi) * zone.sectors;
+        const double to_sector =
+            std::abs(turn - std::round(turn)) * 2 * std::numbers::pi / zone.sectors;
+        expected.to_boundary = std::min(expected.to_boundary, to_sector);
+        expected.bin += static_cast<std::uint32_t>(turn) % static_cast<std::uint32_t>(zone.sectors);
+        return expected;
+      }
+      inner = outer;
+      expected.bin += static_cast<std::uint32_t>(zone.sectors);
+    }
+  }
+  expected.bin += 1;  // out_of_range
+  return expected;
+}
+
+/// Zones of any number, rings of any width, sectors of any number.
+PatchworkConfig any_zones() {
+  PatchworkConfig config;
+  config.min_range = static_cast<float>(*rc::gen::inRange(0, 500)) / 100.0f;
+  config.zones.clear();
+  float radius = config.min_range;
+  const int zones = *rc::gen::inRange(1, 7);
+  for (int m = 0; m < zones; ++m) {
+    Zone zone{.ring_radii = {}, .sectors = *rc::gen::inRange(1, 400), .height_margin = -1.1f};
+    const int rings = *rc::gen::inRange(1, 12);
+    for (int i = 0; i < rings; ++i) {
+      radius += static_cast<float>(*rc::gen::inRange(1, 800)) / 100.0f;
+      zone.ring_radii.push_back(radius);
+    }
+    config.zones.push_back(zone);
+  }
+  return config;
+}
+
+Point any_point(double reach) {
+  const double range = reach * *rc::gen::inRange(0, 1000001) / 1000000.0;
+  const double angle = std::numbers::pi * *rc::gen::inRange(-1000000, 1000001) / 1000000.0;
+  return {static_cast<float>(range * std::cos(angle)), static_cast<float>(range * std::sin(angle)),
+          -1.5f};
+}
+
+TEST(ConcentricZones, AnyZonesRingsAndSectorsGiveTheBinOfEquation2) {
+  EXPECT_TRUE(rc::check([] {
+    const PatchworkConfig config = any_zones();
+    config.check();
+    const ConcentricZones zones(config);
+    for (int i = 0; i < 50; ++i) {
+      const Point p = any_point(1.1 * config.zones.back().ring_radii.back());
+      if (p.x == 0 && p.y == 0) continue;
+      const Expected expected = by_equation(p, config);
+      if (expected.to_boundary < 1e-6) continue;  // within rounding of a boundary
+      const std::uint32_t bin = zones.locate(p);
+      RC_ASSERT(bin == expected.bin || (bin == zones.out_of_range() && expected.bin == bin));
+    }
+  }));
+}
+
+TEST(ConcentricZones, ThePapersBoundariesBelongToTheBinsBeyondThem) {
+  const PatchworkConfig config = PatchworkConfig::preset("paper");
+  const ConcentricZones zones(config);
+
+  EXPECT_EQ(zones.locate({-2.6999f, -0.001f, 0}), zones.out_of_range());
+  EXPECT_EQ(zones.locate({-2.7f, -1e-6f, 0}), 0u);
+  EXPECT_EQ(zones.locate({79.9999f, 0.001f, 0}) / 32, (zones.bin_count() - 1) / 32);
+  EXPECT_EQ(zones.locate({80.0f, 0, 0}), zones.out_of_range());
+}
+
+TEST(ConcentricZones, SectorsAreCountedFromMinusXCounterClockwise) {
+  const ConcentricZones zones(PatchworkConfig::preset("paper"));  // 16 sectors in Z_1
+
+  EXPECT_EQ(zones.locate({-5, -0.1f, 0}), 0u);  // theta just above -pi
+  EXPECT_EQ(zones.locate({0, -5, 0}), 4u);      // -pi / 2, a boundary, belongs to the next sector
+  EXPECT_EQ(zones.locate({5, -0.1f, 0}), 7u);
+  EXPECT_EQ(zones.locate({5, 0, 0}), 8u);   // 0
+  EXPECT_EQ(zones.locate({0, 5, 0}), 12u);  // pi / 2
+  EXPECT_EQ(zones.locate({-5, 0.1f, 0}), 15u);
+}
+
+TEST(ConcentricZones, ThetaOfPiIsThetaOfMinusPi) {
+  const ConcentricZones zones(PatchworkConfig::preset("paper"));
+
+  EXPECT_EQ(zones.locate({-5, 0.0f, 0}), 0u);
+  EXPECT_EQ(zones.locate({-5, -0.0f, 0}), 0u);
+}
+
+TEST(ConcentricZones, NoBitPatternEscapesItsBins) {
+  const ConcentricZones zones{PatchworkConfig()};
+  EXPECT_TRUE(rc::check([&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    const Point p{std::bit_cast<float>(x), std::bit_cast<float>(y), std::bit_cast<float>(z)};
+    RC_ASSERT(zones.locate(p) <= zones.invalid());
+  }));
+}
+
+TEST(ConcentricZones, AZoneThatBeginsAtTheOriginHasAPlaceForPointsAboveIt) {
+  PatchworkConfig config;
+  config.min_range = 0;
+  const ConcentricZones zones(config);
+
+  EXPECT_LT(zones.locate({0, 0, -1}), zones.bin_count());
+  EXPECT_LT(zones.locate({1e-40f, -1e-40f, -1}), zones.bin_count());
+}
+
+TEST(ConcentricZones, NoiseBeginsLowerWithRangeWhereTheGroundMayFallAway) {
+  PatchworkConfig config;
+  config.sensor_height = 1;
+  config.noise_depth = 2;
+  config.noise_slope = 0.5f;
+  config.zones = {{.ring_radii = {10, 20}, .sectors = 4, .height_margin = -1.1f}};
+  const ConcentricZones zones(config);
+
+  EXPECT_LT(zones.locate({9, 0, -7.9f}), zones.bin_count());
+  EXPECT_EQ(zones.locate({9, 0, -8.1f}), zones.noise());
+  EXPECT_LT(zones.locate({11, 0, -12.9f}), zones.bin_count());
+  EXPECT_EQ(zones.locate({11, 0, -13.1f}), zones.noise());
+}
+
+}  // namespace
+}  // namespace flagstone::patchwork
