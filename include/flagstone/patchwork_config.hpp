@@ -32,7 +32,7 @@ struct UprightnessTerm {
   bool enabled = true;
   /// theta_tau: smallest angle between the normal and the x-y plane, degrees, 0 to 90. The larger,
   /// the stricter.
-  float angle = 45.0f;
+  float angle = 50.0f;
 };
 
 /// psi, eq. (9): near the sensor the ground cannot be high.
@@ -93,13 +93,13 @@ struct PatchworkConfig {
 
   /// Steepest descent of ground from below the sensor that is still believed, metres a metre, 0
   /// to 10.
-  float noise_slope = 0.0f;
+  float noise_slope = 0.1f;
 
   // Region-wise Ground Plane Fitting, section III-C
   // ------------------------------------------------
 
   /// Bins with fewer points than this are not fitted, 3 to 1,000,000.
-  int min_points = 10;
+  int min_points = 6;
 
   /// What the points of such bins are: ground, or nonground.
   bool few_points_are_ground = false;
@@ -109,7 +109,7 @@ struct PatchworkConfig {
 
   /// z_seed: points lower than the seeds' mean plus this form the first ground set, eq. (4);
   /// metres, above 0, up to 100.
-  float seed_height = 0.5f;
+  float seed_height = 0.4f;
 
   /// Whether points below a zone's height margin may enter the first ground set. They never count
   /// for the seeds' mean.
@@ -119,9 +119,9 @@ struct PatchworkConfig {
   /// 0, up to 100.
   float distance_margin = 0.125f;
 
-  /// Points farther than this below the plane (or below the seeds' mean, at the start) are left out
-  /// of its ground set, and are noise if the patch is ground; metres, above 0, up to 1,000, or
-  /// infinity as in the paper, whose sets have no lower bound.
+  /// Points farther than this below the plane are left out of its ground set, and are noise if the
+  /// patch is ground; metres, above 0, up to 1,000, or infinity as in the paper, whose sets have no
+  /// lower bound.
   float noise_margin = 0.5f;
 
   /// Plane fits a bin; the paper's and everybody's 3. 1 to 100.

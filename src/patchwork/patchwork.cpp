@@ -101,8 +101,8 @@ struct Patchwork::Pipeline {
     if (patch.is_ground()) label_ground_set(fitted.last, bin_runs, patch, labels);
   }
 
-  /// The final ground set, eq. (6) of the last plane, and the noise below it. All other points stay
-  /// nonground.
+  /// The final ground set, eq. (6) of the last plane, less the noise below it. All other points
+  /// stay nonground.
   void label_ground_set(const Plane& plane, std::span<const Run> bin_runs, Patch& patch,
                         std::span<Label> labels) const noexcept {
     const double top = config.distance_margin - plane.d;  // M_d

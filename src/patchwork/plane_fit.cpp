@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include "patchwork/principal_axes.hpp"
 
@@ -61,8 +62,8 @@ PlaneFit::Result PlaneFit::fit(const PackedPoints& points, double seed_cut) noex
 
   // G^0, eq. (4), with the points below the margin kept out where the paper has it so.
   const double ceiling = initial_height + seed_height_ - origin[2];
-  const double lowest = initial_height - noise_margin_;
-  const double floor = (keep_below_margin_ ? lowest : std::max(lowest, seed_cut)) - origin[2];
+  const double floor =
+      keep_below_margin_ ? -std::numeric_limits<double>::infinity() : seed_cut - origin[2];
   Moments moments = moments_of(points, origin,
                                [&](double, double, double z) { return z < ceiling && z >= floor; });
 

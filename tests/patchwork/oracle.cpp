@@ -117,7 +117,7 @@ Indices initial_set(CloudView cloud, const Indices& s_n, double cut,
   Indices set;
   for (const std::size_t k : s_n) {
     const double z = at(cloud, k).z();
-    const bool kept = (config.keep_below_margin || z >= cut) && z >= z_init - config.noise_margin;
+    const bool kept = config.keep_below_margin || z >= cut;
     if (kept && z < z_init + config.seed_height) set.push_back(k);
   }
   return set;
@@ -129,7 +129,7 @@ double height_above(const Plane& plane, CloudView cloud, std::size_t k) {
   return plane.d - d_hat;
 }
 
-/// Eqs. (5) and (6), without what is too far below.
+/// Eqs. (5) and (6), without what is so far below that it is noise.
 Indices next_set(CloudView cloud, const Indices& s_n, const Plane& plane,
                  const PatchworkConfig& config) {
   Indices set;
