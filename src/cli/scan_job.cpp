@@ -40,13 +40,14 @@ std::vector<const eval::Protocol*> protocols_for(const fs::path& labels) {
 }
 
 std::string subtitle(const ScanReport& report) {
-  std::string text = fmt::format("{} points, {:.1f} % ground, {} patches, {:.2f} ms", report.points,
-                                 100 * report.ground_share(), report.patches, report.segment_ms);
-  if (report.scores.empty()) return text;
+  if (report.scores.empty()) {
+    return fmt::format("{:.1f} % ground, {} patches, {:.2f} ms", 100 * report.ground_share(),
+                       report.patches, report.segment_ms);
+  }
   const auto& [protocol, confusion] = report.scores.front();
-  return text + fmt::format("; precision {:.2f} %, recall {:.2f} %, F1 {:.2f} % (protocol {})",
-                            100 * confusion.precision(), 100 * confusion.recall(),
-                            100 * confusion.f1(), protocol);
+  return fmt::format("precision {:.2f} %, recall {:.2f} %, F1 {:.2f} % (protocol {})",
+                     100 * confusion.precision(), 100 * confusion.recall(), 100 * confusion.f1(),
+                     protocol);
 }
 
 }  // namespace

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "flagstone/patch.hpp"
+#include "render/canvas.hpp"
+#include "render/layout.hpp"
+#include "render/point_kinds.hpp"
+
+namespace flagstone::render {
+
+/// Writes a row of colours, names, counts and shares of the points and, where the patches are
+/// tinted, a second one of their verdicts.
+void draw_legend(const Canvas& canvas, const Layout& layout, const PointKinds& points,
+                 std::span<const Patch> patches, bool tinted);
+
+/// Writes at the panel's lower edge how many points do not show, if any.
+void draw_beyond_note(const Canvas& canvas, const Layout& layout, std::size_t beyond);
+
+}  // namespace flagstone::render

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "flagstone/cloud_view.hpp"
+#include "flagstone/patchwork_config.hpp"
+#include "flagstone/segmentation.hpp"
+
+namespace flagstone::render {
+
+/// Half of the picture's shorter side in metres where the caller names none: the radius that holds
+/// 98 % of the points that can be drawn, rounded up to 10 m; at most the last ring's of `zones`,
+/// where given, and 1,000 m. Without points, that bound or 50 m.
+double suitable_range(CloudView cloud, const Segmentation& result, const PatchworkConfig* zones);
+
+/// Distance between range rings, metres: 1, 2 or 5 times a power of ten, such that at least three
+/// rings fit into `range`.
+double ring_step(double range) noexcept;
+
+/// Radii of the circles to caption, ascending, metres: multiples of ring_step() as far as they
+/// reach into the panel's corners, or the zones' ends where zones are drawn.
+std::vector<double> circle_radii(double range, const PatchworkConfig* zones);
+
+}  // namespace flagstone::render

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/frame.hpp"
+#include "sim/mesh.hpp"
+#include "sim/random.hpp"
+
+namespace flagstone::sim {
+
+/// A house's measures, metres.
+struct House {
+  double width = 10;   ///< along the street
+  double depth = 9;    ///< away from it
+  double eaves = 5.5;  ///< height of the walls
+};
+
+/// Walls that reach into the ground, recessed windows, a gabled roof, a door with a step. `frame`
+/// stands on the ground in the middle of the front wall, x along the wall and y into the house.
+void add_house(Mesh& mesh, const Frame& frame, const House& house, Random& random);
+
+}  // namespace flagstone::sim

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace flagstone::sim {
+
+/// What a surface is; the codes are SemanticKITTI's label ids. J. Behley et al., "SemanticKITTI: A
+/// Dataset for Semantic Scene Understanding of LiDAR Sequences", ICCV 2019.
+enum class SemanticClass : std::uint8_t {
+  outlier = 1,  ///< multipath ghosts
+  car = 10,
+  person = 30,
+  road = 40,
+  parking = 44,
+  sidewalk = 48,  ///< kerb faces too: annotators colour the whole kerb with the sidewalk
+  other_ground = 49,
+  building = 50,
+  fence = 51,
+  lane_marking = 60,
+  vegetation = 70,
+  trunk = 71,
+  terrain = 72,
+  pole = 80,
+  traffic_sign = 81,
+};
+
+/// Is this a class of the ground surface (40, 44, 48, 49, 60, 72)?
+constexpr bool is_ground(SemanticClass semantic) noexcept {
+  switch (semantic) {
+    case SemanticClass::road:
+    case SemanticClass::parking:
+    case SemanticClass::sidewalk:
+    case SemanticClass::other_ground:
+    case SemanticClass::lane_marking:
+    case SemanticClass::terrain: return true;
+    default: return false;
+  }
+}
+
+}  // namespace flagstone::sim

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "sim/mesh.hpp"
+#include "sim/random.hpp"
+#include "sim/scene.hpp"
+#include "sim/street_plan.hpp"
+
+namespace flagstone::sim {
+
+/// A residential street drawn from a seed: houses, gardens with fences, hedges, trees and tufts,
+/// parked and moving cars, lamp posts, traffic signs, people. Around x = 0 the lane of who drives
+/// along +x is free.
+Scene make_street(std::uint64_t seed);
+
+/// What stands on the ground of a plan.
+Mesh furnish(const StreetPlan& plan, const Ground& ground, Random& random);
+
+}  // namespace flagstone::sim

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "render/birds_eye.hpp"
+#include "render/picture.hpp"
+#include "render/top_view.hpp"
+
+namespace flagstone::render {
+namespace {
+
+constexpr Color teal{9, 77, 62};  // that of ground patches on the panel
+
+class ZonedPicture : public PictureTest {
+ protected:
+  ZonedPicture() {
+    config_.min_range = 4;
+    config_.zones = {{.ring_radii = {10, 20}, .sectors = 8}, {.ring_radii = {40}, .sectors = 16}};
+    options_.zones = &config_;
+    options_.width = 1600;
+    options_.height = 1780;
+  }
+
+  // The colour at a distance, metres, in a direction, degrees counter-clockwise from x.
+  Color at(const Picture& picture, double distance, double degrees) const {
+    const TopView view(panel(), options_.range);
+    const double angle = degrees * std::numbers::pi / 180;
+    return picture.at(view.column(distance * std::sin(angle)),
+                      view.row(distance * std::cos(angle)));
+  }
+
+  PatchworkConfig config_;
+};
+
+TEST_F(ZonedPicture, HasALineAtEachRing) {
+  const Picture picture = draw({});
+
+  for (const double radius : {4.0, 10.0, 20.0})
+    EXPECT_GT(at(picture, radius, 70).red, 60) << radius;
+  for (const double radius : {3.0, 7.0, 15.0, 30.0})
+    EXPECT_EQ(at(picture, radius, 70), panel_color);
+}
+
+TEST_F(ZonedPicture, HasALineAtEachSectorOfItsZone) {
+  const Picture picture = draw({});
+
+  for (int line = 0; line < 8; ++line) EXPECT_GT(at(picture, 15, 45 * line).red, 30) << line;
+  for (int line = 0; line < 16; ++line) EXPECT_GT(at(picture, 30, 22.5 * line).red, 30) << line;
+  EXPECT_EQ(at(picture, 15, 22.5), panel_color);
+}
+
+TEST_F(ZonedPicture, FillsABinByItsVerdict) {
+  options_.tint_patches = true;
+  LabelledScan scan;
+  scan.result.mutable_patches() = {
+      {.zone = 0, .ring = 1, .sector = 0, .verdict = Verdict::ground},
+      {.zone = 1, .ring = 0, .sector = 12, .verdict = Verdict::ground},
+  };
+
+  const Picture picture = draw(scan);
+
+  EXPECT_EQ(at(picture, 15, -157.5), teal);
+  EXPECT_EQ(at(picture, 7, -157.5), panel_color);
+  EXPECT_EQ(at(picture, 15, -112.5), panel_color);
+  EXPECT_EQ(at(picture, 15, 157.5), panel_color);
+  EXPECT_EQ(at(picture, 30, 101.25), teal);
+  EXPECT_EQ(at(picture, 30, 78.75), panel_color);
+}
+
+TEST_F(ZonedPicture, FillsBinsOnlyOnRequest) {
+  LabelledScan scan;
+  scan.result.mutable_patches() = {{.zone = 0, .ring = 1, .sector = 0, .verdict = Verdict::ground}};
+
+  EXPECT_EQ(at(draw(scan), 15, -157.5), panel_color);
+}
+
+TEST_F(ZonedPicture, GivesEachVerdictAColourOfItsOwn) {
+  options_.tint_patches = true;
+  std::vector<Color> colors = {panel_color};
+  for (const Verdict verdict : {Verdict::ground, Verdict::ground_flat, Verdict::too_few_points,
+                                Verdict::no_plane, Verdict::not_upright, Verdict::too_high}) {
+    LabelledScan scan;
+    scan.result.mutable_patches() = {{.zone = 0, .ring = 1, .sector = 0, .verdict = verdict}};
+    colors.push_back(at(draw(scan), 15, -157.5));
+  }
+
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(colors[i] == colors[j]) << i << " and " << j;
+}
+
+}  // namespace
+}  // namespace flagstone::render
