@@ -3,6 +3,7 @@
 #include "patchwork/bin_runs.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace flagstone::patchwork {
 
@@ -30,14 +31,28 @@ void BinRuns::collect(CloudView cloud, const ConcentricZones& zones,
 }
 
 std::size_t BinRuns::find_runs(CloudView cloud, const ConcentricZones& zones) noexcept {
+  constexpr std::size_t block_size = ConcentricZones::block_size;
+  std::array<float, block_size> x;
+  std::array<float, block_size> y;
+  std::array<float, block_size> z;
+  std::array<std::uint32_t, block_size> bins;
   FoundRun* found = found_.data();
   std::size_t runs = 0;
   std::uint32_t previous = zones.invalid() + 1;  // no point's bin
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const std::uint32_t bin = zones.locate(cloud[i]);
-    found[runs] = {static_cast<std::uint32_t>(i), bin};  // kept only where a run begins
-    runs += bin != previous;
-    previous = bin;
+  for (std::size_t begin = 0; begin < cloud.size(); begin += block_size) {
+    const std::size_t count = std::min(block_size, cloud.size() - begin);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Point p = cloud[begin + k];
+      x[k] = p.x;
+      y[k] = p.y;
+      z[k] = p.z;
+    }
+    zones.locate(x.data(), y.data(), z.data(), count, bins.data());
+    for (std::size_t k = 0; k < count; ++k) {
+      found[runs] = {static_cast<std::uint32_t>(begin + k), bins[k]};  // kept where a run begins
+      runs += bins[k] != previous;
+      previous = bins[k];
+    }
   }
   found[runs] = {static_cast<std::uint32_t>(cloud.size()), zones.invalid()};
   return runs;

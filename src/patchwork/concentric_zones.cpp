@@ -36,7 +36,6 @@ void ConcentricZones::add_ring(const PatchworkConfig& config, std::size_t zone, 
        .sectors = static_cast<std::uint16_t>(sectors),
        .first_bin = bin_count_,
        .first_heading = first_heading,
-       .sectors_per_radian = static_cast<float>(sectors / (2 * std::numbers::pi)),
        .noise_height = -config.sensor_height - config.noise_depth - config.noise_slope * outer,
        .center_radius = (inner + outer) / 2});
   bin_count_ += static_cast<std::uint32_t>(sectors);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -24,7 +25,6 @@ struct Ring {
   std::uint16_t sectors;        ///< N_theta,m
   std::uint32_t first_bin;      ///< bin of sector 0; the others follow
   std::uint32_t first_heading;  ///< where this zone's sector boundaries begin in the heading table
-  float sectors_per_radian;     ///< N_theta,m / 2 pi
   float noise_height;           ///< lower points are noise, metres
   float center_radius;          ///< r_n: distance from the origin to the centre of the bins, metres
 };
@@ -51,19 +51,27 @@ class ConcentricZones {
 
   [[nodiscard]] const std::vector<Ring>& rings() const noexcept { return rings_; }
 
-  /// The bin of a point, or noise(), out_of_range() or invalid(). Takes any bit pattern.
-  [[nodiscard]] std::uint32_t locate(Point p) const noexcept {
-    const bool finite = p.x * 0 + p.y * 0 + p.z * 0 == 0;  // infinity * 0 and NaN are NaN
-    if (!finite || (p.x == 0 && p.y == 0 && p.z == 0)) return invalid();
+  /// Points that are located together, so that the compiler can do several at once.
+  static constexpr std::size_t block_size = 64;
 
-    const float squared_range = p.x * p.x + p.y * p.y;  // rho^2, infinite where it overflows
-    if (!(squared_range >= squared_radii_.front() && squared_range < squared_radii_.back() &&
-          std::abs(p.z) <= max_height)) {
-      return out_of_range();
+  /// The bins of `count` <= block_size points, each a bin, noise(), out_of_range() or invalid().
+  /// Takes any bit pattern.
+  void locate(const float* x, const float* y, const float* z, std::size_t count,
+              std::uint32_t* bins) const noexcept {
+    std::array<float, block_size> squared_range;  // rho^2, infinite where it overflows
+    std::array<float, block_size> turn;           // theta, from -pi on, as a share of a full turn
+    for (std::size_t k = 0; k < count; ++k) squared_range[k] = x[k] * x[k] + y[k] * y[k];
+    for (std::size_t k = 0; k < count; ++k) turn[k] = rough_turn(x[k], y[k]);
+    for (std::size_t k = 0; k < count; ++k) {
+      bins[k] = bin_of(x[k], y[k], z[k], squared_range[k], turn[k]);
     }
-    const Ring& ring = rings_[ring_of(squared_range)];
-    if (p.z < ring.noise_height) return noise();
-    return ring.first_bin + sector_of(p.x, p.y, ring);
+  }
+
+  /// The same for one point.
+  [[nodiscard]] std::uint32_t locate(Point p) const noexcept {
+    std::uint32_t bin;
+    locate(&p.x, &p.y, &p.z, 1, &bin);
+    return bin;
   }
 
  private:
@@ -86,33 +94,53 @@ class ConcentricZones {
     return ring;
   }
 
-  /// Sector j - 1 of eq. (2): theta from -pi (inclusive) to pi; theta = pi itself counts as -pi.
-  [[nodiscard]] std::uint32_t sector_of(float x, float y, const Ring& ring) const noexcept {
-    constexpr float pi = 3.14159265f;
-    const float turn = (rough_angle(x, y) + pi) * ring.sectors_per_radian;
-    const auto nearest = static_cast<std::int32_t>(turn + 0.5f);
-    const Heading boundary = headings_[ring.first_heading + static_cast<std::uint32_t>(nearest)];
-    const bool before = boundary.x * y - boundary.y * x < 0;
-    const std::int32_t sector = nearest - static_cast<std::int32_t>(before);
-    const std::int32_t sectors = ring.sectors;
-    if (sector < 0) return static_cast<std::uint32_t>(sector + sectors);
-    return static_cast<std::uint32_t>(sector < sectors ? sector : sector - sectors);
+  [[nodiscard]] std::uint32_t bin_of(float x, float y, float z, float squared_range,
+                                     float turn) const noexcept {
+    const bool in_range = squared_range >= squared_radii_.front() &&
+                          squared_range < squared_radii_.back() && std::abs(z) <= max_height;
+    if (!in_range) return is_valid({x, y, z}) ? out_of_range() : invalid();
+    const Ring& ring = rings_[ring_of(squared_range)];
+    if (z < ring.noise_height) return noise();
+    if (x == 0 && y == 0 && z == 0) return invalid();  // within range only if that begins at 0
+    return ring.first_bin + sector_of(x, y, turn, ring);
   }
 
-  /// atan2(y, x) within 2e-4 rad, -pi to pi; the odd polynomial 4.4.49 of Abramowitz and Stegun,
-  /// cut short. A sector is at least 2 pi / 3,600 = 1.7e-3 wide.
-  static float rough_angle(float x, float y) noexcept {
+  static bool is_valid(Point p) noexcept {
+    const bool finite = p.x * 0 + p.y * 0 + p.z * 0 == 0;  // infinity * 0 and NaN are NaN
+    return finite && !(p.x == 0 && p.y == 0 && p.z == 0);
+  }
+
+  /// Sector j - 1 of eq. (2): theta from -pi (inclusive) to pi; theta = pi itself counts as -pi.
+  [[nodiscard]] std::uint32_t sector_of(float x, float y, float turn,
+                                        const Ring& ring) const noexcept {
+    const std::int32_t sectors = ring.sectors;
+    const auto nearest = static_cast<std::int32_t>(turn * static_cast<float>(sectors) + 0.5f);
+    const Heading boundary = headings_[ring.first_heading + static_cast<std::uint32_t>(nearest)];
+    const bool before = boundary.x * y - boundary.y * x < 0;
+    std::int32_t sector = nearest - static_cast<std::int32_t>(before);
+    sector += sector < 0 ? sectors : 0;
+    sector -= sector < sectors ? 0 : sectors;
+    return static_cast<std::uint32_t>(sector);
+  }
+
+  /// (atan2(y, x) + pi) / 2 pi within 3e-5, 0 to 1; without branches. The odd polynomial 4.4.49 of
+  /// Abramowitz and Stegun, cut short. A sector is at least 1 / 3,600 = 2.8e-4 wide.
+  static float rough_turn(float x, float y) noexcept {
+    constexpr float pi = 3.14159265f;
     const float ax = std::abs(x);
     const float ay = std::abs(y);
-    const float longer = std::max(ax, ay);
-    const float t = longer > 0 ? std::min(ax, ay) / longer : 0;
+    const float longer = ax > ay ? ax : ay;
+    const float shorter = ax > ay ? ay : ax;
+    const float t = shorter / (longer + 1e-30f);
     const float t2 = t * t;
-    float angle =
+    const float first =
         t * (0.9998660f +
              t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f))));
-    if (ay > ax) angle = 1.57079633f - angle;
-    if (x < 0) angle = 3.14159265f - angle;
-    return y < 0 ? -angle : angle;
+    const float from_y = pi / 2 - first;
+    const float quadrant = ax > ay ? first : from_y;
+    const float from_minus_x = pi - quadrant;
+    const float half = x < 0 ? from_minus_x : quadrant;
+    return 0.5f + std::copysign(half, y) * (0.5f / pi);
   }
 
   std::vector<Ring> rings_;
