@@ -32,7 +32,7 @@ namespace {
 
 struct DemoOptions {
   std::string output = "flagstone-demo";
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 7;
 };
 
 /// Where the demo writes; laid out as a SemanticKITTI sequence.
@@ -135,7 +135,7 @@ void add_demo_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DemoOptions>();
   CLI::App* command = app.add_subcommand("demo",
                                          "Simulate a street, segment it and draw it.\n\n"
-                                         "Example:  flagstone demo --output demo --seed 7\n");
+                                         "Example:  flagstone demo --output demo --seed 11\n");
   command->add_option("-o,--output", options->output, "Folder for what is written; made if missing")
       ->type_name("DIR")
       ->capture_default_str();
