@@ -1,19 +1,103 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# The library itself needs nothing. What its command and its tests need: docs/dependencies.md.
+# The library itself needs nothing. What its command and its tests need, and why: docs/dependencies.md.
+# A package of the system comes first; where there is none, or only an older one, the project's own
+# archive of a pinned version is fetched and checked against its checksum.
+include(FetchContent)
+
+# flagstone_dependency(NAME URL SHA256 [arguments of find_package...])
+function(flagstone_dependency name url sha256)
+  set(CMAKE_POLICY_DEFAULT_CMP0077 NEW) # options set here count for the fetched project
+  set(CMAKE_POLICY_DEFAULT_CMP0126 NEW)
+  set(CMAKE_POLICY_VERSION_MINIMUM 3.5) # CMake 4 refuses projects that ask for less
+  set(CMAKE_WARN_DEPRECATED OFF)
+  set(BUILD_SHARED_LIBS OFF)
+  FetchContent_Declare(
+    ${name}
+    SYSTEM # first: after URL_HASH, CMake 3.25 takes it for a part of the checksum
+    URL ${url}
+    URL_HASH SHA256=${sha256}
+    FIND_PACKAGE_ARGS ${ARGN})
+  FetchContent_MakeAvailable(${name})
+  if(NOT ${name}_FOUND)
+    message(STATUS "${name}: not on this system, built from ${url}")
+    # Built where it is needed, never installed.
+    FetchContent_GetProperties(${name} SOURCE_DIR source)
+    set_property(DIRECTORY ${source} PROPERTY EXCLUDE_FROM_ALL ON)
+  endif()
+endfunction()
+
+set(needs_command OFF)
 if(FLAGSTONE_BUILD_COMMAND OR FLAGSTONE_BUILD_TESTS)
-  find_package(fmt REQUIRED)
-  find_package(CLI11 REQUIRED)
-  find_package(nlohmann_json REQUIRED)
-  find_package(tomlplusplus REQUIRED)
-  find_package(embree 3 REQUIRED)
-  find_package(PkgConfig REQUIRED)
-  pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
+  set(needs_command ON)
 endif()
+
+if(needs_command OR FLAGSTONE_BUILD_FUZZERS)
+  flagstone_dependency(
+    fmt https://github.com/fmtlib/fmt/archive/9.1.0.tar.gz
+    5dea48d1fcddc3ec571ce2058e13910a0d4a6bab4cc09a809d8b1dd1c88ae6f2 9)
+endif()
+
+if(needs_command)
+  find_package(Threads REQUIRED)
+  flagstone_dependency(
+    CLI11 https://github.com/CLIUtils/CLI11/archive/v2.1.2.tar.gz
+    26291377e892ba0e5b4972cdfd4a2ab3bf53af8dac1f4ea8fe0d1376b625c8cb 2.1)
+  flagstone_dependency(
+    nlohmann_json https://github.com/nlohmann/json/archive/v3.11.2.tar.gz
+    d69f9deb6a75e2580465c6c4c5111b89c4dc2fa94e3a85fcd2ffcd9a143d9273 3.11)
+  flagstone_dependency(
+    tomlplusplus https://github.com/marzer/tomlplusplus/archive/refs/tags/v3.3.0.tar.gz
+    fc1a5eb410f3c67e90e5ad1264a1386d020067cfb01b633cc8c0441789aa6cf2 3.3)
+
+  # Single rays against triangles is all the simulator asks of Embree, and the lowest instruction set is
+  # quick enough for it; all of Embree takes four times as long to build.
+  set(EMBREE_STATIC_LIB ON)
+  set(EMBREE_TASKING_SYSTEM INTERNAL)
+  set(EMBREE_ISPC_SUPPORT OFF)
+  set(EMBREE_TUTORIALS OFF)
+  set(EMBREE_RAY_PACKETS OFF)
+  foreach(geometry QUAD CURVE SUBDIVISION USER INSTANCE GRID POINT)
+    set(EMBREE_GEOMETRY_${geometry} OFF)
+  endforeach()
+  foreach(instruction_set SSE42 AVX AVX2 AVX512)
+    set(EMBREE_ISA_${instruction_set} OFF)
+  endforeach()
+  flagstone_dependency(
+    embree https://github.com/embree/embree/archive/v3.13.5.tar.gz
+    b8c22d275d9128741265537c559d0ea73074adbf2f2b66b0a766ca52c52d665b 3)
+
+  # Cairo and what it stands on are the system's business.
+  find_package(PkgConfig QUIET)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(cairo QUIET IMPORTED_TARGET cairo)
+  endif()
+  if(NOT cairo_FOUND)
+    message(FATAL_ERROR "Cairo not found: install pkg-config and Cairo's development files "
+                        "(Debian: apt-get install pkg-config libcairo2-dev)")
+  endif()
+endif()
+
 if(FLAGSTONE_BUILD_TESTS)
-  find_package(GTest REQUIRED)
-  find_package(rapidcheck REQUIRED)
-  find_package(Eigen3 REQUIRED)
+  flagstone_dependency(
+    googletest https://github.com/google/googletest/archive/refs/tags/release-1.12.1.tar.gz
+    81964fe578e9bd7c94dfdb09c8e4d6e6759e19967e397dbea48d1c10e45d0df2 1.12 NAMES GTest)
+  set(RC_ENABLE_GTEST ON)
+  flagstone_dependency(
+    rapidcheck https://github.com/emil-e/rapidcheck/archive/ff6af6fc683159deb51c543b065eba14dfcf329b.zip
+    60951dbc4de162622f51a4a34117c269a9921833a51dddce36f4cc80a5f7cf9f)
+  # Eigen's own build would bring hundreds of targets; its headers are all that is needed.
+  FetchContent_Declare(
+    Eigen3
+    SOURCE_SUBDIR no-build
+    URL https://gitlab.com/libeigen/eigen/-/archive/3.4.0/eigen-3.4.0.tar.bz2
+    URL_HASH SHA256=b4c198460eba6f28d34894e3a5710998818515104d6e74e5cc331ce31e46e626
+    FIND_PACKAGE_ARGS 3.4)
+  FetchContent_MakeAvailable(Eigen3)
+  if(NOT TARGET Eigen3::Eigen)
+    add_library(Eigen3::Eigen INTERFACE IMPORTED)
+    target_include_directories(Eigen3::Eigen INTERFACE ${eigen3_SOURCE_DIR})
+  endif()
   include(GoogleTest)
 endif()

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: MIT
 
 # What every target of ours is compiled with. Results must not depend on the compiler's mood: no
-# contraction of a * b + c (GCC's default) and no fast-math anywhere.
+# contraction of a * b + c (GCC's default) and no fast-math anywhere. That nobody looks at floating-point
+# exceptions changes no result, and lets GCC make vectors of loops that choose between two values.
 function(flagstone_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(
     ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -ffp-contract=off
+                      -fno-trapping-math
                       $<$<BOOL:${FLAGSTONE_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
@@ -20,8 +22,30 @@ function(flagstone_library name)
   flagstone_compile_options(flagstone_${name})
 endfunction()
 
-# flagstone_test(NAME LABEL SOURCES... LINK libraries...) makes one GoogleTest program and registers each
-# of its tests with ctest as NAME.Suite.Test.
+# flagstone_public_library(FOLDERS...) makes flagstone::flagstone, the one library that others link and
+# that is installed, of the objects of those folders. It is shared if BUILD_SHARED_LIBS says so. Its
+# interface is include/flagstone. Inside this project the folders' own targets are linked instead, so
+# that tests see what the interface does not show.
+function(flagstone_public_library)
+  list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_OBJECTS:flagstone_\\1>" OUTPUT_VARIABLE objects)
+  # `flagstone` is the command; target names are one namespace.
+  add_library(libflagstone ${objects})
+  add_library(flagstone::flagstone ALIAS libflagstone)
+  target_compile_features(libflagstone PUBLIC cxx_std_20)
+  target_include_directories(
+    libflagstone INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  set_target_properties(
+    libflagstone
+    PROPERTIES OUTPUT_NAME flagstone
+               EXPORT_NAME flagstone
+               LINKER_LANGUAGE CXX
+               VERSION ${PROJECT_VERSION}
+               SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+endfunction()
+
+# flagstone_test(NAME SOURCES... LINK libraries...) makes one GoogleTest program and registers each of
+# its tests with ctest as NAME.Suite.Test.
 function(flagstone_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
   add_executable(${name} ${arg_SOURCES})
@@ -32,5 +56,5 @@ function(flagstone_test name)
     ${name}
     TEST_PREFIX ${name}.
     DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 300 ENVIRONMENT "FLAGSTONE_DATA=$ENV{FLAGSTONE_DATA}")
+    PROPERTIES TIMEOUT 300)
 endfunction()

@@ -118,7 +118,10 @@ std::string type_name(const toml::node& node) {
 
 void assign(const toml::node& node, const std::string& key, const Place& place, float& value) {
   if (!node.is_number()) place.refuse(key + " is a number, not a " + type_name(node));
-  value = static_cast<float>(*node.value<double>());
+  const double number = *node.value<double>();
+  constexpr double most = std::numeric_limits<float>::max();
+  // Only what is written as inf is infinite.
+  value = static_cast<float>(std::isinf(number) ? number : std::clamp(number, -most, most));
 }
 
 void assign(const toml::node& node, const std::string& key, const Place& place, int& value) {

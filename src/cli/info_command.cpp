@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "cli/histogram.hpp"
+#include "cli/print_error.hpp"
 #include "io/cloud.hpp"
 #include "io/read_cloud.hpp"
 
@@ -103,7 +104,7 @@ int info(const InfoOptions& options) {
     if (status.ok()) {
       print_info(scan, cloud);
     } else {
-      fmt::print(stderr, "flagstone: {}\n", status.message());
+      print_error(status.message());
       exit_code = 1;
     }
   }

@@ -12,6 +12,7 @@
 #include "cli/config_command.hpp"
 #include "cli/demo_command.hpp"
 #include "cli/info_command.hpp"
+#include "cli/print_error.hpp"
 #include "cli/segment_command.hpp"
 #include "flagstone/version.hpp"
 
@@ -36,8 +37,11 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "flagstone: {}; see 'flagstone --help'\n", error.what());
+    flagstone::cli::print_error(fmt::format("{}; see 'flagstone --help'", error.what()));
     return wrong_usage;
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw std::runtime_error("standard output cannot be written");
   }
   return exit_code;
 }
@@ -48,10 +52,10 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "flagstone: {}\n", error.what());
+    flagstone::cli::print_error(error.what());
     return wrong_usage;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "flagstone: {}\n", error.what());
+    flagstone::cli::print_error(error.what());
     return 1;
   }
 }

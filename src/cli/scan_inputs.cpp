@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "io/file_name.hpp"
 #include "io/read_cloud.hpp"
 
 namespace flagstone::cli {
@@ -44,7 +45,7 @@ std::vector<ScanInput> scans_below(const fs::path& folder) {
 fs::path without_scan_extension(const fs::path& file) {
   fs::path stem = file;
   stem.replace_extension();
-  if (file.extension() == ".bin" && stem.extension() == ".pcd") stem.replace_extension();
+  if (io::lower_case_name(file).ends_with(".pcd.bin")) stem.replace_extension();
   return stem;
 }
 

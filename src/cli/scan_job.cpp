@@ -39,6 +39,15 @@ std::vector<const eval::Protocol*> protocols_for(const fs::path& labels) {
   return {&eval::patchwork_protocol(), &eval::patchwork_plusplus_protocol()};
 }
 
+/// Refuses to write over what is being read.
+Status check_spares(const fs::path& output, const fs::path& source) {
+  std::error_code error;
+  if (!fs::equivalent(output, source, error)) return {};  // nor if one of them is not there
+  return Status(StatusCode::invalid_argument,
+                fmt::format("{}: its output would overwrite it; name another folder with --output",
+                            source.string()));
+}
+
 std::string subtitle(const ScanReport& report) {
   if (report.scores.empty()) {
     return fmt::format("{:.1f} % ground, {} patches, {:.2f} ms", 100 * report.ground_share(),
@@ -116,17 +125,21 @@ Status ScanWorker::write(const ScanInput& input, ScanReport& report) {
   }
 
   if (job_.format == OutputFormat::split) return write_split(input, report);
-  if (job_.format == OutputFormat::label) {
-    report.outputs = {with_suffix(stem, ".label")};
-    return io::write_label_file(report.outputs.front(), result_.labels(), job_.label_map);
-  }
-  const char* extension = job_.format == OutputFormat::npy   ? ".npy"
+  const char* extension = job_.format == OutputFormat::label ? ".label"
+                          : job_.format == OutputFormat::npy ? ".npy"
                           : job_.format == OutputFormat::pcd ? ".pcd"
                                                              : ".ply";
-  report.outputs = {with_suffix(stem, extension)};
+  const fs::path file = with_suffix(stem, extension);
+  for (const fs::path& source : {input.file, reference_file(job_.reference, input)}) {
+    if (Status status = check_spares(file, source); !status.ok()) return status;
+  }
+  report.outputs = {file};
+  if (job_.format == OutputFormat::label) {
+    return io::write_label_file(file, result_.labels(), job_.label_map);
+  }
   io::Cloud labelled;
   Status status = io::with_labels(cloud_, result_.labels(), labelled);
-  return status.ok() ? io::write_cloud(report.outputs.front(), labelled) : status;
+  return status.ok() ? io::write_cloud(file, labelled) : status;
 }
 
 Status ScanWorker::write_split(const ScanInput& input, ScanReport& report) {

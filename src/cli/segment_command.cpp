@@ -19,6 +19,7 @@
 
 #include "cli/interrupt.hpp"
 #include "cli/method_options.hpp"
+#include "cli/print_error.hpp"
 #include "cli/progress.hpp"
 #include "cli/scan_job.hpp"
 
@@ -69,7 +70,7 @@ class Reporter {
 
  private:
   void print(const ScanReport& report) const {
-    if (report.error) fmt::print(stderr, "flagstone: {}\n", *report.error);
+    if (report.error) print_error(*report.error);
     if (json_) {
       fmt::print("{}\n", json_line(report));
     } else if (!report.error) {
@@ -123,10 +124,9 @@ int segment(const SegmentOptions& options) {
   if (!options.json && scans.size() > 1) fmt::print("{}", summary_text(reports));
   const bool failed =
       std::ranges::any_of(reports, [](const auto& r) { return r.error.has_value(); });
-  if (interrupted()) {
-    fmt::print(stderr,
-               "flagstone: interrupted, {} of {} scans are done; run it again for the rest\n",
-               reports.size(), scans.size());
+  if (reports.size() < scans.size()) {
+    print_error(fmt::format("interrupted, {} of {} scans are done; run it again for the rest",
+                            reports.size(), scans.size()));
   }
   return failed || reports.size() < scans.size() ? 1 : 0;
 }
@@ -158,13 +158,15 @@ void add_segment_command(CLI::App& app, int& exit_code) {
           "--format", options->format,
           "label: labels alone, uint32 each; npy, pcd, ply: the cloud with a field 'label'; "
           "split: ground and nonground clouds. Default: label")
-      ->transform(CLI::CheckedTransformer(formats).description("{label,npy,pcd,ply,split}"));
+      ->transform(CLI::Transformer(formats).description(""))
+      ->transform(CLI::IsMember(formats));  // looked at first: names only, no numbers
   const std::map<std::string, io::LabelMap> maps = {
       {"flagstone", io::LabelMap::flagstone}, {"semantic-kitti", io::LabelMap::semantic_kitti}};
   command
       ->add_option("--label-map", options->label_map,
                    "Codes in .label files: flagstone (0..4), or semantic-kitti (40 ground, 0 else)")
-      ->transform(CLI::CheckedTransformer(maps).description("{flagstone,semantic-kitti}"));
+      ->transform(CLI::Transformer(maps).description(""))
+      ->transform(CLI::IsMember(maps));
   command
       ->add_option("--columns", options->columns,
                    "Floats a point in .bin files. Default: 5 for .pcd.bin, else 4")

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+
+# `make help` lists what there is. CMAKE_FLAGS adds options to the first configuration of a build tree,
+# for example CMAKE_FLAGS=-DFLAGSTONE_WARNINGS_AS_ERRORS=OFF.
+export CMAKE_FLAGS
+PREFIX ?= /usr/local
+
+.PHONY: help build demo test sanitize format format-check tidy install clean
+.DEFAULT_GOAL := build
+
+help: ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 14
+
+build: ## install what is missing, build the command: build/flagstone
+	@scripts/setup build && scripts/build
+
+demo: build ## build, then simulate a street, segment it and score the result
+	@build/flagstone demo
+
+test: ## install what is missing, build and run every test, short fuzz runs included
+	@scripts/setup build test && scripts/test
+
+sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	@scripts/setup build test && scripts/test sanitize
+
+format: ## format the C++ sources
+	@scripts/setup format && scripts/format -i
+
+format-check: ## fail where `make format` would change something
+	@scripts/setup format && scripts/format --dry-run -Werror
+
+tidy: ## run clang-tidy over our sources
+	@scripts/setup build test tidy && scripts/tidy
+
+install: build ## install the library and the command under PREFIX (/usr/local)
+	@cmake --install build --prefix $(PREFIX)
+
+clean: ## remove the build trees
+	@rm -rf build build-fuzz build-sanitize

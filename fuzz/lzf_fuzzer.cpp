@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <cstdint>
+
+#include "cloud_properties.hpp"
+#include "io/lzf.hpp"
+
+// Any bytes as a LZF stream.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace flagstone;
+  const auto stream = std::as_bytes(std::span(data, size));
+  std::size_t expanded = 0;
+  const Status status = io::measure_lzf(stream, 0, expanded);
+  fuzz::check_status(status);
+  if (!status.ok()) return 0;
+  fuzz::require(expanded <= 88 * size, "three bytes expand to 264 at most");
+  std::vector<std::byte> out(expanded);
+  io::expand_lzf(stream, out);
+  return 0;
+}

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+// Writes the files the fuzzers start from: make_seeds FOLDER makes FOLDER/pcd/..., FOLDER/ply/... .
+// They are few and small; the fuzzers find the rest.
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/atomic_file.hpp"
+#include "io/bytes.hpp"
+#include "io/cloud.hpp"
+#include "io/compress_lzf.hpp"
+#include "io/npy.hpp"
+#include "io/pcd.hpp"
+#include "io/ply.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace flagstone::io;
+
+class SeedFolder {
+ public:
+  explicit SeedFolder(fs::path root) : root_(std::move(root)) {}
+
+  void add(std::string_view fuzzer, std::string_view name, const Bytes& bytes) {
+    const fs::path folder = root_ / fuzzer;
+    fs::create_directories(folder);
+    const flagstone::Status status = write_file(folder / name, bytes);
+    if (status.ok()) return;
+    std::fprintf(stderr, "%s\n", status.message().c_str());
+    failed_ = true;
+  }
+
+  [[nodiscard]] bool failed() const { return failed_; }
+
+ private:
+  fs::path root_;
+  bool failed_ = false;
+};
+
+/// Three points with a field of every type, one of several numbers, and padding.
+Cloud varied_cloud() {
+  using enum FieldType;
+  std::vector<Field> fields{
+      {"x", float32},    {"y", float32},         {"z", float32},   {"_", uint8, 4}, {"a", int8},
+      {"b", uint8},      {"c", int16},           {"d", uint16},    {"e", int32},    {"f", uint32},
+      {"time", float64}, {"normal", float32, 3}, {"wide", uint64}, {"deep", int64}};
+  Bytes rows;
+  std::size_t stride = 0;
+  for (const Field& field : fields) stride += field.size();
+  const std::size_t small =
+      stride - 2 * sizeof(std::uint64_t);  // 64-bit integers that PLY can hold
+  for (std::size_t i = 0; i < 3 * stride; ++i) {
+    rows.push_back(static_cast<std::byte>(i % 7 == 0 && i % stride < small));
+  }
+  Cloud cloud;
+  if (!Cloud::from_rows(fields, rows, cloud).ok()) std::fprintf(stderr, "no varied cloud\n");
+  return cloud;
+}
+
+/// x, y and z of the type, which must be converted.
+Cloud converted_cloud(FieldType type) {
+  Cloud cloud;
+  const std::vector<Field> fields{{"z", type}, {"x", type}, {"y", type}};
+  if (!Cloud::from_rows(fields, Bytes(6 * size_of(type)), cloud).ok()) {
+    std::fprintf(stderr, "no converted cloud\n");
+  }
+  return cloud;
+}
+
+void add_pcd(SeedFolder& seeds, const Cloud& varied) {
+  Bytes file;
+  if (write_pcd(varied, file).ok()) seeds.add("pcd", "varied", file);
+  if (write_pcd(converted_cloud(FieldType::int8), file).ok()) seeds.add("pcd", "bytes", file);
+  if (write_pcd(converted_cloud(FieldType::float64), file).ok()) seeds.add("pcd", "doubles", file);
+  seeds.add(
+      "pcd", "ascii",
+      bytes_of("# .PCD v.7\nVERSION .7\nFIELDS x y z rgb n\nSIZE 4 4 4 4 8\nTYPE F F F U F\n"
+               "COUNT 1 1 1 1 2\nWIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA ascii\n"
+               "1 2.5 -3e1 255 0 0\nnan inf -inf 0 1e-9 +7\n"));
+  const Bytes columns(2000, std::byte{7});
+  const Bytes stream = compress_lzf(columns);
+  seeds.add("pcd", "compressed",
+            joined({bytes_of("VERSION 0.7\nFIELDS x y z i s\nSIZE 4 4 4 4 4\nTYPE F F F U I\n"
+                             "WIDTH 100\nHEIGHT 1\nPOINTS 100\nDATA binary_compressed\n"),
+                    numbers({static_cast<std::uint32_t>(stream.size()),
+                             static_cast<std::uint32_t>(columns.size())}),
+                    stream}));
+  seeds.add("lzf", "run", stream);
+  seeds.add("lzf", "text", compress_lzf(bytes_of("abcabcabcabcxyzabcabcxyz0123456789abc")));
+}
+
+void add_ply(SeedFolder& seeds, const Cloud& varied) {
+  Bytes file;
+  if (write_ply(varied, file).ok()) seeds.add("ply", "varied", file);
+  if (write_ply(converted_cloud(FieldType::uint16), file).ok()) seeds.add("ply", "shorts", file);
+  constexpr std::string_view elements =
+      "comment seed\nelement camera 1\nproperty float f\nproperty list uchar short tags\n"
+      "element vertex 2\nproperty float x\nproperty double y\nproperty int z\nproperty uchar red\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  seeds.add("ply", "ascii",
+            joined({bytes_of("ply\nformat ascii 1.0\n"), bytes_of(elements),
+                    bytes_of("0.5 2 1 2\n1 2 3 4\nnan -inf -7 255\n3 0 1 1\n")}));
+  const Bytes after =
+      joined({numbers({0.5F}), numbers<std::uint8_t>({2}), Bytes(4), Bytes(34), Bytes(5)});
+  seeds.add(
+      "ply", "little",
+      joined({bytes_of("ply\nformat binary_little_endian 1.0\n"), bytes_of(elements), after}));
+  seeds.add("ply", "big",
+            joined({bytes_of("ply\nformat binary_big_endian 1.0\n"), bytes_of(elements), after}));
+}
+
+Bytes npy_file(std::string_view dictionary, std::size_t items, char version = 1) {
+  const std::string text = std::string(dictionary) + "\n";
+  const auto length = static_cast<std::uint16_t>(text.size());
+  return joined({bytes_of("\x93NUMPY"), numbers({version}), Bytes(1), numbers({length}),
+                 version == 1 ? Bytes() : Bytes(2), bytes_of(text), Bytes(items)});
+}
+
+void add_npy(SeedFolder& seeds, const Cloud& varied) {
+  Bytes file;
+  if (write_npy(varied, file).ok()) seeds.add("npy", "varied", file);
+  seeds.add("npy", "plain",
+            npy_file("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 4), }", 32));
+  seeds.add("npy", "columns",
+            npy_file("{'descr': '>f8', 'fortran_order': True, 'shape': (2, 3), }", 48, 2));
+  seeds.add(
+      "npy", "records",
+      npy_file("{'descr': [('x', '<f4'), ('y', '>f4'), ('z', '<i2'), ('', '|V2'), ('n', '<u2', "
+               "(2, 2))], 'fortran_order': False, 'shape': (1,), }",
+               20, 3));
+}
+
+void add_raw(SeedFolder& seeds) {
+  seeds.add("raw", "kitti", joined({Bytes{std::byte{4}, std::byte{0}}, Bytes(32)}));
+  seeds.add("raw", "nuscenes", joined({Bytes{std::byte{5}, std::byte{0}}, Bytes(40)}));
+}
+
+void add_labels(SeedFolder& seeds) {
+  const Bytes ten_points{std::byte{10}, std::byte{0}};
+  seeds.add("labels", "kitti", joined({Bytes(1, std::byte{0}), ten_points, Bytes(40)}));
+  seeds.add("labels", "lidarseg", joined({Bytes(1, std::byte{1}), ten_points, Bytes(10)}));
+  seeds.add("labels", "npy",
+            joined({Bytes(1, std::byte{2}), ten_points,
+                    npy_file("{'descr': '>i4', 'fortran_order': False, 'shape': (10,), }", 40)}));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "make_seeds FOLDER\n");
+    return 2;
+  }
+  SeedFolder seeds(argv[1]);
+  const Cloud varied = varied_cloud();
+  add_pcd(seeds, varied);
+  add_ply(seeds, varied);
+  add_npy(seeds, varied);
+  add_raw(seeds);
+  add_labels(seeds);
+  return seeds.failed() ? 1 : 0;
+}

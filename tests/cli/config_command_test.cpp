@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cli/command_process.hpp"
+#include "cli/config_toml.hpp"
+#include "cli/files.hpp"
+#include "cli/line_matchers.hpp"
+#include "cli/same_config.hpp"
+#include "io/file_contents.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+/// The configuration that `flagstone config` prints.
+PatchworkConfig printed_config(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "config");
+  const Outcome outcome = run(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  PatchworkConfig config;
+  apply_toml(outcome.out, "config", config);
+  return config;
+}
+
+TEST(ConfigCommand, PrintsThePresetThatIsNamed) {
+  for (const std::string_view name : PatchworkConfig::preset_names()) {
+    EXPECT_TRUE(
+        is_same(printed_config({"--preset", std::string(name)}), PatchworkConfig::preset(name)))
+        << name;
+  }
+}
+
+TEST(ConfigCommand, PresetYieldsToFileFileToSettingSettingToSensorHeight) {
+  const io::TemporaryFolder folder;
+  io::put_file(folder / "mine.toml", "iterations = 5\nseed_count = 5\nsensor_height = 5\n");
+  PatchworkConfig expected = PatchworkConfig::preset("paper");
+  expected.iterations = 5;
+  expected.seed_count = 6;
+  expected.elevation.enabled = false;
+  expected.sensor_height = 7;
+
+  const PatchworkConfig config =
+      printed_config({"--preset", "paper", "--sensor-height", "7", "--set", "seed_count=6", "--set",
+                      "elevation.enabled=false", "--set", "sensor_height=6", "--config",
+                      (folder / "mine.toml").string()});
+
+  EXPECT_TRUE(is_same(config, expected));
+}
+
+TEST(ConfigCommand, WhatItPrintsGivesTheSameLabelsAsThePreset) {
+  const io::TemporaryFolder folder;
+  const std::string scan = (folder / "scan.bin").string();
+  const std::string toml = (folder / "paper.toml").string();
+  put_scan(scan);
+  io::put_file(toml, run({"config", "--preset", "paper"}).out);
+
+  const Outcome named =
+      run({"segment", scan, "--output", (folder / "named").string(), "--preset", "paper"});
+  const Outcome printed =
+      run({"segment", scan, "--output", (folder / "printed").string(), "--config", toml});
+
+  EXPECT_EQ(named.exit_code, 0);
+  EXPECT_EQ(printed.exit_code, 0);
+  EXPECT_EQ(files_below(folder / "named"), files_below(folder / "printed"));
+  EXPECT_NE(codes_of(folder / "named/scan.label"), [&] {
+    const std::vector<Label> labels = labels_of(small_scan());
+    return std::vector<std::uint32_t>(labels.begin(), labels.end());
+  }()) << "preset paper should not label this scan as preset default does";
+}
+
+TEST(ConfigCommand, StandardOutputThatCannotBeWrittenIsAnError) {
+  const Outcome outcome = CommandProcess({"config"}, "/dev/full").finish();
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, is_one_line_with("standard output cannot be written"));
+}
+
+}  // namespace
+}  // namespace flagstone::cli

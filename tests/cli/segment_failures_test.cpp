@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/command_process.hpp"
+#include "cli/files.hpp"
+#include "cli/line_matchers.hpp"
+#include "io/file_contents.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A folder of two good scans and, between them, one that is cut off in its third point.
+class AmongGoodScans : public testing::Test {
+ protected:
+  AmongGoodScans() {
+    put_scan(folder_ / "scans/a.bin");
+    io::put_file(folder_ / "scans/b.bin", std::string(2 * 16 + 5, 'x'));
+    put_scan(folder_ / "scans/c.bin");
+  }
+
+  [[nodiscard]] Outcome segment(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"segment", (folder_ / "scans").string(), "--output",
+                                          (folder_ / "out").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+
+  io::TemporaryFolder folder_;
+};
+
+TEST_F(AmongGoodScans, ABadFileIsOneLineWithFileAndByteAndTheOthersAreDone) {
+  const Outcome outcome = segment();
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err,
+              is_one_line_with("flagstone: " + (folder_ / "scans/b.bin").string() + ": byte 32: "));
+  EXPECT_THAT(lines_of(outcome.out),
+              ElementsAre(HasSubstr("a.bin: 4000 points"), HasSubstr("c.bin: 4000 points"),
+                          HasSubstr("2 of 3 scans segmented")));
+  EXPECT_THAT(names_below(folder_ / "out"), ElementsAre("a.label", "c.label"));
+}
+
+TEST_F(AmongGoodScans, ABadFileIsAJsonObjectWithTheErrorInItsPlace) {
+  const Outcome outcome = segment({"--json"});
+
+  const std::vector<std::string> lines = lines_of(outcome.out);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(json::parse(lines[0])["points"], 4000);
+  EXPECT_THAT(json::parse(lines[1])["error"].get<std::string>(), HasSubstr("byte 32"));
+  EXPECT_EQ(json::parse(lines[2])["points"], 4000);
+}
+
+TEST(SegmentFailure, AFileThatIsNotThereIsOneLine) {
+  const io::TemporaryFolder folder;
+
+  const Outcome outcome =
+      run({"segment", (folder / "no.bin").string(), "--output", (folder / "out").string()});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, is_one_line_with((folder / "no.bin").string()));
+}
+
+TEST(SegmentFailure, AnUnknownEndingIsOneLineWithTheEndingsAllowed) {
+  const io::TemporaryFolder folder;
+  io::put_file(folder / "scan.las", "LASF");
+
+  const Outcome outcome =
+      run({"segment", (folder / "scan.las").string(), "--output", (folder / "out").string()});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, AllOf(is_one_line_with("scan.las"), HasSubstr(".pcd")));
+}
+
+TEST(SegmentFailure, AFileNameOfTwoLinesIsStillOneLine) {
+  const io::TemporaryFolder folder;
+  io::put_file(folder / "two\nlines.bin", "x");
+
+  const Outcome outcome =
+      run({"segment", (folder / "two\nlines.bin").string(), "--output", (folder / "out").string()});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, is_one_line_with("two\\x0alines.bin: byte 0"));
+}
+
+TEST(SegmentFailure, AnOutputFolderThatCannotBeMadeIsOneLine) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.bin");
+  io::put_file(folder / "taken", "mine");
+
+  const Outcome outcome =
+      run({"segment", (folder / "scan.bin").string(), "--output", (folder / "taken").string()});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, is_one_line_with((folder / "taken").string() + ": cannot be made: "));
+  EXPECT_EQ(io::contents_of(folder / "taken"), "mine");
+}
+
+TEST(SegmentFailure, AnOutputThatCannotBeWrittenIsOneLineAndLeavesNothing) {
+  for (const std::string format : {"label", "npy", "pcd", "ply"}) {
+    const io::TemporaryFolder folder;
+    put_scan(folder / "scan.bin");
+    fs::create_directories(folder / ("out/scan." + format));  // a folder where the file should be
+
+    const Outcome outcome = run({"segment", (folder / "scan.bin").string(), "--output",
+                                 (folder / "out").string(), "--format", format});
+
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, is_one_line_with("out/scan." + format + ": is a folder"));
+    EXPECT_THAT(names_below(folder / "out"), ElementsAre());
+  }
+}
+
+TEST(SegmentFailure, AScanIsNotOverwrittenByItsOwnOutput) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.pcd");
+  const auto before = files_below(folder.path());
+
+  const Outcome outcome = run({"segment", (folder / "scan.pcd").string(), "--output",
+                               folder.path().string(), "--format", "pcd"});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, is_one_line_with("scan.pcd: its output would overwrite it"));
+  EXPECT_EQ(files_below(folder.path()), before);
+}
+
+TEST(SegmentFailure, StandardOutputThatCannotBeWrittenIsAnError) {
+  const io::TemporaryFolder folder;
+  for (const char* name : {"a.bin", "b.bin", "c.bin"})
+    put_scan(folder / (std::string("scans/") + name));
+
+  const Outcome outcome = CommandProcess({"segment", (folder / "scans").string(), "--output",
+                                          (folder / "out").string(), "--threads", "2", "--json"},
+                                         "/dev/full")
+                              .finish();
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, is_one_line_with("standard output cannot be written"));
+}
+
+}  // namespace
+}  // namespace flagstone::cli

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/command_process.hpp"
+#include "cli/files.hpp"
+#include "io/file_contents.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+using testing::ElementsAre;
+
+/// The scan itself with its labels, as the library makes it.
+io::Cloud labelled_scan() {
+  const io::Cloud scan = small_scan();
+  io::Cloud labelled;
+  EXPECT_TRUE(io::with_labels(scan, labels_of(scan), labelled).ok());
+  return labelled;
+}
+
+class SegmentFormat : public testing::TestWithParam<std::string> {};
+
+TEST_P(SegmentFormat, KeepsEveryFieldAndAddsTheLabel) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.bin");
+
+  const Outcome outcome = run({"segment", (folder / "scan.bin").string(), "--output",
+                               (folder / "out").string(), "--format", GetParam()});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(names_below(folder / "out"), ElementsAre("scan." + GetParam()));
+  const io::Cloud written = scan_of(folder / ("out/scan." + GetParam()));
+  const io::Cloud expected = labelled_scan();
+  EXPECT_TRUE(std::ranges::equal(written.fields(), expected.fields()));
+  EXPECT_TRUE(std::ranges::equal(written.bytes(), expected.bytes()));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SegmentFormat, testing::Values("npy", "pcd", "ply"),
+                         [](const auto& format) { return format.param; });
+
+/// The points of `scan` whose label is, or is not, ground.
+io::Cloud part_of(const io::Cloud& scan, bool ground) {
+  std::vector<std::uint8_t> mask;
+  for (const Label label : labels_of(scan)) mask.push_back((label == Label::ground) == ground);
+  io::Cloud part;
+  EXPECT_TRUE(io::select_where(scan, mask, part).ok());
+  return part;
+}
+
+class SegmentSplit : public testing::TestWithParam<std::string> {};
+
+TEST_P(SegmentSplit, DividesThePointsAndKeepsTheirFieldsInTheInputsFormat) {
+  const std::string extension = GetParam();
+  const io::TemporaryFolder folder;
+  put_scan(folder / ("scan" + extension));
+  const io::Cloud scan = scan_of(folder / ("scan" + extension));
+
+  const Outcome outcome = run({"segment", (folder / ("scan" + extension)).string(), "--output",
+                               (folder / "out").string(), "--format", "split"});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(names_below(folder / "out"),
+              ElementsAre("scan.ground" + extension, "scan.nonground" + extension));
+  const io::Cloud ground = scan_of(folder / ("out/scan.ground" + extension));
+  const io::Cloud nonground = scan_of(folder / ("out/scan.nonground" + extension));
+  EXPECT_EQ(ground.size() + nonground.size(), scan.size());
+  EXPECT_GT(ground.size(), 0U);
+  EXPECT_GT(nonground.size(), 0U);
+  EXPECT_TRUE(std::ranges::equal(ground.fields(), scan.fields()));
+  EXPECT_TRUE(std::ranges::equal(nonground.fields(), scan.fields()));
+  EXPECT_TRUE(std::ranges::equal(ground.bytes(), part_of(scan, true).bytes()));
+  EXPECT_TRUE(std::ranges::equal(nonground.bytes(), part_of(scan, false).bytes()));
+}
+
+/// 4,000 points of four floats are 3,200 of five, which is what .pcd.bin holds.
+INSTANTIATE_TEST_SUITE_P(All, SegmentSplit,
+                         testing::Values(".bin", ".pcd.bin", ".PCD.BIN", ".pcd", ".ply", ".npy"),
+                         [](const auto& split) {
+                           std::string name = split.param;
+                           std::ranges::replace(name, '.', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace flagstone::cli

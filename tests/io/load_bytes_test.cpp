@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "io/load_bytes.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <string>
+
+#include "io/file_contents.hpp"
+#include "io/status_matchers.hpp"
+#include "io/temporary_folder.hpp"
+#include "io/text.hpp"
+
+namespace flagstone::io {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TEST(LoadBytes, ReadsAFileWhole) {
+  const TemporaryFolder folder;
+  const std::string contents = "a\n" + std::string(100000, '\0') + "b";
+  put_file(folder / "a", contents);
+  FileBytes bytes;
+
+  ASSERT_THAT(load_bytes(folder / "a", bytes), is_ok());
+
+  EXPECT_EQ(as_text(bytes.span()), contents);
+}
+
+TEST(LoadBytes, ReadsAnEmptyFile) {
+  const TemporaryFolder folder;
+  put_file(folder / "a", "");
+  FileBytes bytes;
+  EXPECT_THAT(load_bytes(folder / "a", bytes), is_ok());
+  EXPECT_TRUE(bytes.span().empty());
+}
+
+TEST(LoadBytes, SaysThatAFileIsMissing) {
+  const TemporaryFolder folder;
+  FileBytes bytes;
+  const auto path = folder / "none";
+  EXPECT_THAT(load_bytes(path, bytes),
+              fails(StatusCode::not_found,
+                    AllOf(StartsWith(path.string() + ": "), HasSubstr("No such file"))));
+}
+
+TEST(LoadBytes, KeepsAMessageOnOneLineWhateverThePath) {
+  FileBytes bytes;
+  EXPECT_THAT(load_bytes("no\nsuch\nfile", bytes),
+              fails(StatusCode::not_found, StartsWith(R"(no\x0asuch\x0afile: )")));
+}
+
+TEST(LoadBytes, RefusesAFolder) {
+  const TemporaryFolder folder;
+  FileBytes bytes;
+  EXPECT_THAT(load_bytes(folder.path(), bytes),
+              fails(StatusCode::unreadable, HasSubstr("is a folder")));
+}
+
+TEST(LoadBytes, RefusesAPipeWithoutWaitingForIt) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  FileBytes bytes;
+  EXPECT_THAT(load_bytes(folder / "pipe", bytes),
+              fails(StatusCode::unreadable, HasSubstr("is a pipe")));
+}
+
+TEST(LoadBytes, RefusesADevice) {
+  FileBytes bytes;
+  EXPECT_THAT(load_bytes("/dev/zero", bytes),
+              fails(StatusCode::unreadable, HasSubstr("is a device")));
+}
+
+TEST(LoadBytes, RefusesWhatItMayNotRead) {
+  const TemporaryFolder folder;
+  if (::geteuid() == 0) GTEST_SKIP() << "root may read anything";
+  put_file(folder / "a", "x");
+  std::filesystem::permissions(folder / "a", std::filesystem::perms::none);
+  FileBytes bytes;
+  EXPECT_THAT(load_bytes(folder / "a", bytes),
+              fails(StatusCode::unreadable, HasSubstr("Permission denied")));
+}
+
+TEST(LoadBytes, RefusesAFileBeyondTheLimitBeforeAllocating) {
+  const TemporaryFolder folder;
+  put_file(folder / "a", "");
+  std::filesystem::resize_file(folder / "a", max_file_size + 1);  // a hole, it takes no room
+  FileBytes bytes;
+  EXPECT_THAT(load_bytes(folder / "a", bytes),
+              fails(StatusCode::bad_file, HasSubstr("at most 8589934592")));
+}
+
+}  // namespace
+}  // namespace flagstone::io
