@@ -15,6 +15,8 @@
 #include <variant>
 #include <vector>
 
+#include "io/message.hpp"
+
 namespace flagstone::cli {
 namespace {
 
@@ -103,7 +105,7 @@ class Place {
     text_ = fmt::format("{}: line {}, column {}", source, region.begin.line, region.begin.column);
   }
   [[noreturn]] void refuse(const std::string& reason) const {
-    throw std::invalid_argument(text_ + ": " + reason);
+    throw std::invalid_argument(io::printable(text_ + ": " + reason));  // keys may hold anything
   }
 
  private:

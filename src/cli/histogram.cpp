@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flagstone::cli {
 namespace {
@@ -61,12 +62,14 @@ std::vector<float> round_edges(std::span<const float> values, std::size_t count)
   const std::size_t skip = sorted.size() / 1000;
   const double low = sorted[skip];
   const double high = sorted[sorted.size() - 1 - skip];
-  const double spread = std::max(high - low, 0.01);
+  // A wide enough class to tell its edges apart as floats, however large the values.
+  const double size = std::max(std::abs(low), std::abs(high));
+  const double spread = std::max({high - low, 0.01, 1e-4 * size});
   const double width = round_up(spread / static_cast<double>(count));
+  constexpr double most = std::numeric_limits<float>::max();
   std::vector<float> edges;
   for (double edge = std::floor(low / width); edge * width < high + width; ++edge) {
-    edges.push_back(static_cast<float>(edge * width));
-    if (edges.size() > 2 * count + 2) break;  // values so large that a step is lost in rounding
+    edges.push_back(static_cast<float>(std::clamp(edge * width, -most, most)));
   }
   if (edges.size() < 2) edges.push_back(edges.front() + static_cast<float>(width));
   return edges;

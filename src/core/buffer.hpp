@@ -21,7 +21,8 @@ class Buffer {
     if (count <= capacity_) return;
     data_.reset();  // before the new one, so that both are never held
     capacity_ = 0;
-    data_ = std::make_unique_for_overwrite<T[]>(count);
+    data_ =
+        std::make_unique_for_overwrite<T[]>(count);  // NOLINT(modernize-avoid-c-arrays): as data_
     capacity_ = count;
   }
 
@@ -29,7 +30,7 @@ class Buffer {
   [[nodiscard]] const T* data() const noexcept { return data_.get(); }
 
  private:
-  std::unique_ptr<T[]> data_;
+  std::unique_ptr<T[]> data_;  // NOLINT(modernize-avoid-c-arrays): the type for a run of objects
   std::size_t capacity_ = 0;
 };
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "flagstone/patchwork_config.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -71,6 +73,7 @@ std::vector<Zone> make_zones(const std::vector<std::vector<float>>& ring_radii,
                              const std::vector<int>& sectors,
                              const std::vector<float>& height_margins) {
   std::vector<Zone> zones;
+  zones.reserve(ring_radii.size());
   for (std::size_t m = 0; m < ring_radii.size(); ++m) {
     zones.push_back({ring_radii[m], sectors[m], height_margins[m]});
   }
@@ -145,12 +148,13 @@ PatchworkConfig reference() {
   return config;
 }
 
-constexpr std::string_view names[] = {"default", "paper", "reference"};
+constexpr std::array<std::string_view, 3> names = {"default", "paper", "reference"};
 
 }  // namespace
 
 std::vector<float> equal_rings(float inner, float outer, int count) {
   std::vector<float> radii;
+  radii.reserve(static_cast<std::size_t>(std::max(count, 0)));
   for (int i = 1; i <= count; ++i) {
     const double share = static_cast<double>(i) / count;
     radii.push_back(static_cast<float>(inner + share * (static_cast<double>(outer) - inner)));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "flagstone/cloud_view.hpp"
@@ -98,23 +99,26 @@ class ConcentricZones {
                                      float turn) const noexcept {
     const bool in_range = squared_range >= squared_radii_.front() &&
                           squared_range < squared_radii_.back() && std::abs(z) <= max_height;
-    if (!in_range) return is_valid({x, y, z}) ? out_of_range() : invalid();
+    if (!in_range) return without_bin({x, y, z});
     const Ring& ring = rings_[ring_of(squared_range)];
     if (z < ring.noise_height) return noise();
     if (x == 0 && y == 0 && z == 0) return invalid();  // within range only if that begins at 0
     return ring.first_bin + sector_of(x, y, turn, ring);
   }
 
-  static bool is_valid(Point p) noexcept {
+  [[nodiscard]] std::uint32_t without_bin(Point p) const noexcept {
     const bool finite = p.x * 0 + p.y * 0 + p.z * 0 == 0;  // infinity * 0 and NaN are NaN
-    return finite && !(p.x == 0 && p.y == 0 && p.z == 0);
+    const bool zero = p.x == 0 && p.y == 0 && p.z == 0;
+    return zero || !finite ? invalid() : out_of_range();
   }
 
   /// Sector j - 1 of eq. (2): theta from -pi (inclusive) to pi; theta = pi itself counts as -pi.
   [[nodiscard]] std::uint32_t sector_of(float x, float y, float turn,
                                         const Ring& ring) const noexcept {
     const std::int32_t sectors = ring.sectors;
-    const auto nearest = static_cast<std::int32_t>(turn * static_cast<float>(sectors) + 0.5f);
+    // Not lround(): turn is not negative, and a boundary too far is what the cross product sees.
+    const float rounded = turn * static_cast<float>(sectors) + 0.5f;
+    const auto nearest = static_cast<std::int32_t>(rounded);
     const Heading boundary = headings_[ring.first_heading + static_cast<std::uint32_t>(nearest)];
     const bool before = boundary.x * y - boundary.y * x < 0;
     std::int32_t sector = nearest - static_cast<std::int32_t>(before);
@@ -126,7 +130,7 @@ class ConcentricZones {
   /// (atan2(y, x) + pi) / 2 pi within 3e-5, 0 to 1; without branches. The odd polynomial 4.4.49 of
   /// Abramowitz and Stegun, cut short. A sector is at least 1 / 3,600 = 2.8e-4 wide.
   static float rough_turn(float x, float y) noexcept {
-    constexpr float pi = 3.14159265f;
+    constexpr float pi = std::numbers::pi_v<float>;
     const float ax = std::abs(x);
     const float ay = std::abs(y);
     const float longer = ax > ay ? ax : ay;

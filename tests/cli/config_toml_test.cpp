@@ -166,6 +166,7 @@ TEST(ConfigToml, ASettingThereIsNoneOfIsRefusedWithItsPlace) {
   EXPECT_THAT(complaint("[elevation]\nwidth = 8\n"), points_at(2, 9, "elevation.width"));
   EXPECT_THAT(complaint("[walls]\nenabled = true\n"), points_at(1, 1, "walls"));
   EXPECT_THAT(complaint("elevation = 3\n"), points_at(1, 13, "elevation"));
+  EXPECT_THAT(complaint("\"two\\nlines\" = 3\n"), points_at(1, 16, R"(two\x0alines)"));
   EXPECT_THAT(complaint("[[zones]]\nrings = 3\n"), points_at(2, 9, "zones[0].rings"));
 }
 
@@ -197,6 +198,7 @@ RC_GTEST_PROP(ConfigToml, AnyTextIsReadOrRefusedOnOneLine, ()) {
   const std::string said = complaint(text);
 
   RC_ASSERT(said.empty() || said.starts_with("mine.toml: line "));
+  RC_ASSERT(said.find('\n') == std::string::npos);
 }
 
 }  // namespace

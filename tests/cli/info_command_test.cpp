@@ -85,6 +85,18 @@ TEST(InfoCommand, OfABrokenFileIsOneLineAndTheOthersAreShown) {
   EXPECT_THAT(lines_of(outcome.out), Contains("points               10, 16 bytes each"));
 }
 
+TEST(InfoCommand, OfTheLargestNumbersIsShown) {
+  const io::TemporaryFolder folder;
+  io::Cloud scan;
+  ASSERT_TRUE(io::Cloud::from_floats(std::vector<float>(4, 3e38f), 4, scan).ok());
+  put_scan(folder / "scan.bin", scan);
+
+  const Outcome outcome = run({"info", (folder / "scan.bin").string()});
+
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(lines_of(outcome.out), Contains("  z                  float32    3e+38 .. 3e+38"));
+}
+
 TEST(InfoCommand, ReadsAsManyColumnsAsItIsTold) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "scan.bin", std::string(6 * 7 * 4, '\0'));

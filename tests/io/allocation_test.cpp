@@ -47,7 +47,7 @@ TEST(Allocation, IsSmallForHeadersThatLie) {
       "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
   const std::string dictionary =
       "{'descr': '<f4', 'fortran_order': True, 'shape': (999999999999, 3)}\n";
-  const Bytes files[] = {
+  const std::vector<Bytes> files{
       bytes_of(pcd_header(endless, "ascii") + zeros),
       bytes_of(pcd_header(endless, "binary") + zeros),
       joined({bytes_of(pcd_header("333333333", "binary_compressed")),

@@ -85,7 +85,7 @@ TEST(Ply, ReadsBigEndianBehindElementsWithLists) {
 }
 
 TEST(Ply, ReadsBothNamesOfEveryType) {
-  const std::pair<const char*, FieldType> names[] = {
+  const std::vector<std::pair<const char*, FieldType>> names{
       {"char", int8},     {"int8", int8},       {"uchar", uint8},    {"uint8", uint8},
       {"short", int16},   {"int16", int16},     {"ushort", uint16},  {"uint16", uint16},
       {"int", int32},     {"int32", int32},     {"uint", uint32},    {"uint32", uint32},

@@ -12,7 +12,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "flagstone/flagstone.hpp"
@@ -77,6 +77,7 @@ TEST(Contract, PermutingTheInputPermutesTheLabels) {
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::shuffle(order, std::mt19937(seed));
     std::vector<Point> shuffled;
+    shuffled.reserve(order.size());
     for (const std::size_t i : order) shuffled.push_back(cloud[i]);
 
     const std::vector<Label> labels = labels_of(cloud);
@@ -151,10 +152,10 @@ TEST(Contract, NothingIsPrinted) {
 }
 
 TEST(Contract, SegmentNeverThrows) {
-  Patchwork patchwork;
-  Segmentation result;
-
-  static_assert(noexcept(patchwork.segment(CloudView(), result)));
+  static_assert(
+      noexcept(std::declval<Segmenter&>().segment(CloudView(), std::declval<Segmentation&>())));
+  static_assert(
+      noexcept(std::declval<Patchwork&>().segment(CloudView(), std::declval<Segmentation&>())));
 }
 
 TEST(Contract, CoordinatesThatAreNotFiniteAreInvalid) {

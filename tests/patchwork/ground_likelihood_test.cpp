@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace flagstone::patchwork {
@@ -83,7 +84,7 @@ TEST(Elevation, DoesNotJudgeRingsBeyondItsRange) {
 TEST(Elevation, GoesThroughTheStepsOfThePublicCode) {
   // 0.523, 0.746, 0.879 and 1.125 m above -h_s in the first four rings
   const ConcentricZones zones(reference);
-  const double steps[] = {0.523, 0.746, 0.879, 1.125};
+  constexpr std::array steps = {0.523, 0.746, 0.879, 1.125};
   for (std::size_t ring = 0; ring < 4; ++ring) {
     const double r = zones.rings()[ring].center_radius;
     EXPECT_LT(r, reference.elevation.range);

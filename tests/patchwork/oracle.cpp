@@ -231,7 +231,7 @@ Answer segment(CloudView cloud, const PatchworkConfig& config) {
       answer.labels[k] = Label::invalid;
       continue;
     }
-    if (!(config.min_range <= rho && rho < l_max && std::abs(p.z()) <= 10000)) {
+    if (rho < config.min_range || rho >= l_max || std::abs(p.z()) > 10000) {
       answer.labels[k] = Label::out_of_range;
       continue;
     }
@@ -251,7 +251,7 @@ Answer segment(CloudView cloud, const PatchworkConfig& config) {
 
   for (auto& [key, entry] : bins) {
     auto& [place, bin] = entry;
-    std::size_t ring_overall = static_cast<std::size_t>(place.ring);
+    auto ring_overall = static_cast<std::size_t>(place.ring);
     for (int m = 0; m < place.zone; ++m) {
       ring_overall += config.zones[static_cast<std::size_t>(m)].ring_radii.size();
     }

@@ -165,7 +165,7 @@ TEST(AdaptiveSeeds, PassOverReflectionsWhereThereAreMoreThanSeeds) {
 TEST(AdaptiveSeeds, GroundFallingAwayFarOutIsKept) {
   // 20 % down: -1.73 - 0.2 * 30 m, far below M_h * h_s of the central zone.
   std::vector<Point> cloud;
-  PatchworkConfig config = PatchworkConfig::preset("paper");
+  const PatchworkConfig config = PatchworkConfig::preset("paper");
   add_square(cloud, 30, 0.6f, [](float x, float y) { return -1.73f - 0.2f * x + rough(x, y); });
 
   const Outcome outcome = segment(cloud, config);
