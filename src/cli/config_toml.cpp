@@ -79,6 +79,7 @@ std::string toml_text(int value) { return fmt::format("{}", value); }
 std::string toml_text(bool value) { return value ? "true" : "false"; }
 std::string toml_text(const std::vector<float>& values) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const float value : values) texts.push_back(toml_text(value));
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
@@ -120,7 +121,7 @@ std::string type_name(const toml::node& node) {
 
 void assign(const toml::node& node, const std::string& key, const Place& place, float& value) {
   if (!node.is_number()) place.refuse(key + " is a number, not a " + type_name(node));
-  const double number = *node.value<double>();
+  const double number = node.value_or(0.0);
   constexpr double most = std::numeric_limits<float>::max();
   // Only what is written as inf is infinite.
   value = static_cast<float>(std::isinf(number) ? number : std::clamp(number, -most, most));

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path with_suffix(const fs::path& stem, const std::string& suffix) {
-  return fs::path(stem.string() + suffix);  // replace_extension would cut "scan.v2" short
+  return {stem.string() + suffix};  // replace_extension would cut "scan.v2" short
 }
 
 /// The extension that a scan's name has, ".pcd.bin" included.
@@ -138,7 +138,7 @@ Status ScanWorker::write(const ScanInput& input, ScanReport& report) {
     return io::write_label_file(file, result_.labels(), job_.label_map);
   }
   io::Cloud labelled;
-  Status status = io::with_labels(cloud_, result_.labels(), labelled);
+  const Status status = io::with_labels(cloud_, result_.labels(), labelled);
   return status.ok() ? io::write_cloud(file, labelled) : status;
 }
 

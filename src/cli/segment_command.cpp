@@ -52,7 +52,11 @@ class Reporter {
     reports_[index] = std::move(report);
     ++done_;
     if (next_ < reports_.size() && reports_[next_]) progress_.clear();
-    for (; next_ < reports_.size() && reports_[next_]; ++next_) print(*reports_[next_]);
+    for (; next_ < reports_.size(); ++next_) {
+      const std::optional<ScanReport>& next = reports_[next_];
+      if (!next) break;
+      print(*next);
+    }
     progress_.show(done_);
   }
 
@@ -61,9 +65,10 @@ class Reporter {
     progress_.clear();
     std::vector<ScanReport> finished;
     for (std::size_t i = 0; i < reports_.size(); ++i) {
-      if (!reports_[i]) continue;
-      if (i >= next_) print(*reports_[i]);
-      finished.push_back(std::move(*reports_[i]));
+      std::optional<ScanReport>& report = reports_[i];
+      if (!report) continue;
+      if (i >= next_) print(*report);
+      finished.push_back(std::move(*report));
     }
     return finished;
   }

@@ -18,7 +18,7 @@ MATCHER(is_ok, "is a success") {
 
 /// An error of this code whose one-line message matches.
 template <class MessageMatcher>
-auto fails(StatusCode code, MessageMatcher message) {
+auto fails(StatusCode code, const MessageMatcher& message) {
   using ::testing::AllOf;
   using ::testing::Not;
   using ::testing::Property;
