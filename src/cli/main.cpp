@@ -7,7 +7,9 @@
 #include <CLI/Formatter.hpp>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <stdexcept>
+#include <string>
 
 #include "cli/config_command.hpp"
 #include "cli/demo_command.hpp"
@@ -20,6 +22,16 @@ namespace {
 
 constexpr int wrong_usage = 2;
 
+/// Lists commands by the first line of what they say of themselves; their own help says the rest.
+class BriefListing : public CLI::Formatter {
+ public:
+  std::string make_subcommand(const CLI::App* command) const override {
+    const std::string description = command->get_description();
+    return fmt::format("  {:<{}}{}\n", command->get_name(), get_column_width() - 2,
+                       description.substr(0, description.find('\n')));
+  }
+};
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Ground segmentation for 3D LiDAR.\n\n"
@@ -27,6 +39,7 @@ int run(int argc, char** argv) {
       "'flagstone COMMAND --help' explains a command.");
   app.set_version_flag("--version", FLAGSTONE_VERSION);
   app.require_subcommand(1);
+  app.formatter(std::make_shared<BriefListing>());
   int exit_code = 0;
   flagstone::cli::add_segment_command(app, exit_code);
   flagstone::cli::add_demo_command(app, exit_code);
