@@ -6,7 +6,8 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
+#include <algorithm>
+#include <functional>
 #include <limits>
 
 #include "io/bytes.hpp"
@@ -32,7 +33,7 @@ TEST(Cloud, PacksFieldsInTheirOrder) {
   Cloud cloud;
   const std::vector<Field> fields{{"t", float64}, {"x"}, {"y"}, {"z"}, {"n", int16, 3}};
 
-  ASSERT_THAT(Cloud::from_rows(fields, Bytes(2 * 26), cloud), is_ok());
+  ASSERT_THAT(Cloud::from_rows(fields, Bytes(52), cloud), is_ok());
 
   EXPECT_EQ(cloud.size(), 2U);
   EXPECT_EQ(cloud.stride(), 26U);
@@ -148,8 +149,8 @@ TEST(Cloud, FromFloatsRefusesFewerThanThreeAPoint) {
 TEST(UnnamedFields, AreNamedByColumn) {
   const auto fields = unnamed_fields(7, float32);
 
-  std::vector<std::string> names;
-  for (const Field& field : fields) names.push_back(field.name);
+  std::vector<std::string> names(fields.size());
+  std::ranges::transform(fields, names.begin(), &Field::name);
   EXPECT_THAT(names, ::testing::ElementsAre("x", "y", "z", "intensity", "ring", "c5", "c6"));
 }
 
@@ -229,8 +230,8 @@ RC_GTEST_PROP(Select, AMaskAndItsOppositeShareOutEveryPoint, ()) {
   const Cloud cloud = *arbitrary_cloud();
   const auto mask = *rc::gen::container<std::vector<std::uint8_t>>(
       cloud.size(), rc::gen::inRange<std::uint8_t>(0, 2));
-  std::vector<std::uint8_t> opposite;
-  for (const std::uint8_t keep : mask) opposite.push_back(keep == 0 ? 1 : 0);
+  std::vector<std::uint8_t> opposite(mask.size());
+  std::ranges::transform(mask, opposite.begin(), std::logical_not<>());
   Cloud kept;
   Cloud rest;
 
