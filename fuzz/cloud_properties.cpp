@@ -3,6 +3,7 @@
 #include "cloud_properties.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -36,7 +37,8 @@ bool has_same_numbers(const io::Cloud& a, const io::Cloud& b) {
       for (std::size_t i = 0; i < a.size(); ++i) {
         const double left = a.value(i, field, element);
         const double right = b.value(i, other);
-        if (left != right && !(left != left && right != right)) return false;
+        const bool are_both_nan = std::isnan(left) && std::isnan(right);
+        if (left != right && !are_both_nan) return false;
       }
     }
   }
