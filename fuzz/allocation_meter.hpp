@@ -20,6 +20,6 @@ class AllocationMeter {
 /// ascii file's size and 88 times a compressed stream's, which are held by columns and by rows;
 /// converted coordinates are at most 4 times the rows.
 inline constexpr std::size_t plain_factor = 32;
-inline constexpr std::size_t compressed_factor = 88 * 6;
+inline constexpr std::size_t compressed_factor = 528;  // 88 * (1 + 1 + 4)
 
 }  // namespace flagstone::fuzz
