@@ -182,9 +182,12 @@ void add_segment_command(CLI::App& app, int& exit_code) {
           "--reference", options->reference,
           "True labels to compare with: a file, or a folder of STEM.label or STEM_lidarseg.bin")
       ->type_name("LABELS");
-  command->add_flag("--picture", options->picture, "Draw each scan from above, as PNG");
-  command->add_flag("--tint-patches", options->tint_patches,
-                    "In the picture, tint every patch by its verdict");
+  CLI::Option* const picture =
+      command->add_flag("--picture", options->picture, "Draw each scan from above, as PNG");
+  command
+      ->add_flag("--tint-patches", options->tint_patches,
+                 "In the picture, tint every patch by its verdict")
+      ->needs(picture);
   command->add_option("--threads", options->threads, "Scans worked on at once. Default: all cores")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

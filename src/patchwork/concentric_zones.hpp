@@ -68,13 +68,6 @@ class ConcentricZones {
     }
   }
 
-  /// The same for one point.
-  [[nodiscard]] std::uint32_t locate(Point p) const noexcept {
-    std::uint32_t bin;
-    locate(&p.x, &p.y, &p.z, 1, &bin);
-    return bin;
-  }
-
  private:
   /// A table cell is 1/16 of an octave of r^2, about 2 % of r.
   static constexpr int cell_shift = 19;
