@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
-#include <new>
+#include <span>
 #include <utility>
 
+#include "core/segment_scan.hpp"
 #include "patchwork/bin_runs.hpp"
 #include "patchwork/concentric_zones.hpp"
 #include "patchwork/ground_likelihood.hpp"
@@ -24,7 +24,6 @@ using patchwork::Plane;
 using patchwork::PlaneFit;
 using patchwork::Ring;
 using patchwork::Run;
-using patchwork::Vector3;
 
 namespace {
 
@@ -70,7 +69,6 @@ struct Patchwork::Pipeline {
         result.mutable_patches().push_back(patch);  // within what was reserved
       }
     }
-    result.finish();
   }
 
   void segment_bin(CloudView cloud, std::uint32_t bin, std::size_t ring, Patch& patch,
@@ -144,19 +142,10 @@ Patchwork& Patchwork::operator=(Patchwork&&) noexcept = default;
 const PatchworkConfig& Patchwork::config() const noexcept { return pipeline_->config; }
 
 Status Patchwork::segment(CloudView cloud, Segmentation& result) noexcept {
-  result.clear();
-  if (cloud.data() == nullptr && !cloud.empty()) return Status(StatusCode::invalid_argument);
-  if (cloud.size() > std::numeric_limits<std::uint32_t>::max()) {
-    return Status(StatusCode::invalid_argument);
-  }
-  try {
+  return segment_scan(cloud, result, [&](std::span<Label> labels) {
     pipeline_->reserve(cloud.size(), result);
-    pipeline_->segment(cloud, result, result.start(cloud.size()));
-  } catch (const std::bad_alloc&) {
-    result.clear();
-    return Status(StatusCode::out_of_memory);
-  }
-  return {};
+    pipeline_->segment(cloud, result, labels);
+  });
 }
 
 }  // namespace flagstone

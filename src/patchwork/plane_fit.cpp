@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "patchwork/principal_axes.hpp"
+#include "core/principal_axes.hpp"
 
 namespace flagstone::patchwork {
 namespace {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/buffer.hpp"
+#include "core/moments.hpp"
 #include "flagstone/patchwork_config.hpp"
-#include "patchwork/moments.hpp"
 #include "patchwork/packed_points.hpp"
 
 namespace flagstone::patchwork {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace flagstone::sim {
+namespace flagstone {
 
 /// Random numbers that are the same with every standard library, which std:: distributions are not.
 /// SplitMix64: G. L. Steele, D. Lea, C. H. Flood, "Fast Splittable Pseudorandom Number Generators",
@@ -55,4 +55,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace flagstone::sim
+}  // namespace flagstone

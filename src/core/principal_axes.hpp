@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "patchwork/moments.hpp"
+#include "core/moments.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone {
 
 /// What principal component analysis of a covariance gives, eq. (3).
 struct PrincipalAxes {
@@ -20,4 +20,4 @@ struct PrincipalAxes {
 /// least, through a single place the horizontal one.
 PrincipalAxes principal_axes(const Symmetric3& covariance) noexcept;
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone

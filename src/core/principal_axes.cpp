@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/principal_axes.hpp"
+#include "core/principal_axes.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace flagstone::patchwork {
+namespace flagstone {
 namespace {
 
 /// Gap between eigenvalues, as a share of their sum, under which they count as equal. Wide enough
@@ -89,4 +89,4 @@ PrincipalAxes principal_axes(const Symmetric3& c) noexcept {
   return axes;
 }
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "sim/random.hpp"
+#include "core/random.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 
-namespace flagstone::sim {
+namespace flagstone {
 namespace {
 
 TEST(Random, IsSplitMix64) {
@@ -46,4 +46,4 @@ TEST(Random, UniformStaysWithinItsBounds) {
 }
 
 }  // namespace
-}  // namespace flagstone::sim
+}  // namespace flagstone

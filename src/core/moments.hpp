@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace flagstone::patchwork {
+namespace flagstone {
 
 /// A point or vector in double precision: metres, sensor frame.
 using Vector3 = std::array<double, 3>;
@@ -48,4 +48,4 @@ struct Moments {
   }
 };
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/principal_axes.hpp"
+#include "core/principal_axes.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace flagstone::patchwork {
+namespace flagstone {
 namespace {
 
 Eigen::Matrix3d matrix(const Symmetric3& c) {
@@ -100,4 +100,4 @@ TEST(PrincipalAxes, OfOverflownCovariancesAreStillAPlane) {
 }
 
 }  // namespace
-}  // namespace flagstone::patchwork
+}  // namespace flagstone

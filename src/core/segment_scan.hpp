@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <new>
+#include <span>
+#include <utility>
+
+#include "flagstone/cloud_view.hpp"
+#include "flagstone/segmentation.hpp"
+#include "flagstone/status.hpp"
+
+namespace flagstone {
+
+/// What every Segmenter::segment does around its own work: refuses impossible clouds, starts and
+/// finishes the result, turns a failed allocation into a status. `work(labels)` sets the labels
+/// that are not to be nonground; it may throw std::bad_alloc and nothing else.
+template <class Work>
+Status segment_scan(CloudView cloud, Segmentation& result, Work&& work) noexcept {
+  result.clear();
+  if (cloud.data() == nullptr && !cloud.empty()) return Status(StatusCode::invalid_argument);
+  if (cloud.size() > std::numeric_limits<std::uint32_t>::max()) {
+    return Status(StatusCode::invalid_argument);
+  }
+  try {
+    std::forward<Work>(work)(result.start(cloud.size()));
+    result.finish();
+  } catch (const std::bad_alloc&) {
+    result.clear();
+    return Status(StatusCode::out_of_memory);
+  }
+  return {};
+}
+
+}  // namespace flagstone
