@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/random.hpp"
 #include "sim/frame.hpp"
 #include "sim/mesh.hpp"
-#include "sim/random.hpp"
 
 namespace flagstone::sim {
 
 /// The longest car there is, metres: what a parking place has to hold.
 inline constexpr double longest_car = 5.2;
+
+/// The widest, metres, with its wheels.
+inline constexpr double widest_car = 1.97;
 
 /// A car of a random kind (hatchback, saloon, estate, van) and paint: body with bonnet, cabin with
 /// windows that reflect nearly nothing, wheels; hollow below, so that beams pass under it. `frame`

@@ -11,7 +11,6 @@
 namespace flagstone::sim {
 namespace {
 
-constexpr double buried = 2;  // walls reach so far below the ground at the front, metres
 constexpr Surface tiles{.semantic = SemanticClass::building, .reflectivity = 0.3F};
 constexpr Surface pane{.semantic = SemanticClass::building, .reflectivity = 0.05F};
 constexpr Surface stone{.semantic = SemanticClass::building, .reflectivity = 0.35F};
@@ -31,9 +30,9 @@ void add_front(Mesh& mesh, const Frame& frame, const House& house, Surface plast
   const double left = -house.width / 2;
   for (int i = 0; i < windows; ++i) {
     const double x = left + i * pitch;
-    panel(x, x + 0.3 * pitch, -buried, house.eaves);
-    panel(x + 0.7 * pitch, x + pitch, -buried, house.eaves);
-    double top = -buried;
+    panel(x, x + 0.3 * pitch, -house.buried, house.eaves);
+    panel(x + 0.7 * pitch, x + pitch, -house.buried, house.eaves);
+    double top = -house.buried;
     for (int floor = 0; floor < storeys; ++floor) {
       const double window = 0.3 + floor * storey + sill;
       panel(x + 0.3 * pitch, x + 0.7 * pitch, top, window);
@@ -41,8 +40,8 @@ void add_front(Mesh& mesh, const Frame& frame, const House& house, Surface plast
     }
     panel(x + 0.3 * pitch, x + 0.7 * pitch, top, house.eaves);
   }
-  add_box(mesh, frame, {.low = {left, wall - 0.02, -buried}, .high = {-left, wall, house.eaves}},
-          pane);
+  add_box(mesh, frame,
+          {.low = {left, wall - 0.02, -house.buried}, .high = {-left, wall, house.eaves}}, pane);
 }
 
 void add_roof(Mesh& mesh, const Frame& frame, const House& house, double pitch) {
@@ -74,14 +73,15 @@ void add_house(Mesh& mesh, const Frame& frame, const House& house, Random& rando
   constexpr double front = 0.2;
   add_front(mesh, frame, house, plaster);
   add_box(mesh, frame,
-          {.low = {-house.width / 2, front, -buried},
+          {.low = {-house.width / 2, front, -house.buried},
            .high = {house.width / 2, house.depth, house.eaves}},
           plaster);
   const double pitch = random.uniform(0.5, 0.9);
   add_roof(mesh, frame, house, pitch);
   add_gables(mesh, frame, house, pitch, plaster);
   const double door = random.uniform(-0.3, 0.3) * house.width;
-  add_box(mesh, frame, {.low = {door - 0.8, -1, -buried}, .high = {door + 0.8, 0, 0.3}}, stone);
+  add_box(mesh, frame, {.low = {door - 0.8, -1, -house.buried}, .high = {door + 0.8, 0, 0.3}},
+          stone);
 }
 
 }  // namespace flagstone::sim

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/random.hpp"
 #include "sim/frame.hpp"
 #include "sim/mesh.hpp"
-#include "sim/random.hpp"
 
 namespace flagstone::sim {
 
@@ -13,6 +13,7 @@ struct House {
   double width = 10;   ///< along the street
   double depth = 9;    ///< away from it
   double eaves = 5.5;  ///< height of the walls
+  double buried = 2;   ///< how far the walls reach below the ground at the front, for slopes
 };
 
 /// Walls that reach into the ground, recessed windows, a gabled roof, a door with a step. `frame`

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/random.hpp"
+#include "core/random.hpp"
 #include "sim/sensor.hpp"
 
 namespace flagstone::sim {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/random.hpp"
 #include "sim/frame.hpp"
 #include "sim/mesh.hpp"
-#include "sim/random.hpp"
 
 namespace flagstone::sim {
 

@@ -77,6 +77,27 @@ void add_tuft(Mesh& mesh, const Ground& ground, double x, double y, Random& rand
   }
 }
 
+void add_ground_cover(Mesh& mesh, const Ground& ground, double x, double y, Random& random) {
+  const double radius = random.uniform(0.5, 1.5);
+  const double height = random.uniform(0.08, 0.35);
+  const int leaves = static_cast<int>(260 * radius * radius);
+  for (int leaf = 0; leaf < leaves; ++leaf) {
+    const double from_middle = radius * std::sqrt(random.uniform());
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const Vector3 foot =
+        on_ground(ground, x + from_middle * std::cos(angle), y + from_middle * std::sin(angle));
+    // Lower towards the edge of the patch.
+    const double edge = 1 - 0.7 * from_middle / radius;
+    const double turn = random.uniform(0, std::numbers::pi);
+    const double half = random.uniform(0.03, 0.06);
+    const Vector3 aside = half * Vector3{std::cos(turn), std::sin(turn), 0};
+    const Vector3 along = half * normalized({-std::sin(turn), std::cos(turn), random.uniform()});
+    const Vector3 centre = foot + Vector3{0, 0, random.uniform(0.06, 0.06 + height * edge)};
+    mesh.add_quad(centre - aside - along, centre + aside - along, centre + aside + along,
+                  centre - aside + along, foliage);
+  }
+}
+
 void add_hedge(Mesh& mesh, const Ground& ground, const Hedge& hedge, Random& random) {
   constexpr double piece = 0.5;
   const double along = std::hypot(hedge.x1 - hedge.x0, hedge.y1 - hedge.y0);

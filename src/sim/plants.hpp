@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/random.hpp"
 #include "sim/ground.hpp"
 #include "sim/mesh.hpp"
-#include "sim/random.hpp"
 
 namespace flagstone::sim {
 
@@ -16,6 +16,10 @@ void add_bush(Mesh& mesh, const Ground& ground, double x, double y, Random& rand
 
 /// A few blades that stand out of a lawn, 5 to 25 cm high: what is hardest to tell from the ground.
 void add_tuft(Mesh& mesh, const Ground& ground, double x, double y, Random& random);
+
+/// A patch of low growth, 1 to 3 m wide and 8 to 35 cm high, that covers the ground below it in
+/// part.
+void add_ground_cover(Mesh& mesh, const Ground& ground, double x, double y, Random& random);
 
 /// A clipped hedge along the straight line from (x0, y0) to (x1, y1), metres.
 struct Hedge {

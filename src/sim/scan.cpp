@@ -8,7 +8,7 @@
 #include <optional>
 #include <thread>
 
-#include "sim/random.hpp"
+#include "core/random.hpp"
 
 namespace flagstone::sim {
 namespace {
@@ -25,14 +25,20 @@ struct Echo {
 class Beams {
  public:
   explicit Beams(const Sensor& sensor) {
-    const auto turn = static_cast<std::size_t>(sensor.azimuth_count);
-    directions_.reserve(sensor.elevations.size() * turn);
+    struct Heading {
+      double x, y;
+    };
+    std::vector<Heading> headings;
+    for (int firing = 0; firing < sensor.azimuth_count; ++firing) {
+      const double azimuth = sensor.azimuth(firing) * radians;
+      headings.push_back({.x = std::cos(azimuth), .y = std::sin(azimuth)});
+    }
+    directions_.reserve(sensor.elevations.size() * headings.size());
     for (const double elevation : sensor.elevations) {
       const double across = std::cos(elevation * radians);
       const double up = std::sin(elevation * radians);
-      for (int firing = 0; firing < sensor.azimuth_count; ++firing) {
-        const double azimuth = sensor.azimuth(firing) * radians;
-        directions_.emplace_back(across * std::cos(azimuth), across * std::sin(azimuth), up);
+      for (const Heading& heading : headings) {
+        directions_.emplace_back(across * heading.x, across * heading.y, up);
       }
     }
   }

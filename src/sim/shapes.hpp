@@ -4,9 +4,9 @@
 
 #include <span>
 
+#include "core/random.hpp"
 #include "sim/frame.hpp"
 #include "sim/mesh.hpp"
-#include "sim/random.hpp"
 
 namespace flagstone::sim {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "sim/car.hpp"
 #include "sim/frame.hpp"
@@ -23,7 +24,7 @@ constexpr double half_turn = std::numbers::pi;
 class Furnisher {
  public:
   Furnisher(const StreetPlan& plan, const Ground& ground, Random& random)
-      : shape_(plan.shape), ground_(ground), random_(random) {
+      : shape_(plan.shape), furnishing_(plan.furnishing), ground_(ground), random_(random) {
     for (const Plot& plot : plan.plots) {
       if (plot.built) build_house(plot);
       plant_garden(plot);
@@ -34,7 +35,7 @@ class Furnisher {
       line_sidewalk(side);
       plant_behind(side);
     }
-    drive_cars();
+    if (furnishing_.traffic) drive_cars();
   }
 
   Mesh take() { return std::move(mesh_); }
@@ -80,9 +81,11 @@ class Furnisher {
         plant(mesh_, ground_, at.x, at.y, random_);
       }
     };
-    repeat(0.02, 1.2, add_tree);
-    repeat(0.07, 0.8, add_bush);
-    repeat(random_.uniform(0, 4), 0.1, add_tuft);
+    const Interval tufts = furnishing_.tufts;
+    repeat(furnishing_.trees, 1.2, add_tree);
+    repeat(furnishing_.bushes, 0.8, add_bush);
+    repeat(random_.uniform(tufts.low, tufts.high), 0.1, add_tuft);
+    if (furnishing_.ground_cover > 0) repeat(furnishing_.ground_cover, 1, add_ground_cover);
   }
 
   void bound_garden(const Plot& plot) {
@@ -112,16 +115,19 @@ class Furnisher {
   void park_cars(Side side) {
     const double width = shape_.side(side).parking_width;
     if (width == 0) return;
+    const bool bays = furnishing_.parking[static_cast<std::size_t>(side)] == Parking::bays;
+    const double place = bays ? widest_car : longest_car;
+    const double quarter = bays ? (side == Side::left ? 1 : -1) * half_turn / 2 : 0;
     const double end = shape_.half_length - 30;
     double x = -end + random_.uniform(0, 5);
     while (x < end) {
-      if (random_.chance(0.7) && !on_driveway(side, x, longest_car / 2)) {
+      if (random_.chance(furnishing_.occupied) && !on_driveway(side, x, place / 2)) {
         const double out = shape_.half_width + width / 2 + random_.uniform(-0.1, 0.1);
         const double askew = random_.uniform(-0.03, 0.03);
-        const bool against = side == Side::left && random_.chance(0.7);
-        add_car_at(x, side, out, askew + (against ? half_turn : 0));
+        const bool against = (bays || side == Side::left) && random_.chance(0.7);
+        add_car_at(x, side, out, quarter + askew + (against ? half_turn : 0));
       }
-      x += longest_car + random_.uniform(0.5, 1.5);
+      x += place + random_.uniform(furnishing_.parking_gap.low, furnishing_.parking_gap.high);
     }
   }
 
@@ -152,6 +158,8 @@ class Furnisher {
       const double facing = side == Side::right ? half_turn : 0;
       add_traffic_sign(mesh_, upright_at(x, side, out, facing));
     } else if (drawn < 0.7) {
+      const double from_path = std::abs(sign(side) * (out + 0.2) - furnishing_.path);
+      if (from_path < furnishing_.crown_distance) return;
       add_tree(mesh_, ground_, x, y_at(x, side, out + 0.2), random_);
     }
   }
@@ -169,12 +177,14 @@ class Furnisher {
 
   void drive_cars() {
     const double lane = shape_.half_width / 2;
-    add_car_at(random_.uniform(14, 30), Side::right, lane, 0);
+    const double free = furnishing_.free_lane;
+    add_car_at(free + random_.uniform(14, 30), Side::right, lane, 0);
     add_car_at(random_.uniform(8, 40), Side::left, lane, half_turn);
-    add_car_at(random_.uniform(-45, -15), Side::right, lane, 0);
+    add_car_at(random_.uniform(-45, -15) - free, Side::right, lane, 0);
   }
 
   const StreetShape& shape_;
+  const Furnishing& furnishing_;
   const Ground& ground_;
   Random& random_;
   Mesh mesh_;
@@ -184,6 +194,25 @@ class Furnisher {
 
 Mesh furnish(const StreetPlan& plan, const Ground& ground, Random& random) {
   return Furnisher(plan, ground, random).take();
+}
+
+Landscape drive_street(StreetPlan plan, Random random) {
+  plan.furnishing.free_lane = half_drive + longest_car;
+  plan.furnishing.crown_distance = 3.3;  // more than the radius of the largest crown
+  Ground ground = make_ground(plan.shape);
+  const StreetShape& shape = plan.shape;
+  std::vector<Stop> route = wander_along(
+      [&](double x) {
+        const double y = shape.centre_line(x) + plan.furnishing.path;
+        return Stop{.x = x, .y = y, .yaw = shape.heading(x)};
+      },
+      random);
+  return {.ground = std::move(ground),
+          .route = std::move(route),
+          .furnish = [plan = std::move(plan), random](const Ground& on) {
+            Random own = random;
+            return furnish(plan, on, own);
+          }};
 }
 
 Scene make_street(std::uint64_t seed) {

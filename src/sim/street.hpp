@@ -4,8 +4,9 @@
 
 #include <cstdint>
 
+#include "core/random.hpp"
+#include "sim/landscape.hpp"
 #include "sim/mesh.hpp"
-#include "sim/random.hpp"
 #include "sim/scene.hpp"
 #include "sim/street_plan.hpp"
 
@@ -15,6 +16,9 @@ namespace flagstone::sim {
 /// parked and moving cars, lamp posts, traffic signs, people. Around x = 0 the lane of who drives
 /// along +x is free.
 Scene make_street(std::uint64_t seed);
+
+/// A drive along the path of a plan, whose lane it clears of cars and of crowns of trees.
+Landscape drive_street(StreetPlan plan, Random random);
 
 /// What stands on the ground of a plan.
 Mesh furnish(const StreetPlan& plan, const Ground& ground, Random& random);

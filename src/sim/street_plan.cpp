@@ -23,8 +23,8 @@ StreetShape plan_shape(Random& random) {
   shape.half_width = random.uniform(2.9, 3.7);
   shape.grade = random.uniform(-0.03, 0.03);
   const double steeper = random.uniform(0.02, 0.07);
-  shape.grade_change = random.chance(0.5) ? steeper : -steeper;
-  shape.grade_change_x = random.uniform(20, 45);
+  const double change = random.chance(0.5) ? steeper : -steeper;
+  shape.grade_changes = {{.change = change, .x = random.uniform(20, 45)}};
   shape.bend_amplitude = random.uniform(-3, 3);
   shape.crown = random.uniform(0.04, 0.09);
   shape.cross_fall = random.uniform(-0.02, 0.02);
@@ -65,7 +65,7 @@ Plot plan_plot(Random& random, Side side, double x_begin) {
 }  // namespace
 
 StreetPlan plan_street(Random& random) {
-  StreetPlan plan{.shape = plan_shape(random), .plots = {}};
+  StreetPlan plan{.shape = plan_shape(random), .plots = {}, .furnishing = {}};
   for (const Side side : {Side::right, Side::left}) {
     double x = -plan.shape.half_length + random.uniform(5, 15);
     while (x < plan.shape.half_length - 25) {

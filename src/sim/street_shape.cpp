@@ -42,13 +42,16 @@ double driveway_share(const StreetSide& side, double x) noexcept {
   return share;
 }
 
-// Height along the centre line: a grade that turns smoothly into another.
+// Height along the centre line, 0 at x = 0: a grade that turns smoothly into others.
 double longitudinal_height(const StreetShape& shape, double x) noexcept {
-  const double soft = shape.grade_change_length;
-  const auto bent = [&](double at) {
-    return soft * std::log1p(std::exp((at - shape.grade_change_x) / soft));
-  };
-  return shape.grade * x + shape.grade_change * (bent(x) - bent(0));
+  double height = shape.grade * x;
+  for (const GradeChange& curve : shape.grade_changes) {
+    const auto bent = [&](double at) {
+      return curve.length * std::log1p(std::exp((at - curve.x) / curve.length));
+    };
+    height += curve.change * (bent(x) - bent(0));
+  }
+  return height;
 }
 
 double land_height(const StreetShape& shape, const StreetSide& side, double x, double t,

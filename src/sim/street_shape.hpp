@@ -30,7 +30,7 @@ struct StreetSide {
   double kerb_height = 0.12;
   double sidewalk_width = 2;
   double land_slope = 0;   ///< of the land behind the sidewalk, metres a metre outward
-  double bank_height = 0;  ///< an embankment that starts at the sidewalk
+  double bank_height = 0;  ///< an embankment that starts at the sidewalk; below 0 a slope down
   std::vector<Driveway> driveways;
 };
 
@@ -41,6 +41,13 @@ struct Undulation {
   double phase = 0;               ///< radians
 };
 
+/// A vertical curve: where the grade along the street turns into another.
+struct GradeChange {
+  double change = 0;  ///< added to the grade beyond x, metres a metre
+  double x = 40;      ///< where half of the change is done, metres
+  double length = 8;  ///< how softly: half of it within about this length, metres
+};
+
 /// Everything that makes the ground of a street. The road runs along x and drives on the right; t
 /// is measured across from its centre line, to the left.
 struct StreetShape {
@@ -48,12 +55,10 @@ struct StreetShape {
   double half_width = 3.2;   ///< of the carriageway
   double land_width = 40;    ///< behind each sidewalk
 
-  double grade = 0;                ///< climb at x = 0 before the change, metres a metre
-  double grade_change = 0;         ///< added to the grade beyond grade_change_x
-  double grade_change_x = 40;      ///< where half of the change is done
-  double grade_change_length = 8;  ///< how softly: half of it within about this length
-  double bend_amplitude = 0;       ///< the centre line swings this far to the left
-  double bend_length = 150;        ///< and back, once in this length
+  double grade = 0;                        ///< climb before all changes, metres a metre
+  std::vector<GradeChange> grade_changes;  ///< in any order
+  double bend_amplitude = 0;               ///< the centre line swings this far to the left
+  double bend_length = 150;                ///< and back, once in this length
 
   double crown = 0.06;    ///< how much higher the middle of the carriageway is than its edge
   double cross_fall = 0;  ///< tilt of the whole street, metres a metre to the left

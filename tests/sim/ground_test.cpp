@@ -59,8 +59,7 @@ StreetShape hilly_street() {
   StreetShape shape;
   shape.half_length = 40;
   shape.grade = 0.03;
-  shape.grade_change = -0.06;
-  shape.grade_change_x = 15;
+  shape.grade_changes = {{.change = -0.06, .x = 15}};
   shape.bend_amplitude = 3;
   shape.cross_fall = 0.02;
   shape.sides[0].parking_width = 2.2;
@@ -126,6 +125,20 @@ TEST(Street, GradeChangesSmoothlyAhead) {
   EXPECT_NEAR(grade(-30), 0.03, 0.001);
   EXPECT_NEAR(grade(15), 0, 0.001);
   for (int x = -38; x < 38; ++x) EXPECT_LT(std::abs(grade(x + 1) - grade(x)), 0.003);
+}
+
+TEST(Street, GradesFollowOneAnotherInAnyNumber) {
+  StreetShape shape;
+  shape.grade = 0.2;
+  shape.grade_changes = {{.change = -0.35, .x = -50, .length = 6}, {.change = 0.3, .x = 40}};
+  const auto grade = [&](double x) {
+    return (shape.height(x + 0.5, 0) - shape.height(x - 0.5, 0));
+  };
+
+  EXPECT_NEAR(grade(-100), 0.2, 0.001);
+  EXPECT_NEAR(grade(-5), -0.15, 0.002);
+  EXPECT_NEAR(grade(100), 0.15, 0.001);
+  EXPECT_EQ(shape.height(0, 0), 0);
 }
 
 }  // namespace

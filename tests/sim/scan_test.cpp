@@ -66,17 +66,15 @@ double azimuth_of(Vector3 point) {
 }
 
 TEST(Scan, GroundPointsWithoutNoiseLieOnTheGround) {
-  for (const std::uint64_t seed : seeds) {
-    const Drive drive(seed);
-    const SimulatedScan scan = drive.scan(no_noise());
-    std::size_t ground_points = 0;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-      if (!is_ground(class_of(scan, i))) continue;
-      ++ground_points;
-      ASSERT_NEAR(drive.above_ground(point_of(scan, i)), 0, 0.001) << "point " << i;
-    }
-    EXPECT_GT(ground_points, 30'000U);
+  const Drive drive(3);
+  const SimulatedScan scan = drive.scan(no_noise());
+  std::size_t ground_points = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!is_ground(class_of(scan, i))) continue;
+    ++ground_points;
+    ASSERT_NEAR(drive.above_ground(point_of(scan, i)), 0, 0.001) << "point " << i;
   }
+  EXPECT_GT(ground_points, 30'000U);
 }
 
 TEST(Scan, GroundPointsHaveTheClassOfTheGroundThere) {
@@ -104,13 +102,11 @@ TEST(Scan, OtherPointsWithoutNoiseDoNotLieBelowTheGround) {
 }
 
 TEST(Scan, GhostsLieBelowTheGround) {
-  for (const std::uint64_t seed : seeds) {
-    const Drive drive(seed);
-    const SimulatedScan scan = drive.scan(Noise{}, seed);
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-      if (class_of(scan, i) != SemanticClass::outlier) continue;
-      EXPECT_LT(drive.above_ground(point_of(scan, i)), 0) << "point " << i;
-    }
+  const Drive drive(3);
+  const SimulatedScan scan = drive.scan(Noise{}, 3);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (class_of(scan, i) != SemanticClass::outlier) continue;
+    EXPECT_LT(drive.above_ground(point_of(scan, i)), 0) << "point " << i;
   }
 }
 
@@ -163,13 +159,11 @@ TEST(Scan, PointsLieOnTheSensorsBeamsInFiringOrder) {
 
 TEST(Scan, PointsLieWithinTheSensorsRange) {
   constexpr double rounding = 1e-4;
-  for (const std::uint64_t seed : seeds) {
-    const SimulatedScan scan = simulate_street(seed);
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-      const double range = length(point_of(scan, i));
-      ASSERT_GE(range, hdl_64e().min_range - rounding);
-      ASSERT_LE(range, hdl_64e().max_range + rounding);
-    }
+  const SimulatedScan scan = simulate_street(2);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double range = length(point_of(scan, i));
+    ASSERT_GE(range, hdl_64e().min_range - rounding);
+    ASSERT_LE(range, hdl_64e().max_range + rounding);
   }
 }
 
@@ -268,31 +262,32 @@ TEST(Scan, LooksLikeOneOfAStreet) {
 
 TEST(Scan, SensorStandsAtItsHeightAboveTheRoad) {
   for (const std::uint64_t seed : seeds) {
-    const Drive drive(seed);
+    Random random = Random::stream(seed, 0);
+    const Ground ground = make_ground(plan_street(random).shape);
+    const Sensor sensor = hdl_64e();
+    const Frame pose = sensor_pose(ground, sensor, 0, -1.6, 0);
 
-    const Vector3 below = drive.pose.origin - drive.sensor.mount_height * drive.pose.up;
+    const Vector3 below = pose.origin - sensor.mount_height * pose.up;
 
-    EXPECT_NEAR(below.z, drive.scene.ground().height(below.x, below.y), 0.001);
-    EXPECT_EQ(drive.scene.ground().surface(below.x, below.y).semantic, SemanticClass::road);
+    EXPECT_NEAR(below.z, ground.height(below.x, below.y), 0.001);
+    EXPECT_EQ(ground.surface(below.x, below.y).semantic, SemanticClass::road);
   }
 }
 
 TEST(Scan, BeamsPassUnderACar) {
+  const Drive drive(1);
+  const SimulatedScan scan = drive.scan(no_noise());
   std::size_t beneath = 0;
-  for (const std::uint64_t seed : seeds) {
-    const Drive drive(seed);
-    const SimulatedScan scan = drive.scan(no_noise());
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-      if (!is_ground(class_of(scan, i))) continue;
-      const Vector3 world = drive.pose.to_world(point_of(scan, i));
-      const auto above = drive.scene.caster().cast(world, {0, 0, 1}, 0.05, 1);
-      if (!above) continue;
-      const Surface& surface = drive.scene.caster().mesh().surface(above->triangle);
-      beneath += surface.semantic == SemanticClass::car;
-    }
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!is_ground(class_of(scan, i))) continue;
+    const Vector3 world = drive.pose.to_world(point_of(scan, i));
+    const auto above = drive.scene.caster().cast(world, {0, 0, 1}, 0.05, 1);
+    if (!above) continue;
+    const Surface& surface = drive.scene.caster().mesh().surface(above->triangle);
+    beneath += surface.semantic == SemanticClass::car;
   }
 
-  EXPECT_GT(beneath, 100U);
+  EXPECT_GT(beneath, 30U);
 }
 
 }  // namespace

@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/simulate_command.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "cli/interrupt.hpp"
+#include "cli/print_error.hpp"
+#include "cli/progress.hpp"
+#include "cli/simulated_sequence.hpp"
+#include "cli/stopwatch.hpp"
+#include "sim/drive.hpp"
+#include "sim/noise.hpp"
+#include "sim/scene_kind.hpp"
+#include "sim/sensor.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+constexpr std::size_t drive_length = sim::frames_per_drive;
+
+struct SimulateOptions {
+  std::string scene;
+  std::size_t frames = 200;
+  std::uint64_t seed = 1;
+  std::string output;
+  std::string sequence = "00";
+  unsigned threads = 0;
+};
+
+/// One world and the frames taken of it. Made by who comes first, shared by all who help.
+struct DriveInWork {
+  std::once_flag planned, built;
+  std::optional<sim::Drive> drive;
+  std::optional<sim::Scene> scene;
+  std::atomic<std::size_t> next = 0;     ///< frame of the drive that nobody has taken yet
+  std::atomic<std::size_t> working = 0;  ///< threads at it
+};
+
+/// Simulates the missing frames of a sequence with several threads. Every frame depends on nothing
+/// but scene, seed and its number.
+class SequenceRun {
+ public:
+  SequenceRun(const SimulatedSequence& files, const sim::SceneKind& scene,
+              const SimulateOptions& options)
+      : files_(files),
+        scene_(scene),
+        seed_(options.seed),
+        drives_((options.frames + drive_length - 1) / drive_length),
+        poses_(options.frames),
+        kept_(options.frames) {
+    for (std::size_t frame = 0; frame < kept_.size(); ++frame) kept_[frame] = files.has(frame);
+    progress_.emplace(missing());
+  }
+
+  /// Works until all is done or somebody interrupts; throws what went wrong.
+  void run(unsigned threads) {
+    progress_->show(0);
+    {
+      const std::size_t crew_size = std::min<std::size_t>(threads, kept_.size());
+      std::vector<std::jthread> crew;
+      for (std::size_t i = 1; i < crew_size; ++i) crew.emplace_back([this] { work(); });
+      work();
+    }
+    progress_->clear();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  [[nodiscard]] std::size_t missing() const {
+    return static_cast<std::size_t>(std::ranges::count(kept_, false));
+  }
+  [[nodiscard]] std::size_t kept() const { return kept_.size() - missing(); }
+  [[nodiscard]] std::size_t simulated() const noexcept { return simulated_; }
+  [[nodiscard]] bool complete() const { return simulated_ == missing(); }
+  [[nodiscard]] const std::vector<sim::Frame>& poses() const noexcept { return poses_; }
+
+ private:
+  [[nodiscard]] bool stopped() const noexcept { return failed_ || interrupted(); }
+
+  // Takes a drive that nobody is at, so that worlds are made side by side; then helps with those
+  // that are not finished.
+  void work() {
+    try {
+      for (std::size_t i = next_drive_++; i < drives_.size() && !stopped(); i = next_drive_++) {
+        take_frames(i);
+      }
+      for (std::size_t i = 0; i < drives_.size() && !stopped(); ++i) take_frames(i);
+    } catch (...) {
+      const std::scoped_lock lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      failed_ = true;
+    }
+  }
+
+  void take_frames(std::size_t index) {
+    const std::size_t first = index * drive_length;
+    const std::size_t count = std::min(drive_length, kept_.size() - first);
+    DriveInWork& at = drives_[index];
+    ++at.working;
+    while (!stopped()) {
+      const std::size_t offset = at.next++;
+      if (offset >= count) break;
+      std::call_once(at.planned, [&] { plan(at, index); });
+      if (kept_[first + offset]) continue;
+      std::call_once(at.built, [&] { at.scene.emplace(at.drive->scene()); });
+      files_.write(first + offset,
+                   at.drive->scan(*at.scene, sim::Noise{}, static_cast<int>(offset)));
+      report();
+    }
+    // The last one to leave takes the world down: who comes later finds no frame to take.
+    if (--at.working == 0 && at.next >= count) release(at);
+  }
+
+  void plan(DriveInWork& at, std::size_t index) {
+    at.drive.emplace(scene_, sim::hdl_64e(), sim::drive_seed(seed_, index));
+    const std::size_t first = index * drive_length;
+    for (std::size_t i = 0; i < drive_length && first + i < poses_.size(); ++i) {
+      poses_[first + i] = at.drive->poses()[i];
+    }
+  }
+
+  // Two threads may leave one after the other and both see nobody left.
+  void release(DriveInWork& at) {
+    const std::scoped_lock lock(mutex_);
+    at.scene.reset();
+    at.drive.reset();
+  }
+
+  void report() {
+    const std::scoped_lock lock(mutex_);
+    progress_->show(++simulated_);
+  }
+
+  const SimulatedSequence& files_;
+  const sim::SceneKind& scene_;
+  std::uint64_t seed_;
+  std::vector<DriveInWork> drives_;
+  std::vector<sim::Frame> poses_;
+  std::vector<bool> kept_;
+  std::atomic<std::size_t> next_drive_ = 0;
+  std::atomic<bool> failed_ = false;
+
+  std::mutex mutex_;  // of what follows
+  std::optional<Progress> progress_;
+  std::size_t simulated_ = 0;
+  std::exception_ptr failure_;
+};
+
+const sim::SceneKind& scene_named(const std::string& name) {
+  if (const sim::SceneKind* scene = sim::find_scene_kind(name)) return *scene;
+  std::vector<std::string_view> names;
+  for (const sim::SceneKind& scene : sim::scene_kinds()) names.push_back(scene.name);
+  throw std::invalid_argument(
+      fmt::format("--scene: there is no '{}'; choose {}", name, fmt::join(names, ", ")));
+}
+
+// SemanticKITTI's folders have two digits.
+void check_sequence(const std::string& name) {
+  const bool digits =
+      std::ranges::all_of(name, [](char letter) { return letter >= '0' && letter <= '9'; });
+  if (name.size() != 2 || !digits) {
+    throw std::invalid_argument(
+        fmt::format("--sequence: '{}' is no name of a sequence; give two digits, 00 to 99", name));
+  }
+}
+
+int simulate(const SimulateOptions& options) {
+  const sim::SceneKind& scene = scene_named(options.scene);
+  check_sequence(options.sequence);
+  const SimulatedSequence files(std::filesystem::path(options.output) / "sequences" /
+                                options.sequence);
+  files.begin({.scene = options.scene,
+               .sensor = sim::hdl_64e().name,
+               .seed = options.seed,
+               .frames = options.frames});
+  const unsigned threads =
+      options.threads == 0 ? std::max(1U, std::thread::hardware_concurrency()) : options.threads;
+
+  catch_interrupts();
+  Stopwatch watch;
+  SequenceRun sequence(files, scene, options);
+  sequence.run(threads);
+  const double seconds = watch.lap() / 1000;
+
+  if (!sequence.complete()) {
+    print_error(fmt::format("interrupted, {} of {} frames are done; run it again for the rest",
+                            sequence.kept() + sequence.simulated(), options.frames));
+    return 1;
+  }
+  files.write_poses(sequence.poses());
+  const std::size_t drives = (options.frames + drive_length - 1) / drive_length;
+  fmt::print("{}, seed {}: {} frames in {} drive{}, {} simulated, {} kept as they were\n",
+             options.scene, options.seed, options.frames, drives, drives == 1 ? "" : "s",
+             sequence.simulated(), sequence.kept());
+  if (sequence.simulated() > 0) {
+    fmt::print("{:.1f} s, {:.1f} scans a second\n", seconds,
+               static_cast<double>(sequence.simulated()) / seconds);
+  }
+  fmt::print("{}\n", files.folder().string());
+  return 0;
+}
+
+std::string description() {
+  std::string text =
+      "Simulate a sequence of scans with exact truth.\n\n"
+      "Example:  flagstone simulate --scene steep_street --frames 200 --output simulated\n\n"
+      "Written as SemanticKITTI lays out a sequence. Run again, it keeps the frames that are "
+      "there.\n\nScenes:\n";
+  for (const sim::SceneKind& scene : sim::scene_kinds()) {
+    text += fmt::format("  {:<16} {}\n", scene.name, scene.summary);
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command = app.add_subcommand("simulate", description());
+  command->add_option("--scene", options->scene, "What is simulated; the names stand above")
+      ->required()
+      ->type_name("NAME");
+  command
+      ->add_option("--frames", options->frames,
+                   fmt::format("Scans, 1 to 100000; every {} a new world", drive_length))
+      ->check(CLI::Range(1, 100000))
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Which worlds; the same seed gives the same bytes")
+      ->check(CLI::NonNegativeNumber)  // else -1 would wrap around
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      ->add_option("-o,--output", options->output,
+                   "Folder for sequences/NN with velodyne, labels, poses; made if missing")
+      ->required()
+      ->type_name("DIR");
+  command
+      ->add_option("--sequence", options->sequence,
+                   "Two digits, so that one folder can hold several sequences")
+      ->type_name("NN")
+      ->capture_default_str();
+  command->add_option("--threads", options->threads, "Scans worked on at once. Default: all cores")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  command->callback([options, &exit_code] { exit_code = simulate(*options); });
+}
+
+}  // namespace flagstone::cli

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/simulated_sequence.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+#include "flagstone/version.hpp"
+#include "io/atomic_file.hpp"
+#include "io/cloud.hpp"
+#include "io/label_files.hpp"
+#include "io/load_bytes.hpp"
+#include "io/write_cloud.hpp"
+#include "sim/drive.hpp"
+
+namespace flagstone::cli {
+namespace fs = std::filesystem;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view elsewhere = "choose another --output or --sequence, or remove it";
+
+void must(const Status& status) {
+  if (!status.ok()) throw std::runtime_error(status.message());
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw std::runtime_error(
+        fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+  }
+}
+
+std::string scene_text(const SequenceOrigin& origin) {
+  Json drives = Json::array();
+  for (std::size_t first = 0; first < origin.frames; first += sim::frames_per_drive) {
+    drives.push_back({{"first_frame", first},
+                      {"world_seed", sim::drive_seed(origin.seed, first / sim::frames_per_drive)}});
+  }
+  const Json scene = {{"scene", origin.scene}, {"sensor", origin.sensor},
+                      {"seed", origin.seed},   {"frames", origin.frames},
+                      {"drives", drives},      {"version", FLAGSTONE_VERSION}};
+  return scene.dump(1) + '\n';
+}
+
+// KITTI's readers look for the cameras too; here all frames are the sensor's.
+std::string calibration_text() {
+  std::string text;
+  for (const char* name : {"P0", "P1", "P2", "P3", "Tr"}) {
+    text += fmt::format("{}: 1 0 0 0 0 1 0 0 0 0 1 0\n", name);
+  }
+  return text;
+}
+
+// The size of a regular file, 0 if there is none.
+std::uintmax_t size_of(const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  return error ? 0 : size;
+}
+
+}  // namespace
+
+fs::path SimulatedSequence::scan_file(std::size_t frame) const {
+  return folder_ / "velodyne" / fmt::format("{:06}.bin", frame);
+}
+
+fs::path SimulatedSequence::label_file(std::size_t frame) const {
+  return folder_ / "labels" / fmt::format("{:06}.label", frame);
+}
+
+void SimulatedSequence::refuse_others(const SequenceOrigin& origin) const {
+  const fs::path file = folder_ / "scene.json";
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    // Recorded scans, perhaps: never mixed with simulated ones.
+    if (!fs::exists(folder_, error) || fs::is_empty(folder_, error)) return;
+    throw std::invalid_argument(
+        fmt::format("{}: is there and is no simulated sequence: {}", folder_.string(), elsewhere));
+  }
+  io::FileBytes bytes;
+  must(io::load_bytes(file, bytes));
+  const auto* text = reinterpret_cast<const char*>(bytes.span().data());
+  const Json there = Json::parse(text, text + bytes.span().size(), nullptr, false);
+  const auto says = [&](const char* key, const Json& value) {
+    return there.is_object() && there.contains(key) && there[key] == value;
+  };
+  if (!says("scene", origin.scene) || !says("sensor", origin.sensor) ||
+      !says("seed", origin.seed) || !says("version", FLAGSTONE_VERSION)) {
+    throw std::invalid_argument(
+        fmt::format("{}: is of another scene, seed or version than {}, seed {}, {}: {}",
+                    file.string(), origin.scene, origin.seed, FLAGSTONE_VERSION, elsewhere));
+  }
+  const std::uint64_t frames = there.contains("frames") && there["frames"].is_number_unsigned()
+                                   ? there["frames"].get<std::uint64_t>()
+                                   : 0;
+  if (frames > origin.frames) {
+    throw std::invalid_argument(
+        fmt::format("{}: has {} frames, more than --frames {}: ask for {} or more, or {}",
+                    file.string(), frames, origin.frames, frames, elsewhere));
+  }
+}
+
+void SimulatedSequence::begin(const SequenceOrigin& origin) const {
+  refuse_others(origin);
+  make_folder(folder_);
+  // First of all, so that whatever else is found here later is known to belong to it.
+  must(io::write_file(folder_ / "scene.json", scene_text(origin)));
+  must(io::write_file(folder_ / "calib.txt", calibration_text()));
+  make_folder(folder_ / "velodyne");
+  make_folder(folder_ / "labels");
+}
+
+bool SimulatedSequence::has(std::size_t frame) const {
+  constexpr std::uintmax_t scan_bytes = 4 * sizeof(float);
+  const std::uintmax_t scan = size_of(scan_file(frame));
+  const std::uintmax_t labels = size_of(label_file(frame));
+  return scan > 0 && scan % scan_bytes == 0 && labels == scan / scan_bytes * sizeof(std::uint32_t);
+}
+
+void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan) const {
+  io::Cloud cloud;
+  must(io::Cloud::from_floats(scan.xyzi, 4, cloud));
+  must(io::write_cloud(scan_file(frame), cloud));
+  must(io::write_class_file(label_file(frame), scan.classes));
+}
+
+void SimulatedSequence::write_poses(std::span<const sim::Frame> poses) const {
+  std::string text;
+  for (const sim::Frame& pose : poses) {
+    const auto& [o, f, l, u] = pose;
+    text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} ", f.x, l.x, u.x, o.x);
+    text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} ", f.y, l.y, u.y, o.y);
+    text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", f.z, l.z, u.z, o.z);
+  }
+  must(io::write_file(folder_ / "poses.txt", text));
+}
+
+}  // namespace flagstone::cli

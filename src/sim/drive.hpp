@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/frame.hpp"
+#include "sim/landscape.hpp"
+#include "sim/scan.hpp"
+#include "sim/scene.hpp"
+#include "sim/scene_kind.hpp"
+#include "sim/sensor.hpp"
+
+namespace flagstone::sim {
+
+/// Seed of the world of drive `index` of a sequence: every drive has a world of its own, which does
+/// not depend on how many there are.
+std::uint64_t drive_seed(std::uint64_t sequence_seed, std::uint64_t index) noexcept;
+
+/// frames_per_drive stops of a sensor in one world. Poses are known at once; the world is built by
+/// scene().
+class Drive {
+ public:
+  Drive(const SceneKind& kind, Sensor sensor, std::uint64_t seed);
+
+  /// The sensor in the world at each stop.
+  [[nodiscard]] const std::vector<Frame>& poses() const noexcept { return poses_; }
+
+  /// The world, ready for scan(): the same on every call, a good part of a second of work.
+  [[nodiscard]] Scene scene() const;
+
+  /// What the sensor sees at a stop, 0 <= frame < frames_per_drive. Several threads may ask.
+  [[nodiscard]] SimulatedScan scan(const Scene& scene, const Noise& noise, int frame) const;
+
+ private:
+  Sensor sensor_;
+  std::uint64_t seed_;
+  Landscape landscape_;
+  std::vector<Frame> poses_;
+};
+
+}  // namespace flagstone::sim

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "sim/ground.hpp"
+#include "sim/mesh.hpp"
+#include "sim/route.hpp"
+
+namespace flagstone::sim {
+
+/// A world before anything stands on it. Its ground is quick to make and enough to know every pose;
+/// what stands on it takes longer and is made where it is asked for.
+struct Landscape {
+  Ground ground;
+  std::vector<Stop> route;
+  std::function<Mesh(const Ground&)> furnish;  ///< the same mesh on every call
+};
+
+}  // namespace flagstone::sim

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "sim/scene_kind.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "sim/scenes/scenes.hpp"
+
+namespace flagstone::sim {
+namespace {
+
+constexpr std::array kinds{
+    SceneKind{"flat_street", "residential street, nearly level", flat_street},
+    SceneKind{"steep_street", "the same with grades of 10 to 25 %, crests and dips", steep_street},
+    SceneKind{"parked_cars", "narrow street, cars along both kerbs or in bays", parked_cars},
+    SceneKind{"bushes_and_lawn", "lane through greens: bushes, hedges, tufts, low growth",
+              bushes_and_lawn},
+    SceneKind{"bumpy_field", "open terrain without a road: bumps, slopes, banks, dips",
+              bumpy_field},
+};
+
+}  // namespace
+
+std::span<const SceneKind> scene_kinds() noexcept { return kinds; }
+
+const SceneKind* find_scene_kind(std::string_view name) noexcept {
+  const auto* found = std::ranges::find(kinds, name, &SceneKind::name);
+  return found == kinds.end() ? nullptr : found;
+}
+
+}  // namespace flagstone::sim

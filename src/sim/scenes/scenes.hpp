@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "sim/landscape.hpp"
+
+namespace flagstone::sim {
+
+/// A residential street with grades and slopes below 1 or 2 %: houses, gardens, parked cars,
+/// traffic.
+Landscape flat_street(std::uint64_t seed);
+
+/// A residential street of grades between 10 and 25 % up and down with vertical curves between, on
+/// a hillside: the land climbs evenly behind one sidewalk and falls, down a bank, behind the other.
+Landscape steep_street(std::uint64_t seed);
+
+/// A narrow street between two nearly closed rows of parked cars, along the kerb or in bays, so
+/// close that they hide most of the ground beside the road.
+Landscape parked_cars(std::uint64_t seed);
+
+/// A lane through wavy greens with few houses: many bushes, hedges, tufts and patches of low growth
+/// from the edge of the lane on.
+Landscape bushes_and_lawn(std::uint64_t seed);
+
+/// Open terrain without a road: hills, swells, bumps, mounds, dips and a bank on either side, bare
+/// earth between grass, few plants, a fence. The vehicle pitches and rolls.
+Landscape bumpy_field(std::uint64_t seed);
+
+}  // namespace flagstone::sim

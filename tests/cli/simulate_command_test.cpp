@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cli/command_process.hpp"
+#include "cli/files.hpp"
+#include "cli/line_matchers.hpp"
+#include "io/file_contents.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+std::vector<std::string> arguments(const fs::path& output, const std::string& scene,
+                                   const std::vector<std::string>& more) {
+  std::vector<std::string> all{"simulate", "--scene", scene, "--output", output.string()};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+Outcome simulate(const fs::path& output, const std::string& scene,
+                 const std::vector<std::string>& more) {
+  return run(arguments(output, scene, more));
+}
+
+TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
+  const io::TemporaryFolder folder;
+
+  const Outcome outcome =
+      simulate(folder / "out", "parked_cars", {"--frames", "2", "--sequence", "07", "--seed", "5"});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("2 frames in 1 drive, 2 simulated, 0 kept"));
+  const fs::path sequence = folder / "out" / "sequences" / "07";
+  EXPECT_THAT(names_below(folder / "out"),
+              ElementsAre("sequences/07/calib.txt", "sequences/07/labels/000000.label",
+                          "sequences/07/labels/000001.label", "sequences/07/poses.txt",
+                          "sequences/07/scene.json", "sequences/07/velodyne/000000.bin",
+                          "sequences/07/velodyne/000001.bin"));
+  auto files = files_below(sequence);
+  for (const std::string frame : {"000000", "000001"}) {
+    const std::size_t points = files["velodyne/" + frame + ".bin"].size() / 16;
+    EXPECT_GT(points, 50'000U);
+    EXPECT_EQ(files["labels/" + frame + ".label"].size(), 4 * points);
+  }
+  EXPECT_NE(files["velodyne/000000.bin"], files["velodyne/000001.bin"]);
+  EXPECT_THAT(files["calib.txt"], HasSubstr("Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n"));
+  const std::vector<std::string> poses = lines_of(files["poses.txt"]);
+  ASSERT_THAT(poses, SizeIs(2));
+  std::istringstream numbers(poses[0]);
+  EXPECT_THAT(std::vector<double>(std::istream_iterator<double>(numbers), {}), SizeIs(12));
+  const auto scene = nlohmann::json::parse(files["scene.json"]);
+  EXPECT_EQ(scene["scene"], "parked_cars");
+  EXPECT_EQ(scene["sensor"], "hdl-64e");
+  EXPECT_EQ(scene["seed"], 5);
+  EXPECT_EQ(scene["frames"], 2);
+  ASSERT_THAT(scene["drives"], SizeIs(1));
+  EXPECT_EQ(scene["drives"][0]["first_frame"], 0);
+}
+
+TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
+  const io::TemporaryFolder folder;
+  const fs::path resumed = folder / "resumed" / "sequences" / "00";
+
+  const Outcome whole =
+      simulate(folder / "whole", "bumpy_field", {"--frames", "12", "--threads", "1"});
+  const Outcome begun =
+      simulate(folder / "resumed", "bumpy_field", {"--frames", "4", "--threads", "2"});
+  fs::remove(resumed / "velodyne" / "000001.bin");
+  fs::resize_file(resumed / "labels" / "000002.label", 1000);
+  const Outcome finished =
+      simulate(folder / "resumed", "bumpy_field", {"--frames", "12", "--threads", "2"});
+
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_EQ(begun.exit_code, 0) << begun.err;
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("12 frames in 2 drives, 10 simulated, 2 kept"));
+  const auto expected = files_below(folder / "whole");
+  const auto files = files_below(folder / "resumed");
+  EXPECT_THAT(files, SizeIs(expected.size()));
+  for (const auto& [name, contents] : expected) {
+    EXPECT_TRUE(files.contains(name) && files.at(name) == contents) << name;
+  }
+}
+
+TEST(SimulateCommand, FinishesTheFramesInHandWhenInterrupted) {
+  const io::TemporaryFolder folder;
+  CommandProcess command(arguments(folder / "out", "flat_street", {"--frames", "5000"}));
+  const fs::path first = folder / "out" / "sequences" / "00" / "labels" / "000000.label";
+  for (int wait = 0; wait < 600 && !fs::exists(first); ++wait) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+
+  command.send(SIGINT);
+  const Outcome outcome = command.finish();
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  auto files = files_below(folder / "out" / "sequences" / "00");
+  std::size_t frames = 0;
+  for (const auto& [name, contents] : files) {
+    if (!name.ends_with(".bin")) continue;
+    const std::string stem = fs::path(name).stem().string();
+    EXPECT_EQ(4 * files["labels/" + stem + ".label"].size(), contents.size()) << name;
+    ++frames;
+  }
+  EXPECT_GT(frames, 0U);
+  EXPECT_THAT(outcome.err,
+              is_one_line_with("interrupted, " + std::to_string(frames) + " of 5000 frames"));
+}
+
+TEST(SimulateCommand, AnUnknownSceneIsOneLineWithThoseThereAre) {
+  const io::TemporaryFolder folder;
+
+  const Outcome outcome = simulate(folder / "out", "moon", {});
+
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, is_one_line_with("there is no 'moon'; choose flat_street, steep_street, "
+                                            "parked_cars, bushes_and_lawn, bumpy_field"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST(SimulateCommand, NumbersOutsideTheirRangeAreOneLine) {
+  const io::TemporaryFolder folder;
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--frames", "0"},
+                                                {"--frames", "100001"},
+                                                {"--frames", "ten"},
+                                                {"--seed", "-1"},
+                                                {"--threads", "0"},
+                                                {"--sequence", "7"},
+                                                {"--sequence", "../"}}) {
+    const Outcome outcome = simulate(folder / "out", "flat_street", wrong);
+
+    EXPECT_EQ(outcome.exit_code, 2) << wrong[0] << ' ' << wrong[1];
+    EXPECT_THAT(outcome.err, is_one_line_with(wrong[0]));
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+}
+
+TEST(SimulateCommand, RefusesAFolderThatHoldsSomethingElse) {
+  const io::TemporaryFolder folder;
+  const fs::path velodyne = folder / "kitti" / "sequences" / "00" / "velodyne";
+  fs::create_directories(velodyne);
+  io::put_file(velodyne / "000000.bin", "recorded");
+
+  const Outcome outcome = simulate(folder / "kitti", "flat_street", {"--frames", "1"});
+
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, is_one_line_with("is no simulated sequence"));
+  EXPECT_THAT(names_below(folder / "kitti"), ElementsAre("sequences/00/velodyne/000000.bin"));
+}
+
+TEST(SimulateCommand, RefusesToMixScenesAndSeedsAndToForgetFrames) {
+  const io::TemporaryFolder folder;
+  const Outcome first = simulate(folder / "out", "flat_street", {"--frames", "2"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const auto before = files_below(folder / "out");
+
+  const Outcome other_scene = simulate(folder / "out", "parked_cars", {"--frames", "2"});
+  const Outcome other_seed =
+      simulate(folder / "out", "flat_street", {"--frames", "2", "--seed", "9"});
+  const Outcome fewer = simulate(folder / "out", "flat_street", {"--frames", "1"});
+
+  for (const Outcome& refused : {other_scene, other_seed, fewer}) {
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, is_one_line_with("choose another --output or --sequence"));
+  }
+  EXPECT_EQ(files_below(folder / "out") == before, true);
+}
+
+TEST(SimulateCommand, AnOutputFolderThatCannotBeMadeIsOneLine) {
+  const io::TemporaryFolder folder;
+  io::put_file(folder / "taken", "mine");
+
+  const Outcome outcome = simulate(folder / "taken", "flat_street", {"--frames", "1"});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, is_one_line_with("cannot be made"));
+}
+
+}  // namespace
+}  // namespace flagstone::cli
