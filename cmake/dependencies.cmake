@@ -68,6 +68,28 @@ if(needs_command)
     embree https://github.com/embree/embree/archive/v3.13.5.tar.gz
     b8c22d275d9128741265537c559d0ea73074adbf2f2b66b0a766ca52c52d665b 3)
 
+  # Chart.js, one minified file that the HTML reports carry, draws their plots.
+  find_file(
+    FLAGSTONE_CHART_JS chart.min.js
+    PATHS /usr/local/share/javascript/chart.js /usr/share/javascript/chart.js
+          /usr/local/share/nodejs/chart.js/dist /usr/share/nodejs/chart.js/dist
+    DOC "chart.min.js of Chart.js 3")
+  set(chart_js_banner "")
+  if(FLAGSTONE_CHART_JS)
+    file(READ ${FLAGSTONE_CHART_JS} chart_js_banner LIMIT 100)
+  endif()
+  if(NOT chart_js_banner MATCHES "Chart\\.js v3\\.")
+    set(chart_js_url https://github.com/chartjs/Chart.js/releases/download/v3.9.1/chart.js-3.9.1.tgz)
+    FetchContent_Declare(
+      chart_js
+      SOURCE_SUBDIR no-build
+      URL ${chart_js_url}
+      URL_HASH SHA256=111e0751796f087a51e94dfed910ccfb1278fd30e584a6e48514dba9ae7e72c6)
+    FetchContent_MakeAvailable(chart_js)
+    message(STATUS "Chart.js: not on this system, taken from ${chart_js_url}")
+    set(FLAGSTONE_CHART_JS ${chart_js_SOURCE_DIR}/dist/chart.min.js)
+  endif()
+
   # Cairo and what it stands on are the system's business.
   find_package(PkgConfig QUIET)
   if(PkgConfig_FOUND)

@@ -25,7 +25,7 @@ Cflags: -I${prefix}/@CMAKE_INSTALL_INCLUDEDIR@
 Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -lflagstone
 ]])
 
-install(TARGETS libflagstone EXPORT flagstone)
+install(TARGETS libflagstone libflagstone_baselines EXPORT flagstone)
 install(
   EXPORT flagstone
   NAMESPACE flagstone::

@@ -22,23 +22,30 @@ function(flagstone_library name)
   flagstone_compile_options(flagstone_${name})
 endfunction()
 
-# flagstone_public_library(FOLDERS...) makes flagstone::flagstone, the one library that others link and
-# that is installed, of the objects of those folders. It is shared if BUILD_SHARED_LIBS says so. Its
-# interface is include/flagstone. Inside this project the folders' own targets are linked instead, so
-# that tests see what the interface does not show.
-function(flagstone_public_library)
-  list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_OBJECTS:flagstone_\\1>" OUTPUT_VARIABLE objects)
-  # `flagstone` is the command; target names are one namespace.
-  add_library(libflagstone ${objects})
-  add_library(flagstone::flagstone ALIAS libflagstone)
-  target_compile_features(libflagstone PUBLIC cxx_std_20)
+# flagstone_public_library(NAME FOLDERS folders... [LINK public libraries...]) makes flagstone::NAME, which
+# others link and which is installed, of the objects of those folders. It is shared if BUILD_SHARED_LIBS
+# says so. Its interface is include/flagstone. Inside this project the folders' own targets are linked
+# instead, so that tests see what the interface does not show.
+function(flagstone_public_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;LINK")
+  list(TRANSFORM arg_FOLDERS REPLACE "(.+)" "$<TARGET_OBJECTS:flagstone_\\1>" OUTPUT_VARIABLE objects)
+  # `flagstone` is the command, flagstone_FOLDER a part; target names are one namespace.
+  set(file_name flagstone)
+  if(NOT name STREQUAL flagstone)
+    set(file_name flagstone_${name})
+  endif()
+  set(target lib${file_name})
+  add_library(${target} ${objects})
+  add_library(flagstone::${name} ALIAS ${target})
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target} PUBLIC ${arg_LINK})
   target_include_directories(
-    libflagstone INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-                           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    ${target} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                        $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   set_target_properties(
-    libflagstone
-    PROPERTIES OUTPUT_NAME flagstone
-               EXPORT_NAME flagstone
+    ${target}
+    PROPERTIES OUTPUT_NAME ${file_name}
+               EXPORT_NAME ${name}
                LINKER_LANGUAGE CXX
                VERSION ${PROJECT_VERSION}
                SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "baselines/coordinates.hpp"
+#include "core/moments.hpp"
+#include "flagstone/patch.hpp"
+
+namespace flagstone::baselines {
+
+/// normal . p + d = 0, in single precision, as points are: loops over points stay in float.
+struct Plane {
+  float normal_x = 0;
+  float normal_y = 0;
+  float normal_z = 1;
+  float d = 0;
+
+  /// Signed distance of a point from the plane, positive on the normal's side, metres.
+  [[nodiscard]] float distance(float x, float y, float z) const noexcept {
+    return normal_x * x + normal_y * y + normal_z * z + d;
+  }
+};
+
+/// The plane of least squares through a set of points.
+struct FittedPlane {
+  double count = 0;  ///< points of the set
+  Vector3 mean{};
+  Vector3 normal{};  ///< unit length, z >= 0
+  double d = 0;
+  Vector3 eigenvalues{};  ///< of the covariance, descending, m^2
+
+  /// Three points and more make a plane.
+  [[nodiscard]] bool exists() const noexcept { return count >= 3; }
+  [[nodiscard]] Plane plane() const noexcept;
+};
+
+/// Fits a plane to points whose moments are taken from `origin`.
+FittedPlane fit_plane(const Moments& moments, const Vector3& origin) noexcept;
+
+/// Fits a plane to those points that `in_set(x, y, z)` picks.
+template <class InSet>
+FittedPlane fit_plane(const Coordinates& points, const InSet& in_set) noexcept {
+  if (points.size() == 0) return {};
+  const Vector3 origin = {points.x[0], points.y[0], points.z[0]};
+  Moments moments;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!in_set(points.x[i], points.y[i], points.z[i])) continue;
+    moments.add(points.x[i] - origin[0], points.y[i] - origin[1], points.z[i] - origin[2]);
+  }
+  return fit_plane(moments, origin);
+}
+
+/// Writes the plane into `patch`: a patch of ground.
+void set_ground_plane(const FittedPlane& fit, Patch& patch) noexcept;
+
+}  // namespace flagstone::baselines

@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+// The data contract, clause by clause, for every baseline.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "made_up_cloud.hpp"
+#include "methods.hpp"
+
+namespace flagstone {
+namespace {
+
+using tests::corrupted_cloud;
+using tests::made_up_cloud;
+using tests::view_of;
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+std::vector<Label> labels_of(const tests::Method& method, CloudView cloud) {
+  Segmentation result;
+  EXPECT_TRUE(method.make()->segment(cloud, result).ok());
+  return {result.labels().begin(), result.labels().end()};
+}
+
+bool same_bytes(const Segmentation& a, const Segmentation& b) {
+  return std::ranges::equal(a.labels(), b.labels()) &&
+         std::ranges::equal(std::as_bytes(a.patches()), std::as_bytes(b.patches()));
+}
+
+std::size_t sum_of_counts(const Segmentation& result) {
+  std::size_t sum = 0;
+  for (std::size_t code = 0; code < label_count; ++code) {
+    sum += result.count(static_cast<Label>(code));
+  }
+  return sum;
+}
+
+/// Tests of the contract; the parameter is the method.
+class BaselineContract : public testing::TestWithParam<tests::Method> {
+ protected:
+  [[nodiscard]] static std::vector<Label> labels_of(CloudView cloud) {
+    return flagstone::labels_of(GetParam(), cloud);
+  }
+  [[nodiscard]] static std::vector<Label> labels_of(const std::vector<Point>& cloud) {
+    return labels_of(view_of(cloud));
+  }
+
+  std::unique_ptr<Segmenter> segmenter = GetParam().make();
+  Segmentation result;
+};
+
+INSTANTIATE_TEST_SUITE_P(All, BaselineContract, testing::ValuesIn(tests::methods()),
+                         tests::name_of);
+
+TEST_P(BaselineContract, OneLabelPerPointAndCountsAddUp) {
+  for (const std::size_t points : {0u, 1u, 2u, 3u, 100u, 12345u}) {
+    ASSERT_TRUE(segmenter->segment(view_of(corrupted_cloud(points, 3)), result).ok());
+
+    EXPECT_EQ(result.labels().size(), points);
+    EXPECT_EQ(sum_of_counts(result), points);
+  }
+}
+
+TEST_P(BaselineContract, GroundIsFound) {
+  ASSERT_TRUE(segmenter->segment(view_of(made_up_cloud(64000, 2)), result).ok());
+
+  EXPECT_GT(result.count(Label::ground), 64000u / 3);
+  EXPECT_GT(result.count(Label::nonground), 0u);
+}
+
+TEST_P(BaselineContract, LabelsAreInInputOrder) {
+  std::vector<Point> cloud = made_up_cloud(6400, 1);
+  cloud[3000].y = nan;
+  cloud.back() = {1e6f, 0, 0};
+
+  const std::vector<Label> labels = labels_of(cloud);
+
+  EXPECT_EQ(labels[3000], Label::invalid);
+  EXPECT_EQ(labels.back(), Label::out_of_range);
+  EXPECT_EQ(std::ranges::count(labels, Label::invalid), 1);
+}
+
+TEST_P(BaselineContract, AScanLeavesNoTraceInTheNext) {
+  const std::vector<Point> first = corrupted_cloud(30000, 5);
+  const std::vector<Point> second = made_up_cloud(9000, 6);
+  Segmentation fresh;
+  ASSERT_TRUE(GetParam().make()->segment(view_of(second), fresh).ok());
+
+  ASSERT_TRUE(segmenter->segment(view_of(first), result).ok());
+  ASSERT_TRUE(segmenter->segment(view_of(second), result).ok());
+
+  EXPECT_TRUE(same_bytes(result, fresh));
+}
+
+TEST_P(BaselineContract, RepeatsAreByteIdentical) {
+  const std::vector<Point> cloud = corrupted_cloud(30000, 7);
+  ASSERT_TRUE(segmenter->segment(view_of(cloud), result).ok());
+
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    Segmentation again;
+    ASSERT_TRUE(segmenter->segment(view_of(cloud), again).ok());
+    EXPECT_TRUE(same_bytes(again, result));
+  }
+}
+
+TEST_P(BaselineContract, TheLayoutOfTheInputDoesNotMatter) {
+  const std::vector<Point> cloud = corrupted_cloud(5000, 8);
+  std::vector<float> planar(3 * cloud.size());
+  std::vector<std::byte> blob(17 * cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    planar[i] = cloud[i].x;
+    planar[i + cloud.size()] = cloud[i].y;
+    planar[i + 2 * cloud.size()] = cloud[i].z;
+    std::memcpy(blob.data() + 17 * i + 5, &cloud[i], sizeof(Point));
+  }
+  const auto n = static_cast<std::ptrdiff_t>(cloud.size());
+
+  const std::vector<Label> labels = labels_of(cloud);
+
+  EXPECT_EQ(labels_of(CloudView(planar.data(), cloud.size(), {4, 0, 4 * n, 8 * n})), labels);
+  EXPECT_EQ(labels_of(CloudView(blob.data(), cloud.size(), {17, 5, 9, 13})), labels);
+}
+
+TEST_P(BaselineContract, NothingIsReadOutsideTheUsersBuffer) {
+  // Exactly as long as its points: AddressSanitizer sees a read beyond.
+  for (std::size_t points = 1; points < 70; ++points) {
+    EXPECT_EQ(labels_of(made_up_cloud(points, 9)).size(), points);
+  }
+}
+
+TEST_P(BaselineContract, NothingIsPrinted) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const std::vector<Label> labels = labels_of(corrupted_cloud(20000, 10));
+
+  EXPECT_EQ(labels.size(), 20000u);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_P(BaselineContract, AnyBitPatternIsAllowed) {
+  EXPECT_TRUE(rc::check([](const std::vector<std::uint32_t>& bits) {
+    std::vector<float> floats(bits.size());
+    std::ranges::transform(bits, floats.begin(),
+                           [](std::uint32_t pattern) { return std::bit_cast<float>(pattern); });
+    const std::size_t points = floats.size() / 3;
+
+    RC_ASSERT(labels_of(CloudView(floats.data(), points)).size() == points);
+  }));
+}
+
+TEST_P(BaselineContract, CoordinatesThatAreNotFiniteAreInvalid) {
+  for (const float bad : {nan, inf, -inf}) {
+    EXPECT_EQ(labels_of({{bad, 5, -1.7f}}), std::vector{Label::invalid});
+    EXPECT_EQ(labels_of({{5, bad, -1.7f}}), std::vector{Label::invalid});
+    EXPECT_EQ(labels_of({{5, 5, bad}}), std::vector{Label::invalid});
+  }
+}
+
+TEST_P(BaselineContract, TheAllZeroReturnIsInvalid) {
+  EXPECT_EQ(labels_of({{0, 0, 0}}), std::vector{Label::invalid});
+  EXPECT_EQ(labels_of({{-0.0f, 0, -0.0f}}), std::vector{Label::invalid});
+}
+
+TEST_P(BaselineContract, PointsMoreThanTenKilometresAwayAreOutOfRange) {
+  for (const float far : {10001.0f, -10001.0f, 3e38f, -3e38f}) {
+    EXPECT_EQ(labels_of({{far, 5, -1.7f}}), std::vector{Label::out_of_range});
+    EXPECT_EQ(labels_of({{5, far, -1.7f}}), std::vector{Label::out_of_range});
+    EXPECT_EQ(labels_of({{5, 5, far}}), std::vector{Label::out_of_range});
+  }
+}
+
+TEST_P(BaselineContract, HugeCoordinatesHarmNothingElse) {
+  const std::vector<Point> good = made_up_cloud(20000, 12);
+  std::vector<Point> cloud = good;
+  for (std::size_t i = 0; i < 500; ++i) {
+    cloud.push_back({10 + 0.001f * static_cast<float>(i), 2, 3e38f});
+    cloud.push_back({3e38f, 3e38f, 3e38f});
+  }
+
+  const std::vector<Label> labels = labels_of(cloud);
+
+  EXPECT_TRUE(std::ranges::equal(std::span(labels).first(20000), labels_of(good)));
+  EXPECT_THAT(std::vector(labels.begin() + 20000, labels.end()),
+              testing::Each(Label::out_of_range));
+}
+
+TEST_P(BaselineContract, AnEmptyCloudHasNoLabelsAndNoPatches) {
+  EXPECT_TRUE(segmenter->segment(CloudView(), result).ok());
+
+  EXPECT_TRUE(result.labels().empty());
+  EXPECT_TRUE(result.patches().empty());
+}
+
+TEST_P(BaselineContract, ANullCloudThatClaimsPointsIsRefused) {
+  const Status status =
+      segmenter->segment(CloudView(static_cast<const float*>(nullptr), 5), result);
+
+  EXPECT_EQ(status.code(), StatusCode::invalid_argument);
+  EXPECT_TRUE(result.labels().empty());
+}
+
+TEST_P(BaselineContract, AllPointsEqualAreLabelledAlike) {
+  const std::vector<Label> labels = labels_of(std::vector<Point>(5000, Point{6, 2, -1.7f}));
+
+  EXPECT_THAT(labels, testing::Each(labels.front()));
+}
+
+TEST_P(BaselineContract, AllNotFiniteIsAllInvalid) {
+  EXPECT_THAT(labels_of(std::vector<Point>(1000, {nan, nan, nan})), testing::Each(Label::invalid));
+}
+
+TEST_P(BaselineContract, PatchesHoldEveryPointThatIsJudged) {
+  ASSERT_TRUE(segmenter->segment(view_of(corrupted_cloud(50000, 14)), result).ok());
+  if (result.patches().empty()) return;  // a method without patches
+
+  std::size_t points = 0;
+  std::size_t ground = 0;
+  for (const Patch& patch : result.patches()) {
+    EXPECT_GT(patch.point_count, 0u);
+    points += patch.point_count;
+    ground += patch.ground_count;
+  }
+
+  const std::size_t judged = result.count(Label::ground) + result.count(Label::nonground);
+  EXPECT_GE(points, judged);
+  EXPECT_LE(points, judged + result.count(Label::noise));
+  EXPECT_EQ(ground, result.count(Label::ground));
+}
+
+TEST_P(BaselineContract, EveryPatchOfGroundComesWithItsPlane) {
+  ASSERT_TRUE(segmenter->segment(view_of(corrupted_cloud(50000, 15)), result).ok());
+
+  for (const Patch& patch : result.patches()) {
+    if (!patch.is_ground()) continue;
+    const auto& [x, y, z] = patch.normal;
+    EXPECT_NEAR(x * x + y * y + z * z, 1, 1e-5f);
+    EXPECT_GE(z, 0);
+    EXPECT_NEAR(x * patch.mean[0] + y * patch.mean[1] + z * patch.mean[2] + patch.d, 0, 1e-3f);
+    EXPECT_GE(patch.eigenvalues[0], patch.eigenvalues[1]);
+    EXPECT_GE(patch.eigenvalues[1], patch.eigenvalues[2]);
+  }
+}
+
+/// Tests of the methods for which the order of the points is nothing.
+class OrderFreeBaseline : public testing::TestWithParam<tests::Method> {};
+
+INSTANTIATE_TEST_SUITE_P(All, OrderFreeBaseline, testing::ValuesIn(tests::order_free_methods()),
+                         tests::name_of);
+
+TEST_P(OrderFreeBaseline, PermutingTheInputPermutesTheLabels) {
+  EXPECT_TRUE(rc::check([](std::uint32_t seed) {
+    const std::vector<Point> cloud = corrupted_cloud(4000, seed % 1000);
+    std::vector<std::size_t> order(cloud.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::shuffle(order, std::mt19937(seed));
+    std::vector<Point> shuffled;
+    shuffled.reserve(order.size());
+    for (const std::size_t i : order) shuffled.push_back(cloud[i]);
+
+    const std::vector<Label> labels = labels_of(GetParam(), view_of(cloud));
+    const std::vector<Label> of_shuffled = labels_of(GetParam(), view_of(shuffled));
+
+    // Points within rounding of a threshold may differ, and with one the few of its small patch.
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) different += of_shuffled[i] != labels[order[i]];
+    RC_ASSERT(different <= cloud.size() / 1000);
+  }));
+}
+
+}  // namespace
+}  // namespace flagstone
