@@ -2,7 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "eval/confusion.hpp"
 
+#include <cstddef>
+
 namespace flagstone::eval {
+
+Confusion& Confusion::operator+=(const Confusion& other) noexcept {
+  true_positives += other.true_positives;
+  false_positives += other.false_positives;
+  false_negatives += other.false_negatives;
+  true_negatives += other.true_negatives;
+  return *this;
+}
 
 Confusion compare(std::span<const Label> labels, std::span<const Truth> truth) {
   Confusion confusion;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <span>
 
 #include "core/truth.hpp"
@@ -10,13 +9,21 @@
 
 namespace flagstone::eval {
 
-/// How labels compare with the truth, in points; section IV-B of the paper. A share whose
-/// denominator is zero is 1: nothing was asked for and nothing was missed.
+/// How labels compare with the truth; section IV-B of the paper. In points, or in cells of the
+/// ground where each counts once. A share whose denominator is zero is 1: nothing was asked for and
+/// nothing was missed.
 struct Confusion {
-  std::size_t true_positives = 0;
-  std::size_t false_positives = 0;
-  std::size_t false_negatives = 0;
-  std::size_t true_negatives = 0;
+  double true_positives = 0;
+  double false_positives = 0;
+  double false_negatives = 0;
+  double true_negatives = 0;
+
+  Confusion& operator+=(const Confusion& other) noexcept;
+
+  /// All that was scored.
+  [[nodiscard]] double total() const noexcept {
+    return true_positives + false_positives + false_negatives + true_negatives;
+  }
 
   [[nodiscard]] double precision() const noexcept {
     return share(true_positives, true_positives + false_positives);
@@ -28,14 +35,15 @@ struct Confusion {
     return share(2 * true_positives, 2 * true_positives + false_positives + false_negatives);
   }
   [[nodiscard]] double accuracy() const noexcept {
-    return share(true_positives + true_negatives,
-                 true_positives + true_negatives + false_positives + false_negatives);
+    return share(true_positives + true_negatives, total());
+  }
+  /// Intersection over union of found and true ground.
+  [[nodiscard]] double iou() const noexcept {
+    return share(true_positives, true_positives + false_positives + false_negatives);
   }
 
  private:
-  static double share(std::size_t part, std::size_t whole) noexcept {
-    return whole == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(whole);
-  }
+  static double share(double part, double whole) noexcept { return whole == 0 ? 1 : part / whole; }
 };
 
 /// Compares labels with the truth, one of each per point. Whatever is not labelled ground counts as

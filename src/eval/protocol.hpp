@@ -43,8 +43,15 @@ const Protocol& lidarseg_protocol();
 /// else is not. Every point counts.
 const Protocol& simulation_protocol();
 
+/// Every protocol known by name, in the order above.
+std::span<const Protocol* const> known_protocols() noexcept;
+
 /// What each point is under a protocol. `classes` holds one id per point of `cloud`.
 std::vector<Truth> truth_of(const Protocol& protocol, CloudView cloud,
                             std::span<const std::uint32_t> classes);
+
+/// The same into memory that is used again.
+void truth_of(const Protocol& protocol, CloudView cloud, std::span<const std::uint32_t> classes,
+              std::vector<Truth>& truth);
 
 }  // namespace flagstone::eval

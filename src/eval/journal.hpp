@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "eval/outcome.hpp"
+#include "flagstone/status.hpp"
+
+namespace flagstone::eval {
+
+/// Finished scans of an evaluation on disk, so that an interrupted one can go on: a line of JSON
+/// that says which evaluation it is, then one per scan. A line cut short by a crash is passed over.
+class Journal {
+ public:
+  /// Begins a journal, over an older one. `evaluation` is one line that two evaluations share only
+  /// if their outcomes can be mixed. unwritable.
+  Status start(const std::filesystem::path& path, const std::string& evaluation);
+
+  /// Goes on with a journal: gives what it holds, by scan. Begins one where there is none.
+  /// invalid_argument for one of another evaluation, bad_file for what is no journal, unwritable.
+  Status resume(const std::filesystem::path& path, const std::string& evaluation,
+                std::map<std::string, ScanOutcome>& finished);
+
+  /// Adds a scan; lost if the disk is full, which costs no more than doing it again.
+  void add(const std::string& scan, const ScanOutcome& outcome);
+
+  /// Removes it, once the results are written.
+  void remove();
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+  };
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+}  // namespace flagstone::eval

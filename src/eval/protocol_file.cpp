@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "eval/protocol_file.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/load_bytes.hpp"
+#include "io/message.hpp"
+
+namespace flagstone::eval {
+namespace {
+
+using Json = nlohmann::json;
+constexpr std::uint32_t last_id = 65535;
+
+[[noreturn]] void refuse(const std::string& reason) { throw std::invalid_argument(reason); }
+
+/// TOML as JSON, so that there is one way to read either.
+Json to_json(const toml::node& node) {
+  if (const auto* table = node.as_table()) {
+    Json object = Json::object();
+    for (const auto& [key, value] : *table) object[std::string(key.str())] = to_json(value);
+    return object;
+  }
+  if (const auto* array = node.as_array()) {
+    Json list = Json::array();
+    for (const toml::node& element : *array) list.push_back(to_json(element));
+    return list;
+  }
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  if (const auto whole = node.value_exact<std::int64_t>()) return *whole;
+  if (const auto number = node.value_exact<double>()) return *number;
+  if (const auto flag = node.value_exact<bool>()) return *flag;
+  return {};
+}
+
+Json parse(std::string_view text, bool is_toml) {
+  try {
+    return is_toml ? to_json(toml::parse(text)) : Json::parse(text);
+  } catch (const toml::parse_error& error) {
+    refuse(fmt::format("line {}, column {}: {}", error.source().begin.line,
+                       error.source().begin.column, error.description()));
+  } catch (const Json::parse_error& error) {
+    refuse(fmt::format("byte {}: not JSON", error.byte));
+  }
+}
+
+std::uint32_t id_of(const Json& value, const std::string& key) {
+  const bool is_id = value.is_number_integer() && value >= 0 && value <= last_id;
+  if (!is_id)
+    refuse(fmt::format("{} holds {}; allowed: class ids, 0 to {}", key, value.dump(), last_id));
+  return value.get<std::uint32_t>();
+}
+
+std::vector<std::uint32_t> ids_of(const Json& root, const std::string& key) {
+  std::vector<std::uint32_t> ids;
+  const auto found = root.find(key);
+  if (found == root.end()) return ids;
+  if (!found->is_array()) refuse(fmt::format("{} is no list of class ids", key));
+  for (const Json& id : *found) ids.push_back(id_of(id, key));
+  return ids;
+}
+
+std::vector<Protocol::LowGround> low_ground_of(const Json& root) {
+  std::vector<Protocol::LowGround> all;
+  const auto found = root.find("low_ground");
+  if (found == root.end()) return all;
+  if (!found->is_array()) refuse("low_ground is no list of {id, height}");
+  for (const Json& low : *found) {
+    if (!low.is_object() || !low.contains("id") || !low.contains("height") ||
+        !low["height"].is_number()) {
+      refuse(fmt::format("low_ground holds {}; allowed: {{id, height}}, height in metres",
+                         low.dump()));
+    }
+    all.push_back({id_of(low["id"], "low_ground.id"), low["height"].get<float>()});
+  }
+  return all;
+}
+
+/// Refuses an id that is listed twice.
+void check_lists(const Protocol& protocol, const std::vector<std::uint32_t>& not_ground) {
+  std::vector<std::uint32_t> all = protocol.ground;
+  all.insert(all.end(), protocol.ignored.begin(), protocol.ignored.end());
+  all.insert(all.end(), not_ground.begin(), not_ground.end());
+  for (const auto& low : protocol.low_ground) {
+    if (std::ranges::find(not_ground, low.id) == not_ground.end()) all.push_back(low.id);
+  }
+  std::ranges::sort(all);
+  const auto twice = std::ranges::adjacent_find(all);
+  if (twice != all.end()) refuse(fmt::format("class {} is listed twice", *twice));
+  if (protocol.ground.empty() && protocol.low_ground.empty()) {
+    refuse("ground is missing or empty; list the class ids that are ground");
+  }
+}
+
+Protocol protocol_of(const Json& root, std::string name) {
+  if (!root.is_object()) refuse("is no table with the key ground");
+  Protocol protocol;
+  if (const auto own = root.find("name"); own != root.end() && own->is_string()) {
+    name = own->get<std::string>();
+  }
+  protocol.name = std::move(name);
+  protocol.ground = ids_of(root, "ground");
+  protocol.ignored = ids_of(root, "ignored");
+  protocol.low_ground = low_ground_of(root);
+  check_lists(protocol, ids_of(root, "not_ground"));
+  return protocol;
+}
+
+}  // namespace
+
+Status read_protocol(const std::filesystem::path& path, Protocol& out) {
+  const bool is_toml = path.extension() == ".toml";
+  if (!is_toml && path.extension() != ".json") {
+    return io::refuse(path, "a protocol's file ends in .toml or .json");
+  }
+  io::FileBytes bytes;
+  if (Status status = io::load_bytes(path, bytes); !status.ok()) return status;
+  const std::span<const std::byte> span = std::as_const(bytes).span();
+  try {
+    const std::string_view text(reinterpret_cast<const char*>(span.data()), span.size());
+    out = protocol_of(parse(text, is_toml), path.stem().string());
+  } catch (const std::invalid_argument& error) {
+    return io::with_path(path, Status(StatusCode::bad_file, io::printable(error.what())));
+  }
+  return {};
+}
+
+Status find_protocol(const std::string& name_or_file, Protocol& out) {
+  std::string known;
+  for (const Protocol* protocol : known_protocols()) {
+    if (protocol->name == name_or_file) {
+      out = *protocol;
+      return {};
+    }
+    known += protocol->name + ", ";
+  }
+  if (name_or_file.ends_with(".toml") || name_or_file.ends_with(".json")) {
+    return read_protocol(name_or_file, out);
+  }
+  return io::invalid("no protocol is named \"{}\"; there are {}or a .toml or .json file",
+                     name_or_file, known);
+}
+
+}  // namespace flagstone::eval

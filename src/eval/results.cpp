@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "eval/results.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+namespace flagstone::eval {
+namespace {
+
+Spread over_scans(const std::vector<ScanScore>& scans,
+                  double (Confusion::*share)() const noexcept) {
+  std::vector<double> values;
+  values.reserve(scans.size());
+  for (const ScanScore& scan : scans) values.push_back((scan.score.points.*share)());
+  return spread_of(values);
+}
+
+void summarize_speed(MethodResult& result) {
+  std::vector<double> times;
+  for (const ScanScore& scan : result.scans) {
+    if (scan.segment_ms) times.push_back(*scan.segment_ms);
+  }
+  if (times.empty()) return;
+  constexpr double second = 1000;
+  result.hz = second / spread_of(times).mean;
+  result.hz_slowest_1_percent = second / mean_of_slowest_percent(times);
+}
+
+void summarize(MethodResult& result) {
+  result.precision = over_scans(result.scans, &Confusion::precision);
+  result.recall = over_scans(result.scans, &Confusion::recall);
+  result.f1 = over_scans(result.scans, &Confusion::f1);
+  result.accuracy = over_scans(result.scans, &Confusion::accuracy);
+  result.iou = over_scans(result.scans, &Confusion::iou);
+  for (const ScanScore& scan : result.scans) {
+    result.pooled += scan.score.points;
+    result.by_area += scan.score.by_area;
+    for (std::size_t band = 0; band < result.by_range.size(); ++band) {
+      result.by_range[band] += scan.score.by_range[band];
+    }
+  }
+  summarize_speed(result);
+}
+
+void add(const LabelledScan& scan, const ScanOutcome& outcome, Results& results) {
+  if (outcome.error) {
+    results.failures.push_back({scan.name, *outcome.error});
+    return;
+  }
+  ++results.scans;
+  results.time.read += outcome.read_ms;
+  results.time.score += outcome.score_ms;
+  for (std::size_t m = 0; m < results.methods.size(); ++m) {
+    const MethodOutcome& made = outcome.methods[m];
+    if (made.error) {
+      results.failures.push_back({scan.name, *made.error});
+      continue;
+    }
+    results.methods[m].scans.push_back({scan.name, made.score, made.segment_ms});
+    results.time.segment += made.segment_ms.value_or(0);
+  }
+}
+
+}  // namespace
+
+Results gather(std::span<const Method> methods, std::span<const LabelledScan> scans,
+               std::span<const std::optional<ScanOutcome>> outcomes) {
+  Results results;
+  for (const Method& method : methods) {
+    MethodResult& result = results.methods.emplace_back();
+    result.name = method.name;
+    result.title = method.title;
+  }
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::optional<ScanOutcome>& outcome = outcomes[i];
+    if (outcome) add(scans[i], *outcome, results);
+  }
+  for (MethodResult& result : results.methods) summarize(result);
+  return results;
+}
+
+std::vector<std::size_t> worst_scans(const MethodResult& result, std::size_t count) {
+  std::vector<std::size_t> order(result.scans.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {},
+                           [&](std::size_t i) { return result.scans[i].score.points.f1(); });
+  order.resize(std::min(count, order.size()));
+  return order;
+}
+
+}  // namespace flagstone::eval

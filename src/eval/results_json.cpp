@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "eval/results_json.hpp"
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+
+#include "eval/machine.hpp"
+#include "flagstone/version.hpp"
+
+namespace flagstone::eval {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json shares(const Confusion& confusion) {
+  return {{"precision", confusion.precision()},
+          {"recall", confusion.recall()},
+          {"f1", confusion.f1()},
+          {"accuracy", confusion.accuracy()},
+          {"iou", confusion.iou()}};
+}
+
+Json by_range(const MethodResult& result) {
+  Json bands = Json::array();
+  float from = 0;
+  for (std::size_t band = 0; band < range_bands.size(); ++band) {
+    Json entry = {{"from", from}, {"to", range_bands[band]}};
+    entry.update(shares(result.by_range[band]));
+    entry["points"] = result.by_range[band].total();
+    bands.push_back(std::move(entry));
+    from = range_bands[band];
+  }
+  return bands;
+}
+
+Json per_scan(const MethodResult& result) {
+  Json scans = Json::array();
+  for (const ScanScore& scan : result.scans) {
+    Json entry = {{"scan", scan.scan}};
+    entry.update(shares(scan.score.points));
+    entry["milliseconds"] = or_null(scan.segment_ms);
+    scans.push_back(std::move(entry));
+  }
+  return scans;
+}
+
+Json to_json(const MethodResult& result) {
+  Json json = {{"name", result.name}, {"title", result.title}};
+  json["precision"] = to_json(result.precision);
+  json["recall"] = to_json(result.recall);
+  json["f1"] = to_json(result.f1);
+  json["accuracy"] = to_json(result.accuracy);
+  json["iou"] = to_json(result.iou);
+  json["pooled"] = shares(result.pooled);
+  json["pooled"]["points"] = result.pooled.total();
+  json["by_range"] = by_range(result);
+  json["by_area"] = shares(result.by_area);
+  json["by_area"]["cells"] = result.by_area.total();
+  json["hz"] = or_null(result.hz);
+  json["hz_slowest_1_percent"] = or_null(result.hz_slowest_1_percent);
+  json["worst"] = Json::array();
+  constexpr std::size_t worst_count = 5;
+  for (const std::size_t i : worst_scans(result, worst_count)) {
+    json["worst"].push_back(result.scans[i].scan);
+  }
+  json["per_scan"] = per_scan(result);
+  return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Spread& spread) {
+  return {{"mean", spread.mean}, {"std", or_null(spread.std)}, {"ci95", or_null(spread.ci95)}};
+}
+
+nlohmann::ordered_json results_heading() {
+  return {{"flagstone", FLAGSTONE_VERSION}, {"date", today()}, {"machine", machine_name()}};
+}
+
+nlohmann::ordered_json to_json(const Results& results) {
+  Json json = results_heading();
+  json["threads"] = results.threads;
+  json["protocol"] = results.protocol;
+  json["datasets"] = results.datasets;
+  json["scans"] = results.scans;
+  json["failed"] = Json::array();
+  for (const Failure& failure : results.failures) {
+    json["failed"].push_back({{"scan", failure.scan}, {"error", failure.error}});
+  }
+  json["milliseconds"] = {{"read", results.time.read},
+                          {"segment", results.time.segment},
+                          {"score", results.time.score}};
+  json["methods"] = Json::array();
+  for (const MethodResult& result : results.methods) json["methods"].push_back(to_json(result));
+  return json;
+}
+
+}  // namespace flagstone::eval

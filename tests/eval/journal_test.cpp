@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "eval/journal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "io/temporary_folder.hpp"
+
+namespace flagstone::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+ScanOutcome outcome_with(double true_positives) {
+  MethodOutcome made;
+  made.score.points = {true_positives, 2, 3, 4};
+  made.score.by_area = {0.125, 0.25, 0.5, 1.0 / 3};
+  made.score.by_range[2] = {5, 6, 7, 8};
+  made.segment_ms = 1.1;
+  MethodOutcome failed;
+  failed.error = "scan: \xff is no UTF-8";
+  ScanOutcome outcome;
+  outcome.methods = {made, failed};
+  outcome.read_ms = 0.1;
+  outcome.score_ms = 0.2;
+  return outcome;
+}
+
+class JournalFile : public testing::Test {
+ protected:
+  std::map<std::string, ScanOutcome> resumed(const std::string& evaluation) {
+    Journal journal;
+    std::map<std::string, ScanOutcome> finished;
+    const Status status = journal.resume(file_, evaluation, finished);
+    EXPECT_TRUE(status.ok()) << status.message();
+    return finished;
+  }
+
+  io::TemporaryFolder folder_;
+  fs::path file_ = folder_ / "results.json.journal";
+};
+
+TEST_F(JournalFile, GivesBackWhatWasAddedBitForBit) {
+  {
+    Journal journal;
+    ASSERT_TRUE(journal.start(file_, "one").ok());
+    journal.add("05/000001", outcome_with(1));
+  }
+
+  const auto finished = resumed("one");
+
+  ASSERT_EQ(finished.count("05/000001"), 1u);
+  const ScanOutcome& outcome = finished.at("05/000001");
+  ASSERT_EQ(outcome.methods.size(), 2u);
+  const Score& score = outcome.methods[0].score;
+  EXPECT_EQ(score.points.true_positives, 1);
+  EXPECT_EQ(score.by_area.true_negatives, 1.0 / 3);
+  EXPECT_EQ(score.by_range[2].false_negatives, 7);
+  EXPECT_EQ(outcome.methods[0].segment_ms, 1.1);
+  EXPECT_TRUE(outcome.methods[1].error);
+}
+
+TEST_F(JournalFile, ALineCutShortCostsItsScanOnly) {
+  {
+    Journal journal;
+    ASSERT_TRUE(journal.start(file_, "one").ok());
+    journal.add("a", outcome_with(1));
+    journal.add("b", outcome_with(2));
+  }
+  fs::resize_file(file_, fs::file_size(file_) - 9);
+
+  EXPECT_EQ(resumed("one").count("b"), 0u);
+
+  {
+    Journal journal;
+    std::map<std::string, ScanOutcome> finished;
+    ASSERT_TRUE(journal.resume(file_, "one", finished).ok());
+    journal.add("c", outcome_with(3));
+  }
+  const auto finished = resumed("one");
+  EXPECT_EQ(finished.count("a"), 1u);
+  EXPECT_EQ(finished.count("c"), 1u);
+}
+
+TEST_F(JournalFile, OutcomesOfAnotherEvaluationAreNotMixedIn) {
+  ASSERT_TRUE(Journal().start(file_, "one").ok());
+  Journal journal;
+  std::map<std::string, ScanOutcome> finished;
+
+  const Status status = journal.resume(file_, "two", finished);
+
+  EXPECT_EQ(status.code(), StatusCode::invalid_argument);
+  EXPECT_THAT(status.message(), HasSubstr("--resume"));
+}
+
+TEST_F(JournalFile, AnyOtherFileIsLeftAlone) {
+  std::ofstream(file_) << "precious\n";
+  Journal journal;
+  std::map<std::string, ScanOutcome> finished;
+
+  EXPECT_EQ(journal.resume(file_, "one", finished).code(), StatusCode::bad_file);
+  EXPECT_EQ(fs::file_size(file_), 9u);
+}
+
+TEST_F(JournalFile, ScansThatCouldNotBeReadAreTriedAgain) {
+  {
+    Journal journal;
+    ASSERT_TRUE(journal.start(file_, "one").ok());
+    ScanOutcome failed;
+    failed.error = "a: gone";
+    journal.add("a", failed);
+  }
+
+  EXPECT_TRUE(resumed("one").empty());
+}
+
+}  // namespace
+}  // namespace flagstone::eval
