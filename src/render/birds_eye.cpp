@@ -72,21 +72,16 @@ Status check(CloudView cloud, const Segmentation& result, const BirdsEye& option
   return check_zones(result, options);
 }
 
-void fill(const Canvas& canvas, const Rectangle& rectangle, Color color) noexcept {
-  add_rectangle(canvas.context(), rectangle);
-  set_color(canvas.context(), color);
-  cairo_fill(canvas.context());
-}
-
 std::vector<std::byte> picture(CloudView cloud, const Segmentation& result,
                                const BirdsEye& options) {
   const Canvas canvas(options.width, options.height);
   const Layout layout = arrange(options.width, options.height, options.tint_patches ? 2 : 1);
   const double range =
-      options.range != 0 ? options.range : suitable_range(cloud, result, options.zones);
+      options.range != 0 ? options.range : suitable_range(cloud, result.labels(), options.zones);
   const TopView view(layout.panel, range);
-  const PointKinds points = options.reference.empty() ? kinds_by_label(result)
-                                                      : kinds_by_truth(result, options.reference);
+  const PointKinds points = options.reference.empty()
+                                ? kinds_by_label(result.labels())
+                                : kinds_by_truth(result.labels(), options.reference);
 
   fill(canvas, {0, 0, static_cast<double>(options.width), static_cast<double>(options.height)},
        page_color);
@@ -100,7 +95,7 @@ std::vector<std::byte> picture(CloudView cloud, const Segmentation& result,
   const std::size_t beyond = draw_points(canvas, view, cloud, points, layout.unit);
   draw_scale(canvas, view, range, circles, layout.unit);
   draw_beyond_note(canvas, layout, beyond);
-  draw_heading(canvas, layout, options.title, options.subtitle);
+  draw_heading(canvas, layout.heading, layout.unit, options.title, options.subtitle);
   draw_legend(canvas, layout, points, result.patches(), options.tint_patches);
   return canvas.png();
 }

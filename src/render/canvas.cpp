@@ -63,4 +63,10 @@ void add_rectangle(cairo_t* context, const Rectangle& rectangle, double radius) 
   cairo_close_path(context);
 }
 
+void fill(const Canvas& canvas, const Rectangle& rectangle, Color color) noexcept {
+  add_rectangle(canvas.context(), rectangle);
+  set_color(canvas.context(), color);
+  cairo_fill(canvas.context());
+}
+
 }  // namespace flagstone::render

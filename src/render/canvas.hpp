@@ -64,4 +64,7 @@ void set_color(cairo_t* context, Color color, double opacity = 1) noexcept;
 /// Appends a rectangle, its corners rounded by `radius` pixels, to the path.
 void add_rectangle(cairo_t* context, const Rectangle& rectangle, double radius = 0) noexcept;
 
+/// Fills a rectangle with a colour.
+void fill(const Canvas& canvas, const Rectangle& rectangle, Color color) noexcept;
+
 }  // namespace flagstone::render

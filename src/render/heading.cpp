@@ -6,15 +6,14 @@
 
 namespace flagstone::render {
 
-void draw_heading(const Canvas& canvas, const Layout& layout, std::string_view title,
-                  std::string_view subtitle) {
+void draw_heading(const Canvas& canvas, const Rectangle& heading, double unit,
+                  std::string_view title, std::string_view subtitle) {
   cairo_t* context = canvas.context();
-  const auto& [x, y, width, height] = layout.heading;
-  const Font title_font{.size = 36 * layout.unit, .bold = true, .color = text_color};
-  const Font subtitle_font{.size = 26 * layout.unit, .bold = false, .color = muted_text_color};
-  draw_text(context, x, y + 28 * layout.unit, fitted(context, title, title_font, width),
-            title_font);
-  draw_text(context, x, y + 66 * layout.unit, fitted(context, subtitle, subtitle_font, width),
+  const auto& [x, y, width, height] = heading;
+  const Font title_font{.size = 36 * unit, .bold = true, .color = text_color};
+  const Font subtitle_font{.size = 26 * unit, .bold = false, .color = muted_text_color};
+  draw_text(context, x, y + 28 * unit, fitted(context, title, title_font, width), title_font);
+  draw_text(context, x, y + 66 * unit, fitted(context, subtitle, subtitle_font, width),
             subtitle_font);
 }
 

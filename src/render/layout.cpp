@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/birds_eye.hpp"
+#include "render/side_by_side.hpp"
 
 namespace flagstone::render {
 
@@ -24,6 +25,33 @@ Layout arrange(int width, int height, int legend_rows) noexcept {
           .heading = {margin, margin, inner_width, heading_height},
           .panel = {margin, panel_top, inner_width, panel_bottom - panel_top},
           .legend = {margin, panel_bottom + gap, inner_width, legend_height}};
+}
+
+PanelGrid arrange_panels(int width, std::size_t panels) {
+  static const SideBySide defaults;
+  // Four look better as two rows of two.
+  const std::size_t columns = panels == 4 ? 2 : std::clamp<std::size_t>(panels, 1, 3);
+  const std::size_t rows = (panels + columns - 1) / columns;
+  const double unit = static_cast<double>(width) / defaults.width;
+  const double margin = std::round(40 * unit);
+  const double gap = std::round(24 * unit);
+  const double heading_height = std::round(92 * unit);
+  const double legend_height = std::round(64 * unit);
+  const double inner_width = width - 2 * margin;
+  const double side = std::floor((inner_width + gap) / static_cast<double>(columns) - gap);
+  const double row_height = side + std::round(caption_height * unit);
+  const double legend_top = margin + heading_height + static_cast<double>(rows) * row_height + gap;
+
+  PanelGrid grid{.unit = unit,
+                 .height = static_cast<int>(legend_top + legend_height + margin),
+                 .heading = {margin, margin, inner_width, heading_height},
+                 .panels = {},
+                 .legend = {margin, legend_top, inner_width, legend_height}};
+  for (std::size_t panel = 0; panel < panels; ++panel)
+    grid.panels.emplace_back(
+        margin + static_cast<double>(panel % columns) * (side + gap),
+        margin + heading_height + static_cast<double>(panel / columns) * row_height, side, side);
+  return grid;
 }
 
 }  // namespace flagstone::render

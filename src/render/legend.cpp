@@ -108,6 +108,15 @@ void draw_legend(const Canvas& canvas, const Layout& layout, const PointKinds& p
   draw_row(canvas.context(), row, "Patches", verdicts, columns, layout.unit);
 }
 
+void draw_kind_names(const Canvas& canvas, const Rectangle& legend, double unit,
+                     const PointKinds& points, const std::string& note) {
+  std::vector<Entry> kinds = point_entries(points);
+  for (Entry& kind : kinds) kind.numbers.clear();
+  draw_row(canvas.context(), legend, "Points", kinds, kinds.size(), unit);
+  const Font font{.size = 22 * unit, .bold = false, .color = muted_text_color};
+  draw_text(canvas.context(), legend.x, legend.y + 62 * unit, note, font);
+}
+
 void draw_beyond_note(const Canvas& canvas, const Layout& layout, std::size_t beyond) {
   if (beyond == 0) return;
   cairo_t* context = canvas.context();

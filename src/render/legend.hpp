@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 
 #include "flagstone/patch.hpp"
 #include "render/canvas.hpp"
@@ -16,6 +17,10 @@ namespace flagstone::render {
 /// tinted, a second one of their verdicts.
 void draw_legend(const Canvas& canvas, const Layout& layout, const PointKinds& points,
                  std::span<const Patch> patches, bool tinted);
+
+/// Writes a row of colours and names alone into `legend`, and `note` below.
+void draw_kind_names(const Canvas& canvas, const Rectangle& legend, double unit,
+                     const PointKinds& points, const std::string& note);
 
 /// Writes at the panel's lower edge how many points do not show, if any.
 void draw_beyond_note(const Canvas& canvas, const Layout& layout, std::size_t beyond);

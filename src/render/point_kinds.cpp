@@ -28,7 +28,7 @@ void add_point(PointKinds& points, Label label, std::uint8_t kind) {
 
 }  // namespace
 
-PointKinds kinds_by_label(const Segmentation& result) {
+PointKinds kinds_by_label(std::span<const Label> labels) {
   PointKinds points;
   // Yellow and cyan as in Fig. 7 of the paper.
   points.kinds = {
@@ -39,14 +39,14 @@ PointKinds kinds_by_label(const Segmentation& result) {
       {.name = "invalid (hidden)", .color = {112, 121, 133}, .size = 1, .drawn = false},
   };
   points.drawing_order = {3, 0, 1, 2};
-  points.of_point.reserve(result.labels().size());
+  points.of_point.reserve(labels.size());
   constexpr std::array<std::uint8_t, label_count> kind_of_code = {1, 0, 2, 3, 4};
-  for (const Label label : result.labels())
+  for (const Label label : labels)
     add_point(points, label, kind_of_code[static_cast<std::size_t>(label)]);
   return points;
 }
 
-PointKinds kinds_by_truth(const Segmentation& result, std::span<const Truth> reference) {
+PointKinds kinds_by_truth(std::span<const Label> labels, std::span<const Truth> reference) {
   PointKinds points;
   // Errors are larger, so that they show among many right points and without telling red from
   // green.
@@ -60,7 +60,7 @@ PointKinds kinds_by_truth(const Segmentation& result, std::span<const Truth> ref
   points.drawing_order = {not_scored, true_positive, true_negative, false_negative, false_positive};
   points.of_point.reserve(reference.size());
   for (std::size_t i = 0; i < reference.size(); ++i)
-    add_point(points, result.labels()[i], outcome(result.labels()[i], reference[i]));
+    add_point(points, labels[i], outcome(labels[i], reference[i]));
   return points;
 }
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "flagstone/segmentation.hpp"
-#include "render/birds_eye.hpp"
+#include "core/truth.hpp"
+#include "flagstone/label.hpp"
 #include "render/palette.hpp"
 
 namespace flagstone::render {
@@ -33,9 +33,9 @@ struct PointKinds {
 };
 
 /// Kinds by label.
-PointKinds kinds_by_label(const Segmentation& result);
+PointKinds kinds_by_label(std::span<const Label> labels);
 
 /// Kinds by comparing label and reference, which has an entry per label.
-PointKinds kinds_by_truth(const Segmentation& result, std::span<const Truth> reference);
+PointKinds kinds_by_truth(std::span<const Label> labels, std::span<const Truth> reference);
 
 }  // namespace flagstone::render

@@ -11,22 +11,23 @@ namespace {
 
 constexpr double widest = 1000;
 
-std::vector<double> distances(CloudView cloud, const Segmentation& result) {
+std::vector<double> distances(CloudView cloud, std::span<const Label> labels) {
   std::vector<double> all;
   all.reserve(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point point = cloud[i];
     const double distance = std::hypot(double{point.x}, double{point.y});
-    if (result.labels()[i] != Label::invalid && std::isfinite(distance)) all.push_back(distance);
+    if (labels[i] != Label::invalid && std::isfinite(distance)) all.push_back(distance);
   }
   return all;
 }
 
 }  // namespace
 
-double suitable_range(CloudView cloud, const Segmentation& result, const PatchworkConfig* zones) {
+double suitable_range(CloudView cloud, std::span<const Label> labels,
+                      const PatchworkConfig* zones) {
   const double bound = zones != nullptr ? double{zones->zones.back().ring_radii.back()} : widest;
-  std::vector<double> all = distances(cloud, result);
+  std::vector<double> all = distances(cloud, labels);
   if (all.empty()) return zones != nullptr ? bound : 50;
   // The ceiling makes sure that of a few points none is left out.
   const auto rank = static_cast<std::size_t>(std::ceil(0.98 * static_cast<double>(all.size() - 1)));

@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "flagstone/cloud_view.hpp"
+#include "flagstone/label.hpp"
 #include "flagstone/patchwork_config.hpp"
-#include "flagstone/segmentation.hpp"
 
 namespace flagstone::render {
 
 /// Half of the picture's shorter side in metres where the caller names none: the radius that holds
 /// 98 % of the points that can be drawn, rounded up to 10 m; at most the last ring's of `zones`,
 /// where given, and 1,000 m. Without points, that bound or 50 m.
-double suitable_range(CloudView cloud, const Segmentation& result, const PatchworkConfig* zones);
+double suitable_range(CloudView cloud, std::span<const Label> labels, const PatchworkConfig* zones);
 
 /// Distance between range rings, metres: 1, 2 or 5 times a power of ten, such that at least three
 /// rings fit into `range`.

@@ -42,23 +42,6 @@ void draw_captions(cairo_t* context, const TopView& view, std::span<const double
   }
 }
 
-// An arrowhead at the origin that points forward.
-void draw_sensor(cairo_t* context, const TopView& view, double unit) noexcept {
-  const double x = view.panel().center_x();
-  const double y = view.panel().center_y();
-  cairo_move_to(context, x, y - 17 * unit);
-  cairo_line_to(context, x + 12 * unit, y + 14 * unit);
-  cairo_line_to(context, x, y + 8 * unit);
-  cairo_line_to(context, x - 12 * unit, y + 14 * unit);
-  cairo_close_path(context);
-  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
-  cairo_set_line_width(context, 5 * unit);
-  set_color(context, panel_color);
-  cairo_stroke_preserve(context);
-  set_color(context, page_color);
-  cairo_fill(context);
-}
-
 void draw_arrow(cairo_t* context, double x, double y, double to_x, double to_y,
                 double unit) noexcept {
   const double length = std::hypot(to_x - x, to_y - y);
@@ -138,6 +121,23 @@ void draw_range_rings(const Canvas& canvas, const TopView& view, std::span<const
   cairo_restore(context);
 }
 
+void draw_sensor(const Canvas& canvas, const TopView& view, double unit) noexcept {
+  cairo_t* context = canvas.context();
+  const double x = view.panel().center_x();
+  const double y = view.panel().center_y();
+  cairo_move_to(context, x, y - 17 * unit);
+  cairo_line_to(context, x + 12 * unit, y + 14 * unit);
+  cairo_line_to(context, x, y + 8 * unit);
+  cairo_line_to(context, x - 12 * unit, y + 14 * unit);
+  cairo_close_path(context);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_width(context, 5 * unit);
+  set_color(context, panel_color);
+  cairo_stroke_preserve(context);
+  set_color(context, page_color);
+  cairo_fill(context);
+}
+
 void draw_scale(const Canvas& canvas, const TopView& view, double range,
                 std::span<const double> radii, double unit) {
   cairo_t* context = canvas.context();
@@ -145,7 +145,7 @@ void draw_scale(const Canvas& canvas, const TopView& view, double range,
   add_rectangle(context, view.panel());
   cairo_clip(context);
   draw_captions(context, view, radii, unit);
-  draw_sensor(context, view, unit);
+  draw_sensor(canvas, view, unit);
   draw_axes(context, view.panel(), unit);
   draw_scale_bar(context, view, range, unit);
   cairo_restore(context);

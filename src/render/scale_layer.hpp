@@ -13,6 +13,9 @@ namespace flagstone::render {
 void draw_range_rings(const Canvas& canvas, const TopView& view, std::span<const double> radii,
                       double unit) noexcept;
 
+/// An arrowhead at the origin that points forward.
+void draw_sensor(const Canvas& canvas, const TopView& view, double unit) noexcept;
+
 /// What tells place, size and direction, on top of the points: the circles' captions in metres, the
 /// mark of the sensor, the axes (lower left) and the scale bar (lower right). `radii` ascend.
 void draw_scale(const Canvas& canvas, const TopView& view, double range,

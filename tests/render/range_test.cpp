@@ -24,9 +24,9 @@ PatchworkConfig config_to(float last_ring) {
 TEST(SuitableRange, IsRoundedUpToTenMetres) {
   LabelledScan scan;
   scan.add(30, 40, 0, Label::ground);
-  EXPECT_EQ(suitable_range(scan.cloud(), scan.result, nullptr), 50);
+  EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), nullptr), 50);
   scan.add(0, -50.1f, 0, Label::nonground);
-  EXPECT_EQ(suitable_range(scan.cloud(), scan.result, nullptr), 60);
+  EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), nullptr), 60);
 }
 
 TEST(SuitableRange, IsNotSetByAFewFarPoints) {
@@ -34,7 +34,7 @@ TEST(SuitableRange, IsNotSetByAFewFarPoints) {
   for (int i = 0; i < 99; ++i) scan.add(15, 0, 0, Label::ground);
   scan.add(1e30f, 0, 0, Label::nonground);
 
-  EXPECT_EQ(suitable_range(scan.cloud(), scan.result, nullptr), 20);
+  EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), nullptr), 20);
 }
 
 TEST(SuitableRange, PassesOverInvalidPoints) {
@@ -44,7 +44,7 @@ TEST(SuitableRange, PassesOverInvalidPoints) {
   for (int i = 0; i < 50; ++i)
     scan.add(std::numeric_limits<float>::quiet_NaN(), 0, 0, Label::nonground);
 
-  EXPECT_EQ(suitable_range(scan.cloud(), scan.result, nullptr), 20);
+  EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), nullptr), 20);
 }
 
 TEST(SuitableRange, EndsAtTheLastRing) {
@@ -52,22 +52,20 @@ TEST(SuitableRange, EndsAtTheLastRing) {
   LabelledScan scan;
   scan.add(500, 0, 0, Label::out_of_range);
 
-  EXPECT_EQ(suitable_range(scan.cloud(), scan.result, &config), 80);
+  EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), &config), 80);
 }
 
 TEST(SuitableRange, EndsAtAKilometreWithoutZones) {
   LabelledScan scan;
   scan.add(1e38f, 1e38f, 0, Label::out_of_range);
 
-  EXPECT_EQ(suitable_range(scan.cloud(), scan.result, nullptr), 1000);
+  EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), nullptr), 1000);
 }
 
 TEST(SuitableRange, WithoutPointsIsThatOfTheZones) {
   const PatchworkConfig config = config_to(120);
-  const Segmentation nothing;
-
-  EXPECT_EQ(suitable_range({}, nothing, &config), 120);
-  EXPECT_EQ(suitable_range({}, nothing, nullptr), 50);
+  EXPECT_EQ(suitable_range({}, {}, &config), 120);
+  EXPECT_EQ(suitable_range({}, {}, nullptr), 50);
 }
 
 TEST(RingStep, IsRoundAndLeavesRoomForThreeRings) {

@@ -1,0 +1,20 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+
+# cmake -D name=NAME -D file=FILE -D source=SOURCE -P embed.cmake
+# writes the C++ file SOURCE, in which embedded::NAME is the text of FILE. Compilers need not take so
+# long a literal, hence the warning; GCC and clang do.
+file(READ ${file} text)
+file(WRITE ${source} "// Made of ${file} by embed.cmake.
+#include \"report/embedded_files.hpp\"
+
+#pragma GCC diagnostic ignored \"-Woverlength-strings\"
+
+namespace flagstone::report::embedded {
+namespace {
+constexpr char text[] = R\"embedded(${text})embedded\";
+}  // namespace
+
+constinit const std::string_view ${name}(text, sizeof(text) - 1);
+}  // namespace flagstone::report::embedded
+")
