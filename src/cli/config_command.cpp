@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <string>
+#include <variant>
 
 #include "cli/config_toml.hpp"
 #include "cli/method_options.hpp"
@@ -19,9 +21,11 @@ void add_config_command(CLI::App& app, int& exit_code) {
                          "Example:  flagstone config --preset paper > mine.toml\n");
   options->add_to(*command);
   command->callback([options, &exit_code] {
-    const PatchworkConfig config = options->resolve();
-    fmt::print("# flagstone, method {}, from preset {}\n\n{}", options->method, options->preset,
-               to_toml(config));
+    const MethodConfig config = options->resolve();
+    const std::string origin = std::holds_alternative<PatchworkConfig>(config)
+                                   ? fmt::format(", from preset {}", options->preset)
+                                   : "";
+    fmt::print("# flagstone, method {}{}\n\n{}", options->method, origin, to_toml(config));
     exit_code = 0;
   });
 }

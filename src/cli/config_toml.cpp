@@ -15,59 +15,11 @@
 #include <variant>
 #include <vector>
 
+#include "baselines/settings.hpp"
 #include "io/message.hpp"
 
 namespace flagstone::cli {
 namespace {
-
-struct Setting {
-  std::string_view key;  ///< dotted: "elevation.scale" is `scale` in the table `elevation`
-  std::variant<float*, int*, bool*, std::vector<float>*> value;
-  std::string_view comment;
-};
-
-/// All settings but the zones, in the order they are printed.
-std::vector<Setting> settings_of(PatchworkConfig& c) {
-  return {
-      {"sensor_height", &c.sensor_height, "h_s: sensor above ground, metres; -100 to 100"},
-      {"min_range", &c.min_range, "L_min: nearer points are out of range, metres; 0 to 1000"},
-      {"noise_depth", &c.noise_depth,
-       "points lower than -h_s - noise_depth - noise_slope * r are noise, metres; 0 to 1000, inf: "
-       "none"},
-      {"noise_slope", &c.noise_slope, "steepest descent of ground still believed, m/m; 0 to 10"},
-      {"min_points", &c.min_points, "bins with fewer points are not fitted; 3 to 1000000"},
-      {"few_points_are_ground", &c.few_points_are_ground, "what the points of such bins are"},
-      {"seed_count", &c.seed_count, "N_seed: lowest points that start the fit; 1 to 1000"},
-      {"seed_height", &c.seed_height, "z_seed, eq. (4), metres; above 0, up to 100"},
-      {"keep_below_margin", &c.keep_below_margin,
-       "whether points below a zone's height margin may enter the first ground set"},
-      {"distance_margin", &c.distance_margin, "M_d, eqs. (5) and (6), metres; above 0, up to 100"},
-      {"noise_margin", &c.noise_margin,
-       "points farther below the plane are no part of it but noise, metres; above 0, up to 1000, "
-       "inf: none"},
-      {"iterations", &c.iterations, "plane fits a bin; 1 to 100"},
-      {"judge_final_set", &c.judge_final_set,
-       "whether the likelihood judges the final ground set (paper) or the last fitted one (public "
-       "code)"},
-      {"uprightness.enabled", &c.uprightness.enabled, "phi, eq. (8)"},
-      {"uprightness.angle", &c.uprightness.angle,
-       "theta_tau: smallest angle between normal and x-y plane, degrees; 0 to 90"},
-      {"elevation.enabled", &c.elevation.enabled, "psi, eq. (9)"},
-      {"elevation.base", &c.elevation.base,
-       "kappa(r) = -h_s + base * exp(growth * r), metres; 0 to 100"},
-      {"elevation.growth", &c.elevation.growth, "per metre; 0 to 1"},
-      {"elevation.range", &c.elevation.range,
-       "L_tau: bins centred beyond are not judged by elevation, metres; 0 to 1000"},
-      {"elevation.scale", &c.elevation.scale,
-       "width of the step, metres; above 0, up to 1000; 1 is the paper's formula"},
-      {"flatness.enabled", &c.flatness.enabled, "varphi, eq. (10)"},
-      {"flatness.gain", &c.flatness.gain, "zeta; above 1, up to 1000"},
-      {"flatness.thresholds", &c.flatness.thresholds,
-       "sigma_tau of each ring, the last one for all beyond; each 0 to 1/3"},
-      {"flatness.scale", &c.flatness.scale,
-       "width of the step, units of sigma; above 0, up to 1000; 1 is the paper's formula"},
-  };
-}
 
 /// The shortest text that reads back to the same float, and to a float in TOML.
 std::string toml_text(float value) {
@@ -82,6 +34,12 @@ std::string toml_text(const std::vector<float>& values) {
   texts.reserve(values.size());
   for (const float value : values) texts.push_back(toml_text(value));
   return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+std::string comment_of(const Setting& setting) {
+  const bool is_flag = std::holds_alternative<bool*>(setting.value);
+  return is_flag ? std::string(setting.meaning)
+                 : fmt::format("{}; {}", setting.meaning, to_string(setting.allowed));
 }
 
 std::string zones_text(const std::vector<Zone>& zones) {
@@ -181,28 +139,38 @@ void assign_zones(const toml::node& node, std::string_view source, std::vector<Z
 }
 
 void apply_table(const toml::table& table, const std::string& prefix, std::string_view source,
-                 const std::vector<Setting>& settings, PatchworkConfig& config) {
+                 const std::vector<Setting>& settings, std::vector<Zone>* zones) {
   for (const auto& [key, node] : table) {
     const std::string full = prefix + std::string(key.str());
     const Place place(source, node.source());
     const auto setting = std::ranges::find(settings, full, &Setting::key);
     const bool is_section = std::ranges::any_of(
         settings, [&](const Setting& s) { return s.key.starts_with(full + "."); });
-    if (full == "zones") {
-      assign_zones(node, source, config.zones);
+    if (full == "zones" && zones != nullptr) {
+      assign_zones(node, source, *zones);
     } else if (setting != settings.end()) {
       std::visit([&](auto* value) { assign(node, full, place, *value); }, setting->value);
     } else if (is_section && node.is_table()) {
-      apply_table(*node.as_table(), full + ".", source, settings, config);
+      apply_table(*node.as_table(), full + ".", source, settings, zones);
     } else {
       place.refuse(full + " is no setting; 'flagstone config' prints all there are");
     }
   }
 }
 
+/// `zones` is null for methods that have none.
+void apply_text(std::string_view text, std::string_view source,
+                const std::vector<Setting>& settings, std::vector<Zone>* zones) {
+  try {
+    apply_table(toml::parse(text, source), "", source, settings, zones);
+  } catch (const toml::parse_error& error) {
+    Place(source, error.source()).refuse(std::string(error.description()));
+  }
+}
+
 }  // namespace
 
-std::string to_toml(PatchworkConfig config) {
+std::string to_toml(MethodConfig config) {
   std::string text;
   std::string_view section;
   for (const Setting& setting : settings_of(config)) {
@@ -215,17 +183,27 @@ std::string to_toml(PatchworkConfig config) {
         dot == std::string_view::npos ? setting.key : setting.key.substr(dot + 1);
     const std::string value =
         std::visit([](const auto* pointer) { return toml_text(*pointer); }, setting.value);
-    text += fmt::format("{} = {}  # {}\n", name, value, setting.comment);
+    text += fmt::format("{} = {}  # {}\n", name, value, comment_of(setting));
   }
-  return text + zones_text(config.zones);
+  const auto* patchwork = std::get_if<PatchworkConfig>(&config);
+  return patchwork == nullptr ? text : text + zones_text(patchwork->zones);
+}
+
+void apply_toml(std::string_view text, std::string_view source, MethodConfig& config) {
+  if (auto* patchwork = std::get_if<PatchworkConfig>(&config)) {
+    apply_text(text, source, settings_of(*patchwork), &patchwork->zones);
+  } else {
+    apply_text(text, source, settings_of(config), nullptr);
+  }
 }
 
 void apply_toml(std::string_view text, std::string_view source, PatchworkConfig& config) {
-  try {
-    const toml::table table = toml::parse(text, source);
-    apply_table(table, "", source, settings_of(config), config);
-  } catch (const toml::parse_error& error) {
-    Place(source, error.source()).refuse(std::string(error.description()));
+  apply_text(text, source, settings_of(config), &config.zones);
+}
+
+void set_sensor_height(float height, MethodConfig& config) {
+  for (const Setting& setting : settings_of(config)) {
+    if (setting.key == "sensor_height") *std::get<float*>(setting.value) = height;
   }
 }
 

@@ -5,17 +5,21 @@
 #include <string>
 #include <string_view>
 
-#include "flagstone/patchwork_config.hpp"
+#include "flagstone/make_segmenter.hpp"
 
 namespace flagstone::cli {
 
 /// Every setting as commented TOML, which `apply_toml` reads back to the same configuration.
-std::string to_toml(PatchworkConfig config);
+std::string to_toml(MethodConfig config);
 
 /// Overwrites the settings that `text` names; the others stay. Zones are replaced as a whole.
 /// Throws std::invalid_argument with one line that begins with `source`, the file's name, for a
 /// syntax error, a setting there is none of, or a value of the wrong type. Ranges are not checked
 /// here.
+void apply_toml(std::string_view text, std::string_view source, MethodConfig& config);
 void apply_toml(std::string_view text, std::string_view source, PatchworkConfig& config);
+
+/// Sets the sensor's height, metres, in the settings of methods that have one.
+void set_sensor_height(float height, MethodConfig& config);
 
 }  // namespace flagstone::cli

@@ -13,9 +13,12 @@
 
 #include "cli/config_command.hpp"
 #include "cli/demo_command.hpp"
+#include "cli/eval_command.hpp"
 #include "cli/info_command.hpp"
 #include "cli/print_error.hpp"
 #include "cli/segment_command.hpp"
+#include "cli/simulate_command.hpp"
+#include "cli/sweep_command.hpp"
 #include "flagstone/version.hpp"
 
 namespace {
@@ -42,6 +45,9 @@ int run(int argc, char** argv) {
   app.formatter(std::make_shared<BriefListing>());
   int exit_code = 0;
   flagstone::cli::add_segment_command(app, exit_code);
+  flagstone::cli::add_simulate_command(app, exit_code);
+  flagstone::cli::add_eval_command(app, exit_code);
+  flagstone::cli::add_sweep_command(app, exit_code);
   flagstone::cli::add_demo_command(app, exit_code);
   flagstone::cli::add_info_command(app, exit_code);
   flagstone::cli::add_config_command(app, exit_code);

@@ -3,16 +3,15 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "flagstone/patchwork_config.hpp"
+#include "flagstone/make_segmenter.hpp"
 
 namespace flagstone::cli {
 
-/// The options that say how to segment, shared by the commands that do.
+/// The options that say how to segment, shared by the commands that run one method.
 struct MethodOptions {
   std::string method = "patchwork";
   std::string preset = "default";
@@ -25,7 +24,17 @@ struct MethodOptions {
 
   /// The settings they come to: preset, then file, then --set, then --sensor-height; checked.
   /// Throws std::invalid_argument with one line that says what is wrong.
-  [[nodiscard]] PatchworkConfig resolve() const;
+  [[nodiscard]] MethodConfig resolve() const;
 };
+
+/// Adds --preset to a command: which of Patchwork's presets to start from.
+CLI::Option* add_preset_option(CLI::App& command, std::string& preset);
+
+/// Adds --sensor-height to a command.
+CLI::Option* add_sensor_height_option(CLI::App& command, std::optional<float>& height);
+
+/// Overwrites the settings that a TOML file names. Throws std::invalid_argument with one line that
+/// says what is wrong.
+void apply_file(const std::string& file, MethodConfig& config);
 
 }  // namespace flagstone::cli

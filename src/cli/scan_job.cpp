@@ -93,7 +93,7 @@ Status ScanWorker::work(const ScanInput& input, ScanReport& report) {
   if (Status status = io::read_cloud(input.file, job_.read, cloud_); !status.ok()) return status;
   report.read_ms = watch.lap();
 
-  Status status = patchwork_.segment(cloud_.view(), result_);
+  Status status = segmenter_->segment(cloud_.view(), result_);
   report.segment_ms = watch.lap();
   if (!status.ok()) {
     return Status(status.code(), fmt::format("{}: {} points are more than the memory holds",
@@ -178,8 +178,8 @@ Status ScanWorker::score_and_draw(const ScanInput& input, ScanReport& report) {
   render::BirdsEye options;
   options.title = input.file.filename().string();
   options.subtitle = subtitle(report);
-  options.zones = &job_.config;
-  options.tint_patches = job_.tint_patches;
+  options.zones = std::get_if<PatchworkConfig>(&job_.config);
+  options.tint_patches = job_.tint_patches && options.zones != nullptr;
   options.reference = truth;
   const fs::path picture = with_suffix(job_.output / input.output_stem, ".png");
   Status status = render::draw_birds_eye(picture, cloud_.view(), result_, options);

@@ -3,11 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "cli/scan_inputs.hpp"
 #include "cli/scan_report.hpp"
-#include "flagstone/patchwork.hpp"
+#include "flagstone/make_segmenter.hpp"
 #include "io/cloud.hpp"
 #include "io/label_files.hpp"
 #include "io/read_cloud.hpp"
@@ -25,7 +26,8 @@ enum class OutputFormat {
 
 /// What to do with every scan.
 struct ScanJob {
-  PatchworkConfig config;
+  std::string method;
+  MethodConfig config;
   io::ReadOptions read;
   std::filesystem::path output;
   OutputFormat format = OutputFormat::label;
@@ -38,7 +40,8 @@ struct ScanJob {
 /// Reads, segments and writes one scan after another, reusing its memory. One per thread.
 class ScanWorker {
  public:
-  explicit ScanWorker(const ScanJob& job) : job_(job), patchwork_(job.config) {}
+  explicit ScanWorker(const ScanJob& job)
+      : job_(job), segmenter_(make_segmenter(job.method, job.config)) {}
 
   /// Never throws: what goes wrong with this scan is in the report.
   ScanReport run(const ScanInput& input) noexcept;
@@ -50,7 +53,7 @@ class ScanWorker {
   Status score_and_draw(const ScanInput& input, ScanReport& report);
 
   const ScanJob& job_;
-  Patchwork patchwork_;
+  std::unique_ptr<Segmenter> segmenter_;
   Segmentation result_;
   io::Cloud cloud_;
 };

@@ -7,16 +7,15 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "cli/crew.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/method_options.hpp"
 #include "cli/print_error.hpp"
@@ -92,26 +91,9 @@ class Reporter {
   bool json_;
 };
 
-void run_all(const std::vector<ScanInput>& scans, const ScanJob& job, unsigned threads,
-             Reporter& reporter) {
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    ScanWorker worker(job);
-    while (!interrupted()) {
-      const std::size_t index = next++;
-      if (index >= scans.size()) return;
-      reporter.add(index, worker.run(scans[index]));
-    }
-  };
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  const std::size_t count = std::min<std::size_t>(threads, scans.size());
-  std::vector<std::jthread> crew;
-  for (std::size_t i = 1; i < count; ++i) crew.emplace_back(work);
-  work();
-}
-
 int segment(const SegmentOptions& options) {
-  const ScanJob job{.config = options.method.resolve(),
+  const ScanJob job{.method = options.method.method,
+                    .config = options.method.resolve(),
                     .read = {.columns = options.columns},
                     .output = options.output,
                     .format = options.format,
@@ -123,7 +105,11 @@ int segment(const SegmentOptions& options) {
 
   catch_interrupts();
   Reporter reporter(scans.size(), options.json);
-  run_all(scans, job, options.threads, reporter);
+  run_crew(scans.size(), options.threads, [&] {
+    return [&, worker = std::make_shared<ScanWorker>(job)](std::size_t index) {
+      reporter.add(index, worker->run(scans[index]));
+    };
+  });
   const std::vector<ScanReport> reports = reporter.finish();
 
   if (!options.json && scans.size() > 1) fmt::print("{}", summary_text(reports));

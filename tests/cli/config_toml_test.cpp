@@ -106,9 +106,11 @@ RC_GTEST_PROP(ConfigToml, AnyConfigurationReadsBackTheSame, ()) {
 }
 
 TEST(ConfigToml, EverySettingIsCommented) {
-  const std::string text = to_toml({});
+  const std::string text = to_toml(PatchworkConfig{});
 
-  EXPECT_THAT(text, HasSubstr("\ndistance_margin = 0.125  # M_d, eqs. (5) and (6), metres"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("\ndistance_margin = 0.125  # M_d, eqs. (5) and (6); above 0, up to 100 m\n"));
   EXPECT_THAT(text, HasSubstr("\n[elevation]\nenabled = true  # psi, eq. (9)"));
   EXPECT_THAT(text, HasSubstr("\n[[zones]]\n"));
 }

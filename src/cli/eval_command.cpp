@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/eval_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <cstddef>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/eval_methods.hpp"
+#include "cli/evaluation.hpp"
+#include "cli/result_files.hpp"
+#include "cli/scan_pictures.hpp"
+#include "eval/machine.hpp"
+#include "eval/results_csv.hpp"
+#include "eval/results_json.hpp"
+#include "eval/results_text.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+struct EvalOptions {
+  EvaluationOptions evaluation;
+  EvalMethods methods;
+  ResultFiles files;
+  std::size_t pictures = 0;
+  std::string output = "flagstone-eval";
+  bool speed = false;
+};
+
+void print_tables(const eval::Results& results, bool speed) {
+  const eval::TextStyle style{.bold = isatty(STDOUT_FILENO) != 0};
+  fmt::print(
+      "Protocol {}, {}; percent. Means over scans, std: sample standard deviation, ±95%: half "
+      "width of the\n95 % interval of the mean (Student's t, scans taken for independent). "
+      "F1/area: each 0.5 m cell counts once.\n\n{}\n",
+      results.protocol, scans_text(results), eval::accuracy_table(results, style));
+  fmt::print("F1 by horizontal range, over all points of a band\n\n{}\n",
+             eval::range_table(results, style));
+  fmt::print("Lowest F1\n\n{}\n", eval::worst_table(results, 3));
+  if (speed) {
+    fmt::print(
+        "Scans a second, one at a time on one core of {}; slowest 1%: of the scans; paper: on "
+        "an i7-7700K,\nsequence 05 of SemanticKITTI\n\n{}\n",
+        eval::machine_name(), eval::speed_table(results));
+  }
+  fmt::print("{}", eval::time_shares(results));
+}
+
+int evaluate(const EvalOptions& options) {
+  EvaluationOptions how = options.evaluation;
+  if (options.speed) how.threads = 1;
+  Evaluation evaluation(how, options.methods.resolve(), options.files.journal());
+  const eval::Results results = evaluation.run();
+  if (results.scans == 0) return 1;
+
+  print_tables(results, options.speed);
+  if (evaluation.was_interrupted()) return 1;
+  const std::vector<report::ReportPicture> pictures =
+      draw_worst_scans(evaluation, results, options.pictures, options.output);
+  const auto json = [&] { return eval::to_json(results); };
+  constexpr auto replace = nlohmann::json::error_handler_t::replace;  // file names may not be UTF-8
+  options.files.write([&] { return json().dump(2, ' ', false, replace) + "\n"; },
+                      [&] { return eval::to_csv(results); },
+                      [&] { return report::eval_report(json(), pictures); });
+  evaluation.remove_journal();
+  return results.failures.empty() ? 0 : 1;
+}
+
+}  // namespace
+
+void add_eval_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<EvalOptions>();
+  CLI::App* command = app.add_subcommand(
+      "eval",
+      "Score methods on labelled scans.\n\n"
+      "Example:  flagstone eval SemanticKITTI --protocol patchwork --methods table1 --every 10\n");
+  options->evaluation.add_to(*command);
+  options->methods.add_to(*command);
+  options->files.add_to(*command);
+  command
+      ->add_option("--pictures", options->pictures,
+                   "Draw the N worst scans, methods side by side, into the folder of --output")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N");
+  command->add_option("-o,--output", options->output, "Folder for pictures; made if missing")
+      ->capture_default_str()
+      ->type_name("DIR");
+  command->add_flag("--speed", options->speed,
+                    "One thread, and a table of scans a second beside the paper's Table II");
+  command->callback([options, &exit_code] { exit_code = evaluate(*options); });
+}
+
+}  // namespace flagstone::cli

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/eval_methods.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "cli/config_toml.hpp"
+#include "cli/method_options.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+/// The nine rows of the paper's Table I.
+bool is_in_table_1(std::string_view name) { return name != "patchwork"; }
+
+std::vector<std::string> expanded(const std::vector<std::string>& listed) {
+  std::vector<std::string> names;
+  const auto add = [&](std::string_view name) {
+    if (std::ranges::find(names, name) == names.end()) names.emplace_back(name);
+  };
+  for (const std::string& entry : listed) {
+    if (entry == "none") continue;
+    if (entry != "all" && entry != "table1") add(entry);
+    for (const std::string_view name : method_names()) {
+      if (entry == "all" || (entry == "table1" && is_in_table_1(name))) add(name);
+    }
+  }
+  return names;
+}
+
+/// "gpf.segments=5" is a setting of method gpf.
+std::pair<std::string, std::string> split_setting(const std::string& setting) {
+  const std::size_t dot = setting.find('.');
+  const std::string method = setting.substr(0, std::min(dot, setting.size()));
+  const auto names = method_names();
+  if (dot == std::string::npos || std::ranges::find(names, method) == names.end()) {
+    throw std::invalid_argument(
+        fmt::format("--set {}: begins with a method and a dot, e.g. --set gpf.segments=5; methods "
+                    "are {}",
+                    setting, fmt::join(names, ", ")));
+  }
+  return {method, setting.substr(dot + 1)};
+}
+
+eval::Method labels_made_elsewhere(const std::string& entry, io::LabelMap map) {
+  const std::size_t equals = entry.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == entry.size()) {
+    throw std::invalid_argument(
+        fmt::format("--labels {}: allowed: NAME=DIR, e.g. --labels other=out/other", entry));
+  }
+  eval::Method method;
+  method.name = entry.substr(0, equals);
+  method.title = method.name;
+  method.labels = entry.substr(equals + 1);
+  method.label_map = map;
+  if (!std::filesystem::is_directory(method.labels)) {
+    throw std::invalid_argument(
+        fmt::format("--labels {}: {}: no such folder", entry, method.labels.string()));
+  }
+  return method;
+}
+
+}  // namespace
+
+void EvalMethods::add_to(CLI::App& command) {
+  command
+      .add_option(
+          "--methods", names,
+          fmt::format("What to evaluate, in this order: {}; table1: the nine of the paper's "
+                      "Table I; all; none",
+                      fmt::join(method_names(), ", ")))
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str()
+      ->type_name("LIST");
+  add_preset_option(command, preset)
+      ->description("Patchwork's settings to start from, for the rows CZM + ... too");
+  command
+      .add_option("--config", config_file,
+                  "TOML file of Patchwork's settings, as 'flagstone config' prints")
+      ->type_name("FILE");
+  command
+      .add_option(
+          "--set", settings,
+          "One setting of one method, e.g. --set gpf.segments=5; those of patchwork hold for "
+          "the rows CZM + ... too; may repeat")
+      ->type_name("METHOD.KEY=VALUE")
+      ->allow_extra_args(false);
+  add_sensor_height_option(command, sensor_height);
+  command
+      .add_option(
+          "--labels", labels,
+          "Labels that another program made, scored like a method: NAME.label or NAME.npy of "
+          "each scan, one code a point, 1 for ground; may repeat")
+      ->type_name("NAME=DIR")
+      ->allow_extra_args(false);
+  const std::map<std::string, io::LabelMap> maps = {
+      {"flagstone", io::LabelMap::flagstone}, {"semantic-kitti", io::LabelMap::semantic_kitti}};
+  command
+      .add_option("--label-map", label_map,
+                  "Codes in --labels: flagstone (1 is ground), or semantic-kitti (the classes that "
+                  "the protocol takes for ground)")
+      ->transform(CLI::Transformer(maps).description(""))
+      ->transform(CLI::IsMember(maps));
+}
+
+std::vector<eval::Method> EvalMethods::resolve() const {
+  MethodConfig base = PatchworkConfig::preset(preset);
+  if (!config_file.empty()) apply_file(config_file, base);
+  std::vector<std::pair<std::string, std::string>> own_settings;
+  for (const std::string& setting : settings) {
+    auto [method, rest] = split_setting(setting);
+    if (method == "patchwork") {
+      apply_toml(rest, fmt::format("--set {}", setting), base);
+    } else {
+      own_settings.emplace_back(std::move(method), std::move(rest));
+    }
+  }
+
+  std::vector<eval::Method> methods;
+  for (const std::string& name : expanded(names)) {
+    MethodConfig config = default_config(name, std::get<PatchworkConfig>(base));
+    for (const auto& [method, setting] : own_settings) {
+      if (method == name) apply_toml(setting, fmt::format("--set {}.{}", name, setting), config);
+    }
+    if (sensor_height) set_sensor_height(*sensor_height, config);
+    methods.push_back(eval::method_of(name, std::move(config)));
+  }
+  for (const std::string& entry : labels) {
+    methods.push_back(labels_made_elsewhere(entry, label_map));
+  }
+  if (methods.empty())
+    throw std::invalid_argument("no method to evaluate; see --methods, --labels");
+  std::map<std::string, int> count;
+  for (const eval::Method& method : methods) {
+    if (++count[method.name] == 2) {
+      throw std::invalid_argument(fmt::format("two methods are called {}", method.name));
+    }
+  }
+  return methods;
+}
+
+}  // namespace flagstone::cli

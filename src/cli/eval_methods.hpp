@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/App.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/method.hpp"
+
+namespace flagstone::cli {
+
+/// The options that say which methods are evaluated, and with which settings.
+struct EvalMethods {
+  std::vector<std::string> names = {"patchwork"};
+  std::string preset = "default";
+  std::string config_file;
+  std::vector<std::string> settings;  ///< method.key=value
+  std::optional<float> sensor_height;
+  std::vector<std::string> labels;  ///< name=folder
+  io::LabelMap label_map = io::LabelMap::flagstone;
+
+  /// Adds the options to a command.
+  void add_to(CLI::App& command);
+
+  /// The methods in the order they are listed, each once; then those whose labels were made
+  /// elsewhere. Throws std::invalid_argument with one line that says what is wrong.
+  [[nodiscard]] std::vector<eval::Method> resolve() const;
+};
+
+}  // namespace flagstone::cli

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/scan_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "eval/scan_evaluator.hpp"
+#include "io/atomic_file.hpp"
+#include "render/side_by_side.hpp"
+
+namespace flagstone::cli {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double percent = 100;
+
+void throw_if_bad(const Status& status) {
+  if (!status.ok()) throw std::runtime_error(status.message());
+}
+
+/// Indices of scans, the one with the lowest mean F1 over the methods first.
+std::vector<std::size_t> worst_first(const Evaluation& evaluation, const eval::Results& results) {
+  std::map<std::string, std::vector<double>> values;
+  for (const eval::MethodResult& method : results.methods) {
+    for (const eval::ScanScore& scan : method.scans) {
+      values[scan.scan].push_back(scan.score.points.f1());
+    }
+  }
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < evaluation.scans().size(); ++i) {
+    if (values.contains(evaluation.scans()[i].name)) order.push_back(i);
+  }
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    return eval::spread_of(values[evaluation.scans()[i].name]).mean;
+  });
+  return order;
+}
+
+std::string scores_text(const eval::Confusion& points) {
+  return fmt::format("precision {:.2f} %, recall {:.2f} %, F1 {:.2f} %",
+                     percent * points.precision(), percent * points.recall(),
+                     percent * points.f1());
+}
+
+std::vector<std::byte> draw(eval::ScanEvaluator& evaluator, const Evaluation& evaluation,
+                            const eval::LabelledScan& scan) {
+  std::vector<std::vector<Label>> labels;
+  for (std::size_t m = 0; m < evaluation.methods().size(); ++m) {
+    const std::span<const Label> found = evaluator.labels(scan, m);
+    labels.emplace_back(found.begin(), found.end());
+  }
+  std::vector<std::string> subtitles;
+  std::vector<render::Panel> panels;
+  subtitles.reserve(labels.size());
+  for (std::size_t m = 0; m < labels.size(); ++m) {
+    if (labels[m].size() != evaluator.truth().size()) continue;  // said when it was evaluated
+    subtitles.push_back(scores_text(eval::compare(labels[m], evaluator.truth())));
+    panels.push_back({evaluation.methods()[m].title, subtitles.back(), labels[m]});
+  }
+  std::vector<std::byte> png;
+  throw_if_bad(render::render_side_by_side(
+      evaluator.cloud(), evaluator.truth(), panels,
+      {.title = scan.name, .subtitle = fmt::format("protocol {}", evaluation.protocol().name)},
+      png));
+  return png;
+}
+
+}  // namespace
+
+std::vector<report::ReportPicture> draw_worst_scans(const Evaluation& evaluation,
+                                                    const eval::Results& results, std::size_t count,
+                                                    const fs::path& folder) {
+  std::vector<report::ReportPicture> pictures;
+  if (count == 0) return pictures;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  eval::ScanEvaluator evaluator(evaluation.methods(), evaluation.protocol(),
+                                evaluation.read_options());
+  std::vector<std::size_t> order = worst_first(evaluation, results);
+  order.resize(std::min(count, order.size()));
+  for (const std::size_t i : order) {
+    const eval::LabelledScan& scan = evaluation.scans()[i];
+    std::vector<std::byte> png = draw(evaluator, evaluation, scan);
+    std::string name = scan.name;
+    std::ranges::replace(name, '/', '-');
+    const fs::path file = folder / (name + ".png");
+    throw_if_bad(io::write_file(file, std::span<const std::byte>(png)));
+    fmt::print("drew {}\n", file.string());
+    pictures.push_back({scan.name, std::move(png)});
+  }
+  return pictures;
+}
+
+}  // namespace flagstone::cli
