@@ -1,0 +1,195 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Runs other people's ground segmentation over a dataset and writes their labels for `flagstone eval --labels`.
+
+    python3 -m pip install numpy pypatchworkpp==1.4.1 open3d cloth-simulation-filter
+    python3 bench/peers.py DATASET --output /tmp/peers
+
+The last line printed is the command that scores them beside our methods. Packages that are not installed are
+left out, and said so. Datasets are those of `flagstone eval`: a tree of sequences/NN/velodyne, a folder with
+velodyne/, or NAME.pcd.bin files. Every peer runs with its own defaults on one core, after one scan to warm up;
+its labels are uint32, 1 for ground, in the order of the scan.
+"""
+
+import argparse
+import contextlib
+import importlib
+import os
+import pathlib
+import shlex
+import sys
+import time
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # before any of the packages is loaded
+
+import numpy as np
+
+
+def pypatchworkpp_peer(method, sensor_height):
+    package = importlib.import_module("pypatchworkpp")
+    classes = {
+        "patchwork": (package.PatchworkParams, package.patchwork),
+        "patchworkpp": (package.Parameters, package.patchworkpp),
+    }
+
+    def prepare():  # anew for every scan: patchworkpp adapts itself to earlier ones
+        make_parameters, make = classes[method]
+        parameters = make_parameters()
+        parameters.sensor_height = sensor_height
+        parameters.verbose = False
+        segmenter = make(parameters)
+
+        def ground(points):
+            segmenter.estimateGround(points)
+            return segmenter.getGroundIndices()
+
+        return ground
+
+    return prepare
+
+
+def open3d_ransac(_sensor_height):
+    """The largest plane: threshold 0.2 m, like flagstone's own RANSAC, and 1,000 trials."""
+    open3d = importlib.import_module("open3d")
+
+    def ground(points):
+        open3d.utility.random.seed(0)
+        cloud = open3d.geometry.PointCloud(
+            open3d.utility.Vector3dVector(points[:, :3].astype(np.float64))
+        )
+        _, inliers = cloud.segment_plane(distance_threshold=0.2, ransac_n=3, num_iterations=1000)
+        return inliers
+
+    return lambda: ground
+
+
+def cloth_simulation(_sensor_height):
+    """W. Zhang et al., "An Easy-to-Use Airborne LiDAR Data Filtering Method Based on Cloth Simulation",
+    Remote Sensing 8(6), 2016; cells of 0.5 m, which suit streets."""
+    package = importlib.import_module("CSF")
+
+    def ground(points):
+        csf = package.CSF()
+        csf.params.bSloopSmooth = False
+        csf.params.cloth_resolution = 0.5
+        csf.setPointCloud(points[:, :3].astype(np.float64))
+        found, others = package.VecInt(), package.VecInt()
+        csf.do_filtering(found, others, False)
+        return np.array(found, int)
+
+    return lambda: ground
+
+
+PEERS = {
+    "pypatchworkpp-patchwork": lambda height: pypatchworkpp_peer("patchwork", height),
+    "pypatchworkpp-patchworkpp": lambda height: pypatchworkpp_peer("patchworkpp", height),
+    "open3d-ransac": open3d_ransac,
+    "csf": cloth_simulation,
+}
+
+
+def scans_of(dataset, sequences, every):
+    """Pairs of a scan's name, as `flagstone eval` has it, and its file."""
+    if (dataset / "sequences").is_dir():
+        names = sequences or sorted(p.name for p in (dataset / "sequences").iterdir())
+        for name in names:
+            files = sorted((dataset / "sequences" / name / "velodyne").glob("*.bin"))
+            yield from ((f"{name}/{file.stem}", file) for file in files[::every])
+    elif (dataset / "velodyne").is_dir():
+        files = sorted((dataset / "velodyne").glob("*.bin"))
+        yield from ((file.stem, file) for file in files[::every])
+    else:
+        files = sorted(dataset.glob("*.pcd.bin"))
+        yield from ((file.name.removesuffix(".pcd.bin"), file) for file in files[::every])
+
+
+def read(file):
+    columns = 5 if file.name.endswith(".pcd.bin") else 4
+    return np.fromfile(file, np.float32).reshape(-1, columns)[:, :4]
+
+
+@contextlib.contextmanager
+def silence():
+    """Sends what the packages print to nowhere; they print from C++."""
+    sys.stdout.flush()
+    kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(nowhere)
+
+
+def segment(prepare, points):
+    """One code a point, and the seconds it took. Points without a place are not shown to the peer."""
+    usable = np.flatnonzero(np.isfinite(points[:, :3]).all(axis=1) & (points[:, :3] != 0).any(axis=1))
+    shown = np.ascontiguousarray(points[usable])
+    with silence():
+        ground = prepare()
+        start = time.perf_counter()
+        found = ground(shown)
+        seconds = time.perf_counter() - start
+    codes = np.zeros(len(points), np.uint32)
+    codes[usable[found]] = 1
+    return codes, seconds
+
+
+def run(name, prepare, scans, folder):
+    segment(prepare, read(scans[0][1]))  # warm-up
+    times = []
+    for i, (scan, file) in enumerate(scans):
+        codes, seconds = segment(prepare, read(file))
+        times.append(seconds)
+        out = folder / f"{scan}.label"
+        out.parent.mkdir(parents=True, exist_ok=True)
+        codes.tofile(out)
+        if sys.stderr.isatty():
+            print(f"\r{name}: {i + 1} of {len(scans)} scans", end="", file=sys.stderr)
+    slowest = np.sort(times)[-max(1, len(times) // 100) :]  # at least one
+    if sys.stderr.isatty():
+        print("\r\x1b[K", end="", file=sys.stderr)
+    print(
+        f"{name:<26} {1 / np.mean(times):8.2f} Hz mean, {1 / np.mean(slowest):8.2f} Hz slowest 1 %, "
+        f"{1000 * np.median(times):8.2f} ms median, {len(times)} scans",
+        flush=True,
+    )
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("dataset", type=pathlib.Path)
+    parser.add_argument("--output", type=pathlib.Path, required=True, help="a folder per peer is made in it")
+    parser.add_argument("--peers", default=",".join(PEERS), help="which of them, default: %(default)s")
+    parser.add_argument("--sensor-height", type=float, default=1.73, help="metres, default: %(default)s")
+    parser.add_argument("--sequences", default="", help="e.g. 05,10; default: all")
+    parser.add_argument("--every", type=int, default=1, help="one scan in N of each sequence")
+    options = parser.parse_args()
+
+    sequences = [s for s in options.sequences.split(",") if s]
+    scans = list(scans_of(options.dataset, sequences, options.every))
+    if not scans:
+        sys.exit(f"{options.dataset}: no scan in sequences/NN/velodyne, velodyne/ or *.pcd.bin")
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # one core
+
+    labels = []
+    for name in options.peers.split(","):
+        if name not in PEERS:
+            sys.exit(f"--peers {name}: allowed: {', '.join(PEERS)}")
+        try:
+            prepare = PEERS[name](options.sensor_height)
+        except ImportError as error:
+            print(f"{name:<26} left out: {error}")
+            continue
+        run(name, prepare, scans, options.output / name)
+        labels += ["--labels", f"{name}={options.output / name}"]
+    command = ["flagstone", "eval", str(options.dataset)]
+    command += ["--sequences", options.sequences] if options.sequences else []
+    command += ["--every", str(options.every)] if options.every > 1 else []
+    print(shlex.join([*command, "--methods", "all", *labels]))
+
+
+if __name__ == "__main__":
+    main()
