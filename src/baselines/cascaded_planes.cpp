@@ -50,7 +50,8 @@ bool ContinuousPlanes::is_continuous(const FittedPlane& plane, const FittedPlane
                                      double x, double y) const noexcept {
   const double cosine = plane.normal[0] * previous.normal[0] +
                         plane.normal[1] * previous.normal[1] + plane.normal[2] * previous.normal[2];
-  if (!(cosine >= min_cosine_ && plane.normal[2] > 0)) return false;
+  const bool is_level_enough = cosine >= min_cosine_ && plane.normal[2] > 0;  // not if NaN
+  if (!is_level_enough) return false;
   return std::abs(height_at(plane, x, y) - height_at(previous, x, y)) <= max_height_change_;
 }
 

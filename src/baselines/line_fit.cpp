@@ -63,15 +63,14 @@ struct LineFit::Pipeline {
 
 namespace {
 
-LineFitConfig checked(LineFitConfig config) {
+LineFitConfig checked(const LineFitConfig& config) {
   config.check();
   return config;
 }
 
 }  // namespace
 
-LineFit::LineFit(LineFitConfig config)
-    : pipeline_(std::make_unique<Pipeline>(checked(std::move(config)))) {}
+LineFit::LineFit(LineFitConfig config) : pipeline_(std::make_unique<Pipeline>(checked(config))) {}
 LineFit::~LineFit() = default;
 LineFit::LineFit(LineFit&&) noexcept = default;
 LineFit& LineFit::operator=(LineFit&&) noexcept = default;

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
+#include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -17,24 +20,41 @@ inline unsigned thread_count(unsigned asked) {
   return asked != 0 ? asked : std::max(1u, std::thread::hardware_concurrency());
 }
 
-/// Gives the jobs 0 to `count` - 1 out, in that order, to `threads` threads (0: all cores) until
-/// all are done or somebody asks to stop. `make_worker()` is called once in each thread; what it
-/// returns is called with the number of a job and must not throw.
+/// Gives the jobs 0 to `count` - 1 out, in that order, to `threads` threads (0: all cores; fewer
+/// where the system has no more) until all are done or somebody asks to stop. `make_worker()` is
+/// called once in each thread, and what it returns with the number of each job. Once one of them
+/// throws, no more jobs are given out and the first exception is thrown from here.
 template <class MakeWorker>
 void run_crew(std::size_t count, unsigned threads, const MakeWorker& make_worker) {
   std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    auto worker = make_worker();
-    while (!interrupted()) {
-      const std::size_t job = next++;
-      if (job >= count) return;
-      worker(job);
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&]() noexcept {
+    try {
+      auto worker = make_worker();
+      while (!interrupted()) {
+        const std::size_t job = next++;
+        if (job >= count) return;
+        worker(job);
+      }
+    } catch (...) {
+      next = count;
+      const std::scoped_lock lock(mutex);
+      if (!failure) failure = std::current_exception();
     }
   };
-  const std::size_t size = std::min<std::size_t>(thread_count(threads), count);
-  std::vector<std::jthread> others;
-  for (std::size_t i = 1; i < size; ++i) others.emplace_back(work);
-  work();
+  {
+    const std::size_t size = std::min<std::size_t>(thread_count(threads), count);
+    std::vector<std::jthread> others;
+    others.reserve(size);
+    try {
+      while (others.size() + 1 < size) others.emplace_back(work);
+    } catch (const std::system_error&) {
+      // Then there are fewer.
+    }
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace flagstone::cli

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -15,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "cli/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 #include "eval/confusion.hpp"
 #include "eval/protocol.hpp"
 #include "flagstone/patchwork.hpp"
@@ -140,6 +141,7 @@ void add_demo_command(CLI::App& app, int& exit_code) {
       ->type_name("DIR")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Which street; the same seed gives the same bytes")
+      ->check(CLI::NonNegativeNumber)  // else -1 would wrap around
       ->type_name("N")
       ->capture_default_str();
   command->callback([options, &exit_code] {

@@ -3,6 +3,7 @@
 #include "cli/eval_command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <CLI/Option.hpp>
@@ -21,6 +22,7 @@
 #include "eval/results_csv.hpp"
 #include "eval/results_json.hpp"
 #include "eval/results_text.hpp"
+#include "io/message.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -39,10 +41,16 @@ void print_tables(const eval::Results& results, bool speed) {
   fmt::print(
       "Protocol {}, {}; percent. Means over scans, std: sample standard deviation, ±95%: half "
       "width of the\n95 % interval of the mean (Student's t, scans taken for independent). "
-      "F1/area: each 0.5 m cell counts once.\n\n{}\n",
-      results.protocol, scans_text(results), eval::accuracy_table(results, style));
+      "F1/area: each 0.5 m cell of each scan counts once. Hz: with {}.\n\n{}\n",
+      results.protocol, scans_text(results),
+      results.threads == 1 ? "one thread" : fmt::format("{} threads at work", results.threads),
+      eval::accuracy_table(results, style));
   fmt::print("F1 by horizontal range, over all points of a band\n\n{}\n",
              eval::range_table(results, style));
+  if (!results.unscored.empty()) {
+    fmt::print("Left out, since no point of them is scored: {}\n\n",
+               io::printable(fmt::format("{}", fmt::join(results.unscored, ", "))));
+  }
   fmt::print("Lowest F1\n\n{}\n", eval::worst_table(results, 3));
   if (speed) {
     fmt::print(
@@ -57,18 +65,20 @@ int evaluate(const EvalOptions& options) {
   EvaluationOptions how = options.evaluation;
   if (options.speed) how.threads = 1;
   Evaluation evaluation(how, options.methods.resolve(), options.files.journal());
+  options.files.prepare();
+  if (options.pictures > 0) make_folder(options.output);
   const eval::Results results = evaluation.run();
   if (results.scans == 0) return 1;
 
   print_tables(results, options.speed);
   if (evaluation.was_interrupted()) return 1;
-  const std::vector<report::ReportPicture> pictures =
-      draw_worst_scans(evaluation, results, options.pictures, options.output);
   const auto json = [&] { return eval::to_json(results); };
   constexpr auto replace = nlohmann::json::error_handler_t::replace;  // file names may not be UTF-8
-  options.files.write([&] { return json().dump(2, ' ', false, replace) + "\n"; },
-                      [&] { return eval::to_csv(results); },
-                      [&] { return report::eval_report(json(), pictures); });
+  write_result(options.files.json, [&] { return json().dump(2, ' ', false, replace) + "\n"; });
+  write_result(options.files.csv, [&] { return eval::to_csv(results); });
+  const std::vector<report::ReportPicture> pictures =
+      draw_worst_scans(evaluation, results, options.pictures, options.output);
+  write_result(options.files.html, [&] { return report::eval_report(json(), pictures); });
   evaluation.remove_journal();
   return results.failures.empty() ? 0 : 1;
 }

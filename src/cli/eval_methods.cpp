@@ -126,8 +126,15 @@ std::vector<eval::Method> EvalMethods::resolve() const {
     }
   }
 
+  const std::vector<std::string> evaluated = expanded(names);
+  for (const auto& [method, setting] : own_settings) {
+    if (std::ranges::find(evaluated, method) == evaluated.end()) {
+      throw std::invalid_argument(
+          fmt::format("--set {}.{}: {} is not among --methods", method, setting, method));
+    }
+  }
   std::vector<eval::Method> methods;
-  for (const std::string& name : expanded(names)) {
+  for (const std::string& name : evaluated) {
     MethodConfig config = default_config(name, std::get<PatchworkConfig>(base));
     for (const auto& [method, setting] : own_settings) {
       if (method == name) apply_toml(setting, fmt::format("--set {}.{}", name, setting), config);

@@ -15,10 +15,10 @@ namespace flagstone::cli {
 struct EvalMethods {
   std::vector<std::string> names = {"patchwork"};
   std::string preset = "default";
-  std::string config_file;
-  std::vector<std::string> settings;  ///< method.key=value
-  std::optional<float> sensor_height;
-  std::vector<std::string> labels;  ///< name=folder
+  std::string config_file{};
+  std::vector<std::string> settings{};  ///< method.key=value
+  std::optional<float> sensor_height{};
+  std::vector<std::string> labels{};  ///< name=folder
   io::LabelMap label_map = io::LabelMap::flagstone;
 
   /// Adds the options to a command.

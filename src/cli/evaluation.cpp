@@ -25,6 +25,7 @@
 #include "eval/protocol_file.hpp"
 #include "eval/scan_evaluator.hpp"
 #include "flagstone/version.hpp"
+#include "io/message.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;
@@ -56,8 +57,10 @@ std::vector<eval::LabelledScan> list_scans(const EvaluationOptions& options) {
   for (const eval::LabelledScan& scan : scans) names.push_back(scan.name);
   std::ranges::sort(names);
   if (const auto twice = std::ranges::adjacent_find(names); twice != names.end()) {
-    throw std::invalid_argument(
-        fmt::format("scan {} is in two datasets of the same name; evaluate them apart", *twice));
+    throw std::invalid_argument(fmt::format(
+        "scan {} is listed twice; name every dataset and sequence once, and evaluate datasets of "
+        "the same name apart",
+        *twice));
   }
   return scans;
 }
@@ -138,7 +141,14 @@ std::string Evaluation::fingerprint() const {
   for (const auto& low : protocol_.low_ground) text += fmt::format(" {}<{}", low.id, low.height);
   for (const eval::Method& method : methods_) {
     text += fmt::format("\n{} {}", method.name,
-                        method.config ? to_toml(*method.config) : method.labels.string());
+                        method.config ? to_toml(*method.config)
+                                      : fmt::format("{} {}", method.labels.string(),
+                                                    static_cast<int>(method.label_map)));
+  }
+  text += fmt::format("\ncolumns {}", options_.columns);
+  for (const std::string& dataset : options_.datasets) {  // scans of two may share their names
+    std::error_code ignored;
+    text += fmt::format("\n{}", fs::canonical(dataset, ignored).string());
   }
   std::uint64_t hash = 14695981039346656037u;  // FNV-1a
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
@@ -146,12 +156,14 @@ std::string Evaluation::fingerprint() const {
 }
 
 eval::Results Evaluation::run() {
+  catch_interrupts();
   std::vector<std::optional<eval::ScanOutcome>> outcomes(scans_.size());
   eval::Journal journal;
   if (!journal_.empty()) {
     std::map<std::string, eval::ScanOutcome> finished;
-    throw_if_bad(options_.resume ? journal.resume(journal_, fingerprint(), finished)
-                                 : journal.start(journal_, fingerprint()));
+    throw_if_bad(options_.resume
+                     ? journal.resume(journal_, fingerprint(), methods_.size(), finished)
+                     : journal.start(journal_, fingerprint()));
     for (std::size_t i = 0; i < scans_.size(); ++i) {
       const auto found = finished.find(scans_[i].name);
       if (found != finished.end()) outcomes[i] = std::move(found->second);
@@ -162,7 +174,6 @@ eval::Results Evaluation::run() {
     if (!outcomes[i]) left.push_back(i);
   }
 
-  catch_interrupts();
   Progress progress(left.size());
   progress.show(0);
   std::mutex mutex;
@@ -195,6 +206,7 @@ eval::Results Evaluation::run() {
                                              : "the same command with --resume goes on from here"));
   }
   eval::Results results = eval::gather(methods_, scans_, outcomes);
+  if (results.scans == 0) remove_journal();  // it holds nothing to go on from
   results.protocol = protocol_.name;
   results.threads = static_cast<unsigned>(std::min<std::size_t>(
       thread_count(options_.threads), std::max<std::size_t>(scans_.size(), 1)));
@@ -211,7 +223,7 @@ void Evaluation::remove_journal() const {
 
 std::string scans_text(const eval::Results& results) {
   return fmt::format("{} {} of {}", results.scans, results.scans == 1 ? "scan" : "scans",
-                     fmt::join(results.datasets, ", "));
+                     io::printable(fmt::format("{}", fmt::join(results.datasets, ", "))));
 }
 
 }  // namespace flagstone::cli

@@ -35,6 +35,12 @@ void MethodOptions::add_to(CLI::App& command) {
 }
 
 MethodConfig MethodOptions::resolve() const {
+  const bool starts_from_preset = method == "patchwork" || method.starts_with("czm");
+  if (!starts_from_preset && preset != "default") {
+    throw std::invalid_argument(fmt::format(
+        "--preset {}: method {} has settings of its own; presets are of patchwork and czm+...",
+        preset, method));
+  }
   MethodConfig config = default_config(method, PatchworkConfig::preset(preset));
   if (!config_file.empty()) apply_file(config_file, config);
   for (const std::string& setting : settings) {

@@ -11,7 +11,8 @@
 namespace flagstone::cli {
 
 void print_error(std::string_view message) {
-  fmt::print(stderr, "flagstone: {}\n", io::printable(message));
+  // Not fmt::print, which throws where standard error cannot be written.
+  std::fputs(fmt::format("flagstone: {}\n", io::printable(message)).c_str(), stderr);
 }
 
 }  // namespace flagstone::cli

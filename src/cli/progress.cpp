@@ -39,14 +39,14 @@ Progress::Progress(std::size_t total)
 void Progress::show(std::size_t done) {
   if (!on_terminal_) return;
   const auto spent = std::chrono::steady_clock::now() - start_;
-  fmt::print(stderr, "\r\x1b[K{}", progress_text(done, total_, spent));
+  std::fputs(("\r\x1b[K" + progress_text(done, total_, spent)).c_str(), stderr);
   std::fflush(stderr);
   shown_ = true;
 }
 
 void Progress::clear() {
   if (!shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
+  std::fputs("\r\x1b[K", stderr);
   std::fflush(stderr);
   shown_ = false;
 }

@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <set>
 #include <stdexcept>
 #include <system_error>
-#include <utility>
 
 #include "io/atomic_file.hpp"
+#include "io/message.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;
@@ -28,17 +28,37 @@ fs::path ResultFiles::journal() const {
   return {};
 }
 
-void ResultFiles::write(const std::function<std::string()>& json_text,
-                        const std::function<std::string()>& csv_text,
-                        const std::function<std::string()>& html_text) const {
-  const std::array files = {std::pair(&json, &json_text), std::pair(&csv, &csv_text),
-                            std::pair(&html, &html_text)};
-  for (const auto& [file, text] : files) {
-    if (file->empty()) continue;
-    const fs::path path = *file;
-    const Status status = io::write_file(path, std::string_view((*text)()));
-    if (!status.ok()) throw std::runtime_error(status.message());
-    fmt::print("wrote {}\n", *file);
+void ResultFiles::prepare() const {
+  std::set<fs::path> names;
+  for (const std::string& file : {json, csv, html}) {
+    if (file.empty()) continue;
+    const fs::path path = fs::path(file).lexically_normal();
+    std::error_code error;
+    if (fs::is_directory(path, error)) {
+      throw std::invalid_argument(fmt::format("{}: is a folder; name a file", file));
+    }
+    if (!names.insert(path).second) {
+      throw std::invalid_argument(
+          fmt::format("{}: is named twice; --json, --csv and --html are files of their own", file));
+    }
+    if (path.has_parent_path()) make_folder(path.parent_path());
+  }
+}
+
+void write_result(const std::string& file, const std::function<std::string()>& text) {
+  if (file.empty()) return;
+  const fs::path path = file;
+  const Status status = io::write_file(path, std::string_view(text()));
+  if (!status.ok()) throw std::runtime_error(status.message());
+  fmt::print("wrote {}\n", io::printable(path));
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw std::runtime_error(
+        fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
   }
 }
 

@@ -19,11 +19,16 @@ struct ResultFiles {
   /// Where finished scans are kept while a run lasts: beside the first of them; empty for nowhere.
   [[nodiscard]] std::filesystem::path journal() const;
 
-  /// Writes those that are asked for, making their folders, and says so. Throws std::runtime_error
-  /// with one line.
-  void write(const std::function<std::string()>& json_text,
-             const std::function<std::string()>& csv_text,
-             const std::function<std::string()>& html_text) const;
+  /// Looks whether they can be written, before the work that would be lost else, and makes their
+  /// folders. Throws std::invalid_argument or std::runtime_error with one line.
+  void prepare() const;
 };
+
+/// Writes `text` to a file of results, if one is named, and says so. Throws std::runtime_error with
+/// one line.
+void write_result(const std::string& file, const std::function<std::string()>& text);
+
+/// Makes a folder, and those above it. Throws std::runtime_error with one line.
+void make_folder(const std::filesystem::path& folder);
 
 }  // namespace flagstone::cli

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "cli/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 #include "eval/protocol.hpp"
 #include "io/write_cloud.hpp"
 #include "render/birds_eye.hpp"
@@ -93,11 +93,12 @@ Status ScanWorker::work(const ScanInput& input, ScanReport& report) {
   if (Status status = io::read_cloud(input.file, job_.read, cloud_); !status.ok()) return status;
   report.read_ms = watch.lap();
 
-  Status status = segmenter_->segment(cloud_.view(), result_);
+  runner_.prepare(cloud_);
+  watch.lap();
+  Status status = runner_.segment(cloud_, result_);
   report.segment_ms = watch.lap();
   if (!status.ok()) {
-    return Status(status.code(), fmt::format("{}: {} points are more than the memory holds",
-                                             input.file.string(), cloud_.size()));
+    return Status(status.code(), fmt::format("{}: {}", input.file.string(), status.message()));
   }
   report.points = cloud_.size();
   report.patches = result_.patches().size();

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "cli/scan_inputs.hpp"
 #include "cli/scan_report.hpp"
-#include "flagstone/make_segmenter.hpp"
+#include "eval/method_runner.hpp"
 #include "io/cloud.hpp"
 #include "io/label_files.hpp"
 #include "io/read_cloud.hpp"
@@ -40,8 +39,7 @@ struct ScanJob {
 /// Reads, segments and writes one scan after another, reusing its memory. One per thread.
 class ScanWorker {
  public:
-  explicit ScanWorker(const ScanJob& job)
-      : job_(job), segmenter_(make_segmenter(job.method, job.config)) {}
+  explicit ScanWorker(const ScanJob& job) : job_(job), runner_(job.method, job.config) {}
 
   /// Never throws: what goes wrong with this scan is in the report.
   ScanReport run(const ScanInput& input) noexcept;
@@ -53,7 +51,7 @@ class ScanWorker {
   Status score_and_draw(const ScanInput& input, ScanReport& report);
 
   const ScanJob& job_;
-  std::unique_ptr<Segmenter> segmenter_;
+  eval::MethodRunner runner_;
   Segmentation result_;
   io::Cloud cloud_;
 };

@@ -10,11 +10,13 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 
+#include "cli/interrupt.hpp"
+#include "cli/result_files.hpp"
 #include "eval/scan_evaluator.hpp"
 #include "io/atomic_file.hpp"
+#include "io/message.hpp"
 #include "render/side_by_side.hpp"
 
 namespace flagstone::cli {
@@ -55,21 +57,16 @@ std::string scores_text(const eval::Confusion& points) {
 std::vector<std::byte> draw(eval::ScanEvaluator& evaluator, const Evaluation& evaluation,
                             const eval::LabelledScan& scan) {
   std::vector<std::vector<Label>> labels;
-  for (std::size_t m = 0; m < evaluation.methods().size(); ++m) {
-    const std::span<const Label> found = evaluator.labels(scan, m);
-    labels.emplace_back(found.begin(), found.end());
-  }
-  std::vector<std::string> subtitles;
+  throw_if_bad(evaluator.label_all(scan, labels));
   std::vector<render::Panel> panels;
-  subtitles.reserve(labels.size());
   for (std::size_t m = 0; m < labels.size(); ++m) {
-    if (labels[m].size() != evaluator.truth().size()) continue;  // said when it was evaluated
-    subtitles.push_back(scores_text(eval::compare(labels[m], evaluator.truth())));
-    panels.push_back({evaluation.methods()[m].title, subtitles.back(), labels[m]});
+    if (labels[m].size() != evaluator.cloud().size()) continue;  // said when it was evaluated
+    panels.push_back({evaluation.methods()[m].title,
+                      scores_text(evaluator.truth().score(labels[m]).points), labels[m]});
   }
   std::vector<std::byte> png;
   throw_if_bad(render::render_side_by_side(
-      evaluator.cloud(), evaluator.truth(), panels,
+      evaluator.cloud(), evaluator.truth().truth(), panels,
       {.title = scan.name, .subtitle = fmt::format("protocol {}", evaluation.protocol().name)},
       png));
   return png;
@@ -82,20 +79,18 @@ std::vector<report::ReportPicture> draw_worst_scans(const Evaluation& evaluation
                                                     const fs::path& folder) {
   std::vector<report::ReportPicture> pictures;
   if (count == 0) return pictures;
-  std::error_code error;
-  fs::create_directories(folder, error);
   eval::ScanEvaluator evaluator(evaluation.methods(), evaluation.protocol(),
                                 evaluation.read_options());
   std::vector<std::size_t> order = worst_first(evaluation, results);
   order.resize(std::min(count, order.size()));
   for (const std::size_t i : order) {
+    if (interrupted()) break;
     const eval::LabelledScan& scan = evaluation.scans()[i];
     std::vector<std::byte> png = draw(evaluator, evaluation, scan);
-    std::string name = scan.name;
-    std::ranges::replace(name, '/', '-');
-    const fs::path file = folder / (name + ".png");
+    const fs::path file = folder / (scan.name + ".png");
+    make_folder(file.parent_path());
     throw_if_bad(io::write_file(file, std::span<const std::byte>(png)));
-    fmt::print("drew {}\n", file.string());
+    fmt::print("drew {}\n", io::printable(file));
     pictures.push_back({scan.name, std::move(png)});
   }
   return pictures;

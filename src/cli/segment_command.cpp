@@ -12,7 +12,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "cli/crew.hpp"
@@ -91,6 +93,13 @@ class Reporter {
   bool json_;
 };
 
+void check_tint(const SegmentOptions& options, const MethodConfig& config) {
+  if (!options.tint_patches || std::holds_alternative<PatchworkConfig>(config)) return;
+  throw std::invalid_argument(
+      fmt::format("--tint-patches: method {} has no zones to tint; patchwork, r_gpf and czm+... do",
+                  options.method.method));
+}
+
 int segment(const SegmentOptions& options) {
   const ScanJob job{.method = options.method.method,
                     .config = options.method.resolve(),
@@ -101,6 +110,7 @@ int segment(const SegmentOptions& options) {
                     .picture = options.picture,
                     .tint_patches = options.tint_patches,
                     .reference = options.reference};
+  check_tint(options, job.config);
   const std::vector<ScanInput> scans = list_scans(options.scans);
 
   catch_interrupts();

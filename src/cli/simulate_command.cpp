@@ -26,7 +26,7 @@
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
 #include "cli/simulated_sequence.hpp"
-#include "cli/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 #include "sim/drive.hpp"
 #include "sim/noise.hpp"
 #include "sim/scene_kind.hpp"

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "cli/config_toml.hpp"
+#include "io/message.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -46,6 +47,9 @@ SweepAxis sweep_axis(const std::string& text) {
     throw std::invalid_argument(fmt::format(
         "--over {}: allowed: KEY=VALUE,VALUE,..., e.g. --over distance_margin=0.1,0.125,0.15",
         text));
+  }
+  if (io::printable(text) != text) {
+    throw std::invalid_argument(fmt::format("--over {}: holds what cannot be printed", text));
   }
   SweepAxis axis{.key = text.substr(0, equals), .values = {}};
   std::size_t begin = equals + 1;

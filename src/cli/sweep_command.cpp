@@ -40,6 +40,10 @@ std::vector<SweepAxis> axes_of(const SweepOptions& options) {
     axes.push_back(sweep_axis(text));
   }
   if (axes.size() > 2) throw std::invalid_argument("--over can be given once or twice");
+  if (axes.size() == 2 && axes[0].key == axes[1].key) {
+    throw std::invalid_argument(
+        fmt::format("--over names {} twice; give all its values at once", axes[0].key));
+  }
   return axes;
 }
 
@@ -56,7 +60,10 @@ std::vector<eval::Method> points_of(const Sweep& sweep, const MethodConfig& base
     const std::vector<std::string> values = sweep.values_at(p);
     MethodConfig config = base;
     for (std::size_t a = 0; a < values.size(); ++a) {
-      apply_axis(sweep.axes[a].key, values[a], config);
+      if (sweep.axes[a].key != "bins") apply_axis(sweep.axes[a].key, values[a], config);
+    }
+    for (std::size_t a = 0; a < values.size(); ++a) {  // after what says where the rings begin
+      if (sweep.axes[a].key == "bins") apply_axis(sweep.axes[a].key, values[a], config);
     }
     points.push_back(eval::method_of(sweep.method, std::move(config)));
   }
@@ -67,6 +74,7 @@ int sweep(const SweepOptions& options) {
   Sweep sweep{.method = options.method.method, .axes = axes_of(options), .results = {}};
   Evaluation evaluation(options.evaluation, points_of(sweep, options.method.resolve()),
                         options.files.journal());
+  options.files.prepare();
   sweep.results = evaluation.run();
   if (sweep.results.scans == 0) return 1;
 
@@ -77,9 +85,10 @@ int sweep(const SweepOptions& options) {
       winner_text(sweep));
   if (evaluation.was_interrupted()) return 1;
   constexpr auto replace = nlohmann::json::error_handler_t::replace;  // file names may not be UTF-8
-  options.files.write([&] { return to_json(sweep).dump(2, ' ', false, replace) + "\n"; },
-                      [&] { return to_csv(sweep); },
-                      [&] { return report::sweep_report(to_json(sweep)); });
+  write_result(options.files.json,
+               [&] { return to_json(sweep).dump(2, ' ', false, replace) + "\n"; });
+  write_result(options.files.csv, [&] { return to_csv(sweep); });
+  write_result(options.files.html, [&] { return report::sweep_report(to_json(sweep)); });
   evaluation.remove_journal();
   return sweep.results.failures.empty() ? 0 : 1;
 }

@@ -29,8 +29,20 @@ std::string name_of(const Sweep& sweep, std::size_t point) {
   return name;
 }
 
+/// A column that holds the axis's key and every value, apart from the one before.
+std::size_t width_of(const SweepAxis& axis) {
+  std::size_t longest = axis.key.size();
+  for (const std::string& value : axis.values) longest = std::max(longest, value.size());
+  return longest + 2;
+}
+
+/// A dash where one scan allows no figure.
+std::string percent_text(const std::optional<double>& share) {
+  return share ? fmt::format("{:>6.2f}", percent * *share) : fmt::format("{:>6}", "-");
+}
+
 std::string spread_text(const eval::Spread& spread) {
-  return fmt::format("{:>8.2f} {:>6.2f}", percent * spread.mean, percent * spread.std.value_or(0));
+  return fmt::format("{:>8.2f} {}", percent * spread.mean, percent_text(spread.std));
 }
 
 /// F1 of `a` less that of `b` on the scans that both have.
@@ -58,15 +70,18 @@ std::vector<std::string> Sweep::values_at(std::size_t point) const {
 
 std::string to_text(const Sweep& sweep) {
   std::string text;
-  for (const SweepAxis& axis : sweep.axes) text += fmt::format("{:>18}", axis.key);
-  text += fmt::format("{:>9}{:>7}{:>9}{:>7}{:>9}{:>7}{:>7}\n", "precision", "std", "recall", "std",
+  for (const SweepAxis& axis : sweep.axes) text += fmt::format("{:>{}}", axis.key, width_of(axis));
+  text += fmt::format("{:>11}{:>7}{:>9}{:>7}{:>9}{:>7}{:>7}\n", "precision", "std", "recall", "std",
                       "F1", "std", "±95%");
   for (std::size_t p = 0; p < sweep.results.methods.size(); ++p) {
     const eval::MethodResult& result = sweep.results.methods[p];
-    for (const std::string& value : sweep.values_at(p)) text += fmt::format("{:>18}", value);
-    text += fmt::format(" {} {} {} {:>6.2f}\n", spread_text(result.precision),
-                        spread_text(result.recall), spread_text(result.f1),
-                        percent * result.f1.ci95.value_or(0));
+    const std::vector<std::string> values = sweep.values_at(p);
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      text += fmt::format("{:>{}}", values[a], width_of(sweep.axes[a]));
+    }
+    text +=
+        fmt::format("   {} {} {} {}\n", spread_text(result.precision), spread_text(result.recall),
+                    spread_text(result.f1), percent_text(result.f1.ci95));
   }
   return text;
 }

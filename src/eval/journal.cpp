@@ -4,13 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
+#include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "io/atomic_file.hpp"
 #include "io/message.hpp"
 
 namespace flagstone::eval {
@@ -28,7 +31,6 @@ Confusion confusion_of(const Json& json) {
 }
 
 Json to_json(const MethodOutcome& outcome) {
-  if (outcome.error) return {{"error", *outcome.error}};
   Json json = {{"points", to_json(outcome.score.points)}, {"area", to_json(outcome.score.by_area)}};
   for (const Confusion& band : outcome.score.by_range) json["range"].push_back(to_json(band));
   if (outcome.segment_ms) json["ms"] = *outcome.segment_ms;
@@ -37,10 +39,6 @@ Json to_json(const MethodOutcome& outcome) {
 
 MethodOutcome method_outcome_of(const Json& json) {
   MethodOutcome outcome;
-  if (json.contains("error")) {
-    outcome.error = json.at("error").get<std::string>();
-    return outcome;
-  }
   outcome.score.points = confusion_of(json.at("points"));
   outcome.score.by_area = confusion_of(json.at("area"));
   for (std::size_t band = 0; band < outcome.score.by_range.size(); ++band) {
@@ -57,8 +55,8 @@ Json to_json(const std::string& scan, const ScanOutcome& outcome) {
   return json;
 }
 
-/// Adds the scan of one line; nothing where the line is cut short.
-void read_line(const std::string& line, std::map<std::string, ScanOutcome>& finished) {
+/// The scan of one line; nothing where the line is cut short.
+std::optional<std::pair<std::string, ScanOutcome>> scan_of(const std::string& line) {
   try {
     const Json json = Json::parse(line);
     ScanOutcome outcome;
@@ -67,63 +65,84 @@ void read_line(const std::string& line, std::map<std::string, ScanOutcome>& fini
     for (const Json& method : json.at("methods")) {
       outcome.methods.push_back(method_outcome_of(method));
     }
-    finished.insert_or_assign(json.at("scan").get<std::string>(), std::move(outcome));
+    return std::pair(json.at("scan").get<std::string>(), std::move(outcome));
   } catch (const Json::exception&) {
-    return;
+    return std::nullopt;
   }
 }
 
+constexpr std::string_view heading_begin = "{\"flagstone-journal\":";
+
 std::string heading_of(const std::string& evaluation) {
-  return Json{{"flagstone-journal", evaluation}}.dump(-1, ' ', false, replace);
+  return Json{{"flagstone-journal", evaluation}}.dump(-1, ' ', false, replace) + "\n";
+}
+
+/// Does the file hold a scan of an evaluation?
+bool holds_scans(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string heading;
+  std::string scan;
+  return std::getline(file, heading) && heading.starts_with(heading_begin) &&
+         std::getline(file, scan) && scan_of(scan);
+}
+
+bool has_failed(const ScanOutcome& outcome) {
+  return outcome.error || std::ranges::any_of(outcome.methods, [](const MethodOutcome& method) {
+           return method.error.has_value();
+         });
 }
 
 }  // namespace
 
+Status Journal::open(const std::filesystem::path& path) {
+  file_.reset(std::fopen(path.c_str(), "a"));
+  if (file_) return {};
+  return Status(StatusCode::unwritable,
+                fmt::format("{}: cannot be written: {}", io::printable(path),
+                            std::generic_category().message(errno)));
+}
+
 Status Journal::start(const std::filesystem::path& path, const std::string& evaluation) {
-  path_ = path;
-  file_.reset(std::fopen(path.c_str(), "w"));
-  if (!file_) {
-    return Status(StatusCode::unwritable,
-                  fmt::format("{}: cannot be written: {}", io::printable(path),
-                              std::generic_category().message(errno)));
+  if (holds_scans(path)) {
+    return io::refuse(path,
+                      "holds the scans that an interrupted run finished; go on with --resume, or "
+                      "delete it to start afresh");
   }
-  fmt::print(file_.get(), "{}\n", heading_of(evaluation));
-  std::fflush(file_.get());
-  return {};
+  Status status = io::write_file(path, std::string_view(heading_of(evaluation)));
+  return status.ok() ? open(path) : status;
 }
 
 Status Journal::resume(const std::filesystem::path& path, const std::string& evaluation,
-                       std::map<std::string, ScanOutcome>& finished) {
+                       std::size_t methods, std::map<std::string, ScanOutcome>& finished) {
   std::ifstream old(path);
   if (!old) return start(path, evaluation);
   std::string line;
   std::getline(old, line);
-  if (!line.starts_with("{\"flagstone-journal\":")) {
+  if (!line.starts_with(heading_begin)) {
     return io::with_path(path, Status(StatusCode::bad_file, "is no journal of an evaluation"));
   }
-  if (line != heading_of(evaluation)) {
+  if (line + "\n" != heading_of(evaluation)) {
     return io::refuse(path,
-                      "is of an evaluation with other methods, settings or protocol; leave "
-                      "--resume out to start afresh");
+                      "is of an evaluation with other datasets, methods, settings or protocol; "
+                      "delete it to start afresh");
   }
-  while (std::getline(old, line)) read_line(line, finished);
-  // Written anew, so that a line cut short does not spoil the next.
-  if (Status status = start(path, evaluation); !status.ok()) return status;
-  for (const auto& [scan, outcome] : finished) add(scan, outcome);
-  return {};
+  // Written anew and whole, so that a line cut short does not spoil the next.
+  std::string kept = heading_of(evaluation);
+  while (std::getline(old, line)) {
+    std::optional<std::pair<std::string, ScanOutcome>> scan = scan_of(line);
+    if (!scan || scan->second.methods.size() != methods) continue;
+    kept += line + "\n";
+    finished.insert(std::move(*scan));
+  }
+  Status status = io::write_file(path, std::string_view(kept));
+  return status.ok() ? open(path) : status;
 }
 
 void Journal::add(const std::string& scan, const ScanOutcome& outcome) {
-  if (!file_ || outcome.error) return;
-  fmt::print(file_.get(), "{}\n", to_json(scan, outcome).dump(-1, ' ', false, replace));
+  if (!file_ || has_failed(outcome)) return;
+  const std::string line = to_json(scan, outcome).dump(-1, ' ', false, replace) + "\n";
+  std::fwrite(line.data(), 1, line.size(), file_.get());
   std::fflush(file_.get());
-}
-
-void Journal::remove() {
-  if (!file_) return;
-  file_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
 }
 
 }  // namespace flagstone::eval

@@ -19,7 +19,8 @@ struct Method {
   std::optional<MethodConfig> config;  ///< none for labels made elsewhere
 
   /// Labels made elsewhere: NAME.label or NAME.npy of each scan, or SemanticKITTI's
-  /// sequences/NN/predictions/NNNNNN.label.
+  /// sequences/NN/predictions/NNNNNN.label, or what `flagstone segment` makes of the dataset's
+  /// folder, sequences/NN/velodyne/NNNNNN.label.
   std::filesystem::path labels;
   io::LabelMap label_map = io::LabelMap::flagstone;
 };

@@ -19,8 +19,8 @@ struct MethodOutcome {
 
 /// What became of one scan.
 struct ScanOutcome {
-  std::optional<std::string> error{};  ///< the scan or its truth could not be read: one line
-  std::vector<MethodOutcome> methods{};
+  std::optional<std::string> error;  ///< the scan or its truth could not be read: one line
+  std::vector<MethodOutcome> methods;
   double read_ms = 0;   ///< points and classes
   double score_ms = 0;  ///< truth and all scores
 };

@@ -3,9 +3,12 @@
 #include "eval/protocol_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -54,10 +57,15 @@ Json parse(std::string_view text, bool is_toml) {
   }
 }
 
+/// What a value is, briefly: lists and tables may be of any depth.
+std::string text_of(const Json& value) {
+  return value.is_primitive() ? value.dump() : std::string("a ") + value.type_name();
+}
+
 std::uint32_t id_of(const Json& value, const std::string& key) {
   const bool is_id = value.is_number_integer() && value >= 0 && value <= last_id;
   if (!is_id)
-    refuse(fmt::format("{} holds {}; allowed: class ids, 0 to {}", key, value.dump(), last_id));
+    refuse(fmt::format("{} holds {}; allowed: class ids, 0 to {}", key, text_of(value), last_id));
   return value.get<std::uint32_t>();
 }
 
@@ -70,6 +78,15 @@ std::vector<std::uint32_t> ids_of(const Json& root, const std::string& key) {
   return ids;
 }
 
+float height_of(const Json& value) {
+  constexpr double most = 1000;
+  const auto height = value.get<double>();
+  if (!(std::abs(height) <= most)) {
+    refuse(fmt::format("low_ground.height is {}; allowed: -{} to {} m", height, most, most));
+  }
+  return static_cast<float>(height);
+}
+
 std::vector<Protocol::LowGround> low_ground_of(const Json& root) {
   std::vector<Protocol::LowGround> all;
   const auto found = root.find("low_ground");
@@ -79,9 +96,9 @@ std::vector<Protocol::LowGround> low_ground_of(const Json& root) {
     if (!low.is_object() || !low.contains("id") || !low.contains("height") ||
         !low["height"].is_number()) {
       refuse(fmt::format("low_ground holds {}; allowed: {{id, height}}, height in metres",
-                         low.dump()));
+                         text_of(low)));
     }
-    all.push_back({id_of(low["id"], "low_ground.id"), low["height"].get<float>()});
+    all.push_back({id_of(low["id"], "low_ground.id"), height_of(low["height"])});
   }
   return all;
 }
@@ -102,12 +119,38 @@ void check_lists(const Protocol& protocol, const std::vector<std::uint32_t>& not
   }
 }
 
+/// A key that is written a little wrong must not be passed over.
+void check_keys(const Json& root) {
+  constexpr std::array known = {"name",       "ground", "ignored", "not_ground",
+                                "low_ground", "labels", "names",   "note"};
+  for (const auto& [key, value] : root.items()) {
+    if (std::ranges::find(known, key) == known.end()) {
+      refuse(fmt::format("{} is no key of a protocol; allowed: {}", key, fmt::join(known, ", ")));
+    }
+  }
+}
+
+/// Figures go by the protocol's name: it is one line, and no other protocol's.
+void check_name(const std::string& name) {
+  if (name.empty() || io::printable(name) != name) {
+    refuse("name is empty or holds what cannot be printed");
+  }
+  for (const Protocol* known : known_protocols()) {
+    if (known->name == name) {
+      refuse(fmt::format("a protocol of its own cannot be called {}; give it another name", name));
+    }
+  }
+}
+
 Protocol protocol_of(const Json& root, std::string name) {
   if (!root.is_object()) refuse("is no table with the key ground");
   Protocol protocol;
-  if (const auto own = root.find("name"); own != root.end() && own->is_string()) {
+  check_keys(root);
+  if (const auto own = root.find("name"); own != root.end()) {
+    if (!own->is_string()) refuse(fmt::format("name is {}; allowed: text", text_of(*own)));
     name = own->get<std::string>();
   }
+  check_name(name);
   protocol.name = std::move(name);
   protocol.ground = ids_of(root, "ground");
   protocol.ignored = ids_of(root, "ignored");

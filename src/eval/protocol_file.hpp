@@ -18,9 +18,10 @@ namespace flagstone::eval {
 ///     not_ground = [10, 50]      # says nothing new: whatever is not listed is not ground
 ///     low_ground = [{id = 70, height = -1.3}]  # ground below this z, metres; may be left out
 ///
-/// Other keys are left alone. The message of an error is one line with the file and the key.
-/// not_found, unreadable, bad_file, invalid_argument (unknown ending). `out` is only changed on
-/// success.
+/// `labels`, `names` and `note` may stand beside them and say nothing; other keys are refused, as
+/// is the name of a protocol known by name. The message of an error is one line with the file and
+/// the key. not_found, unreadable, bad_file, invalid_argument (unknown ending). `out` is only
+/// changed on success.
 Status read_protocol(const std::filesystem::path& path, Protocol& out);
 
 /// The protocol of that name, or if there is none and the name ends in .toml or .json, from that

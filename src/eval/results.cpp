@@ -44,9 +44,20 @@ void summarize(MethodResult& result) {
   summarize_speed(result);
 }
 
+/// Is there a point that counts? All methods are scored on the same.
+bool is_scored(const ScanOutcome& outcome) {
+  return std::ranges::any_of(outcome.methods, [](const MethodOutcome& made) {
+    return made.error || made.score.points.total() > 0;
+  });
+}
+
 void add(const LabelledScan& scan, const ScanOutcome& outcome, Results& results) {
   if (outcome.error) {
     results.failures.push_back({scan.name, *outcome.error});
+    return;
+  }
+  if (!is_scored(outcome)) {
+    results.unscored.push_back(scan.name);
     return;
   }
   ++results.scans;

@@ -53,7 +53,8 @@ struct TimeSpent {
 struct Results {
   std::string protocol;
   std::vector<std::string> datasets;
-  std::size_t scans = 0;  ///< that could be read
+  std::size_t scans = 0;              ///< that could be read and have a point to score
+  std::vector<std::string> unscored;  ///< scans without one, which no figure counts
   unsigned threads = 1;
   std::vector<MethodResult> methods;
   std::vector<Failure> failures;

@@ -23,12 +23,28 @@ Json shares(const Confusion& confusion) {
           {"iou", confusion.iou()}};
 }
 
+/// Those of points pooled over scans: null where there are none.
+Json pooled_shares(const Confusion& confusion) {
+  Json json = shares(confusion);
+  if (confusion.total() == 0) {
+    for (Json& share : json) share = nullptr;
+  }
+  return json;
+}
+
+/// A figure over the scans of a method: null where there are none.
+Json figure(const MethodResult& result, const Spread& spread) {
+  Json json = to_json(spread);
+  if (result.scans.empty()) json["mean"] = nullptr;
+  return json;
+}
+
 Json by_range(const MethodResult& result) {
   Json bands = Json::array();
   float from = 0;
   for (std::size_t band = 0; band < range_bands.size(); ++band) {
     Json entry = {{"from", from}, {"to", range_bands[band]}};
-    entry.update(shares(result.by_range[band]));
+    entry.update(pooled_shares(result.by_range[band]));
     entry["points"] = result.by_range[band].total();
     bands.push_back(std::move(entry));
     from = range_bands[band];
@@ -49,15 +65,16 @@ Json per_scan(const MethodResult& result) {
 
 Json to_json(const MethodResult& result) {
   Json json = {{"name", result.name}, {"title", result.title}};
-  json["precision"] = to_json(result.precision);
-  json["recall"] = to_json(result.recall);
-  json["f1"] = to_json(result.f1);
-  json["accuracy"] = to_json(result.accuracy);
-  json["iou"] = to_json(result.iou);
-  json["pooled"] = shares(result.pooled);
+  json["scans"] = result.scans.size();
+  json["precision"] = figure(result, result.precision);
+  json["recall"] = figure(result, result.recall);
+  json["f1"] = figure(result, result.f1);
+  json["accuracy"] = figure(result, result.accuracy);
+  json["iou"] = figure(result, result.iou);
+  json["pooled"] = pooled_shares(result.pooled);
   json["pooled"]["points"] = result.pooled.total();
   json["by_range"] = by_range(result);
-  json["by_area"] = shares(result.by_area);
+  json["by_area"] = pooled_shares(result.by_area);
   json["by_area"]["cells"] = result.by_area.total();
   json["hz"] = or_null(result.hz);
   json["hz_slowest_1_percent"] = or_null(result.hz_slowest_1_percent);
@@ -86,6 +103,7 @@ nlohmann::ordered_json to_json(const Results& results) {
   json["protocol"] = results.protocol;
   json["datasets"] = results.datasets;
   json["scans"] = results.scans;
+  json["unscored"] = results.unscored;
   json["failed"] = Json::array();
   for (const Failure& failure : results.failures) {
     json["failed"].push_back({{"scan", failure.scan}, {"error", failure.error}});

@@ -10,9 +10,9 @@
 namespace flagstone::eval {
 
 /// An evaluation as JSON: `protocol`, `scans` (how many), `machine`, `date`, `failed` and per
-/// method `name`, `title`, `precision`, `recall`, `f1`, `accuracy`, `iou` (each `mean`, `std`,
-/// `ci95`, null where one scan allows none), `pooled`, `by_range`, `by_area`, `hz`,
-/// `hz_slowest_1_percent`, `worst` and `per_scan`. Shares are 0 to 1, times milliseconds.
+/// method `name`, `title`, `scans`, `precision`, `recall`, `f1`, `accuracy`, `iou` (each `mean`,
+/// `std`, `ci95`), `pooled`, `by_range`, `by_area`, `hz`, `hz_slowest_1_percent`, `worst` and
+/// `per_scan`. Shares are 0 to 1, times milliseconds; null is a number that there is none of.
 nlohmann::ordered_json to_json(const Results& results);
 
 /// `mean`, `std` and `ci95` of a figure.

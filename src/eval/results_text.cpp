@@ -10,6 +10,9 @@
 #include <cstddef>
 #include <functional>
 #include <string_view>
+#include <vector>
+
+#include "io/message.hpp"
 
 namespace flagstone::eval {
 namespace {
@@ -37,19 +40,6 @@ double printed(double value, int digits) {
 
 using Value = std::function<std::optional<double>(const MethodResult&)>;
 
-/// The best value of a column: the largest, or the smallest.
-std::optional<double> best_of(const Results& results, const Value& value, int digits,
-                              bool small_is_good) {
-  std::optional<double> best;
-  for (const MethodResult& result : results.methods) {
-    const std::optional<double> own = value(result);
-    if (!own || result.scans.empty()) continue;
-    const double rounded = printed(*own, digits);
-    if (!best || (small_is_good ? rounded < *best : rounded > *best)) best = rounded;
-  }
-  return best;
-}
-
 struct Column {
   std::string_view heading;
   int width;
@@ -59,8 +49,37 @@ struct Column {
   bool has_best = true;
 };
 
+/// Only methods that came through on every scan are compared.
+bool is_complete(const Results& results, const MethodResult& result) {
+  return result.scans.size() == results.scans && results.scans > 0;
+}
+
+/// The best value of a column, as printed: the largest, or the smallest; none of a single method.
+std::optional<double> best_of(const Results& results, const Column& column) {
+  std::optional<double> best;
+  if (!column.has_best || results.methods.size() < 2) return best;
+  for (const MethodResult& result : results.methods) {
+    const std::optional<double> own = column.value(result);
+    if (!own || !is_complete(results, result)) continue;
+    const double value = printed(*own, column.digits);
+    if (!best || (column.small_is_good ? value < *best : value > *best)) best = value;
+  }
+  return best;
+}
+
 std::optional<double> in_percent(const std::optional<double>& share) {
   return share ? std::optional(percent * *share) : std::nullopt;
+}
+
+/// Which methods stand for fewer scans than the table.
+std::string footnotes(const Results& results) {
+  std::string text;
+  for (const MethodResult& result : results.methods) {
+    if (is_complete(results, result)) continue;
+    text += fmt::format("{}: {} of {} scans\n", io::printable(result.title), result.scans.size(),
+                        results.scans);
+  }
+  return text;
 }
 
 std::string table(const Results& results, const std::vector<Column>& columns,
@@ -72,25 +91,21 @@ std::string table(const Results& results, const std::vector<Column>& columns,
   std::string text = fmt::format("{:<{}}", "Method", name_width);
   for (const Column& column : columns) text += fmt::format("{:>{}} ", column.heading, column.width);
   text += '\n';
-  std::vector<std::optional<double>> best;
-  for (const Column& column : columns) {
-    best.push_back(column.has_best
-                       ? best_of(results, column.value, column.digits, column.small_is_good)
-                       : std::nullopt);
-  }
+  std::vector<std::optional<double>> best(columns.size());
+  std::ranges::transform(columns, best.begin(), [&](const auto& c) { return best_of(results, c); });
   for (const MethodResult& result : results.methods) {
-    text += fmt::format("{:<{}}", result.title, name_width);
+    text += fmt::format("{:<{}}", io::printable(result.title), name_width);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const Column& column = columns[c];
       const std::optional<double> value =
           result.scans.empty() ? std::nullopt : column.value(result);
-      const bool is_best = value && best[c] && printed(*value, column.digits) == *best[c] &&
-                           results.methods.size() > 1;
+      const bool is_best = value && best[c] && is_complete(results, result) &&
+                           printed(*value, column.digits) == best[c].value();
       text += optional_cell(value, column.width, column.digits, is_best, style);
     }
     text += '\n';
   }
-  return text;
+  return text + footnotes(results);
 }
 
 /// Hz of the paper's Table II, on an Intel Core i7-7700K, sequence 05 of SemanticKITTI.
@@ -129,11 +144,15 @@ std::string range_table(const Results& results, const TextStyle& style) {
     headings.push_back(fmt::format("{}-{} m", from, to));
     from = to;
   }
-  std::vector<Column> columns;
-  for (std::size_t band = 0; band < range_bands.size(); ++band) {
-    columns.push_back({headings[band], 10, 2, [band](const MethodResult& r) {
-                         return in_percent(r.by_range[band].f1());
-                       }});
+  const auto f1 = [](const Confusion& points) {
+    return points.total() == 0 ? std::nullopt : in_percent(points.f1());
+  };
+  std::vector<Column> columns = {
+      {"all", 10, 2, [f1](const MethodResult& r) { return f1(r.pooled); }}};
+  columns.reserve(headings.size() + 1);
+  for (std::size_t band = 0; band < headings.size(); ++band) {
+    columns.push_back({headings[band], 10, 2,
+                       [f1, band](const MethodResult& r) { return f1(r.by_range[band]); }});
   }
   return table(results, columns, style);
 }
@@ -141,10 +160,11 @@ std::string range_table(const Results& results, const TextStyle& style) {
 std::string worst_table(const Results& results, std::size_t count) {
   std::string text;
   for (const MethodResult& result : results.methods) {
-    text += fmt::format("{:<15}", result.title);
+    text += fmt::format("{:<15}", io::printable(result.title));
     for (const std::size_t i : worst_scans(result, count)) {
       const ScanScore& scan = result.scans[i];
-      text += fmt::format("  {} ({:.2f})", scan.scan, percent * scan.score.points.f1());
+      text +=
+          fmt::format("  {} ({:.2f})", io::printable(scan.scan), percent * scan.score.points.f1());
     }
     text += '\n';
   }

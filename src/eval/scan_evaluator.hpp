@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,8 +20,7 @@ namespace flagstone::eval {
 /// Runs methods over one scan after another and scores them, reusing its memory. One per thread.
 class ScanEvaluator {
  public:
-  /// What is referred to must outlive it. Throws std::invalid_argument for a configuration out of
-  /// range.
+  /// What is referred to must outlive it. Configurations are checked.
   ScanEvaluator(std::span<const Method> methods, const Protocol& protocol,
                 const io::ReadOptions& read);
   ~ScanEvaluator();
@@ -29,28 +28,29 @@ class ScanEvaluator {
   /// Never throws: what goes wrong is in the outcome.
   ScanOutcome run(const LabelledScan& scan) noexcept;
 
-  /// The scan, its truth and a method's labels, for who draws them: valid until the next call.
-  /// An empty span where something went wrong.
-  std::span<const Label> labels(const LabelledScan& scan, std::size_t method);
+  /// Every method's labels of a scan, for who draws them; none of a method that failed. cloud() and
+  /// truth() are that scan's then.
+  Status label_all(const LabelledScan& scan, std::vector<std::vector<Label>>& labels);
   [[nodiscard]] CloudView cloud() const noexcept { return cloud_.view(); }
-  [[nodiscard]] std::span<const Truth> truth() const noexcept { return truth_.truth(); }
+  [[nodiscard]] const ScanTruth& truth() const noexcept { return truth_; }
 
  private:
-  struct Runner;
+  struct Worker;
   Status read(const LabelledScan& scan);
-  Status segment(Runner& runner);
+  Status segment(Worker& worker, std::optional<double>& segment_ms);
   Status read_labels(const LabelledScan& scan, const Method& method);
-  MethodOutcome evaluate(const LabelledScan& scan, Runner& runner, double& score_ms);
+  Status label(const LabelledScan& scan, Worker& worker, std::optional<double>& segment_ms);
+  [[nodiscard]] std::span<const Label> labels_of(const Worker& worker) const;
+  void evaluate(const LabelledScan& scan, Worker& worker, ScanOutcome& outcome);
 
   const Protocol& protocol_;
   io::ReadOptions read_options_;
-  std::vector<Runner> runners_;
+  std::vector<Worker> workers_;
   io::Cloud cloud_;
   std::vector<std::uint32_t> classes_;
-  std::vector<std::uint16_t> rings_;  // of the scan, where its file has them
   ScanTruth truth_;
   Segmentation result_;
-  std::vector<Label> read_labels_;
+  std::vector<Label> found_;  // by another program
 };
 
 }  // namespace flagstone::eval

@@ -2,35 +2,31 @@
 // SPDX-License-Identifier: MIT
 #include "eval/score.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace flagstone::eval {
 namespace {
 
-constexpr int half_cells = static_cast<int>(range_bands.back() / cell_size);
-constexpr std::uint32_t row_cells = 2 * half_cells;
+constexpr auto row_cells = static_cast<std::uint32_t>(2 * range_bands.back() / cell_size);
 constexpr std::uint32_t no_cell = row_cells * row_cells;
 
-/// False for what is not finite, too.
-bool is_covered(float coordinate) { return std::abs(coordinate) < range_bands.back(); }
+/// Points are counted in groups: twice the band (one more for what lies beyond), plus one for true
+/// ground; and those that are not scored.
+constexpr std::size_t not_scored = 2 * (range_bands.size() + 1);
 
 std::uint32_t cell_of(Point p) {
-  if (!is_covered(p.x) || !is_covered(p.y)) return no_cell;
-  const auto index = [](float coordinate) {
-    return static_cast<std::uint32_t>(static_cast<int>(std::floor(coordinate / cell_size)) +
-                                      half_cells);
-  };
-  return index(p.x) * row_cells + index(p.y);
+  constexpr float half_side = range_bands.back();
+  const float x = p.x + half_side;
+  const float y = p.y + half_side;
+  const auto is_covered = [](float v) { return v >= 0 && v < 2 * half_side; };  // not if NaN
+  if (!is_covered(x) || !is_covered(y)) return no_cell;
+  return static_cast<std::uint32_t>(x / cell_size) * row_cells +
+         static_cast<std::uint32_t>(y / cell_size);
 }
 
-std::uint8_t band_of(Point p) {
+/// Branches would often be mispredicted. What is not finite lies beyond all bands.
+std::uint32_t band_of(Point p) {
   const float squared_range = p.x * p.x + p.y * p.y;
-  std::uint8_t band = 0;
-  // A comparison with NaN is false.
-  while (band < range_bands.size() && !(squared_range < range_bands[band] * range_bands[band])) {
-    ++band;
-  }
+  std::uint32_t band = 0;
+  for (const float end : range_bands) band += squared_range < end * end ? 0 : 1;
   return band;
 }
 
@@ -39,48 +35,44 @@ std::uint8_t band_of(Point p) {
 void ScanTruth::set(const Protocol& protocol, CloudView cloud,
                     std::span<const std::uint32_t> classes) {
   truth_of(protocol, cloud, classes, truth_);
-  bands_.resize(cloud.size());
+  groups_.resize(cloud.size());
   cells_.resize(cloud.size());
   cell_points_.assign(no_cell + 1, 0);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point p = cloud[i];
-    bands_[i] = band_of(p);
-    cells_[i] = cell_of(p);
-    cell_points_[cells_[i]] += truth_[i] != Truth::ignored;
+    const bool is_scored = truth_[i] != Truth::ignored;
+    const std::uint32_t group = 2 * band_of(p) + (truth_[i] == Truth::ground ? 1 : 0);
+    groups_[i] = static_cast<std::uint8_t>(is_scored ? group : not_scored);
+    cells_[i] = is_scored ? cell_of(p) : no_cell;
+    ++cell_points_[cells_[i]];
   }
-  weights_.resize(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const bool counts = cells_[i] != no_cell && truth_[i] != Truth::ignored;
-    weights_[i] = counts ? 1 / static_cast<float>(cell_points_[cells_[i]]) : 0;
-  }
+  shares_.resize(cell_points_.size());
+  for (std::size_t c = 0; c < no_cell; ++c) shares_[c] = 1 / static_cast<float>(cell_points_[c]);
+  shares_[no_cell] = 0;
 }
 
 Score ScanTruth::score(std::span<const Label> labels) const noexcept {
-  enum : std::size_t { true_negative, false_positive, false_negative, true_positive, ignored };
-  std::array<std::array<std::uint64_t, 5>, range_bands.size() + 1> points{};
-  std::array<double, 5> area{};
+  std::array<std::array<std::uint64_t, 2>, not_scored + 1> points{};  // by group and found
+  std::array<std::array<double, 2>, 2> area{};                        // by truth and found
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    const bool found = labels[i] == Label::ground;
-    const bool is = truth_[i] == Truth::ground;
-    const std::size_t outcome =
-        truth_[i] == Truth::ignored ? ignored : 2 * std::size_t{is} + std::size_t{found};
-    ++points[bands_[i]][outcome];
-    area[outcome] += static_cast<double>(weights_[i]);
+    const std::size_t found = labels[i] == Label::ground ? 1 : 0;
+    ++points[groups_[i]][found];
+    area[groups_[i] % 2][found] += static_cast<double>(shares_[cells_[i]]);
   }
 
-  const auto confusion = [](const auto& counts) {
-    return Confusion{.true_positives = static_cast<double>(counts[true_positive]),
-                     .false_positives = static_cast<double>(counts[false_positive]),
-                     .false_negatives = static_cast<double>(counts[false_negative]),
-                     .true_negatives = static_cast<double>(counts[true_negative])};
+  const auto confusion = [](const auto& not_ground, const auto& ground) {
+    return Confusion{.true_positives = static_cast<double>(ground[1]),
+                     .false_positives = static_cast<double>(not_ground[1]),
+                     .false_negatives = static_cast<double>(ground[0]),
+                     .true_negatives = static_cast<double>(not_ground[0])};
   };
   Score score;
-  for (std::size_t band = 0; band < points.size(); ++band) {
-    const Confusion in_band = confusion(points[band]);
+  for (std::size_t band = 0; band <= score.by_range.size(); ++band) {
+    const Confusion in_band = confusion(points[2 * band], points[2 * band + 1]);
     score.points += in_band;
     if (band < score.by_range.size()) score.by_range[band] = in_band;
   }
-  score.by_area = confusion(area);
+  score.by_area = confusion(area[0], area[1]);
   return score;
 }
 

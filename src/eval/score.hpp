@@ -44,10 +44,10 @@ class ScanTruth {
 
  private:
   std::vector<Truth> truth_;
-  std::vector<std::uint8_t> bands_;   // index into range_bands, or its size
-  std::vector<std::uint32_t> cells_;  // or no_cell
-  std::vector<float> weights_;        // share of its cell that a point is
-  std::vector<std::uint32_t> cell_points_;
+  std::vector<std::uint8_t> groups_;        // per point: band and truth
+  std::vector<std::uint32_t> cells_;        // per point
+  std::vector<std::uint32_t> cell_points_;  // per cell: scored points
+  std::vector<float> shares_;               // per cell: what each of its points counts
 };
 
 }  // namespace flagstone::eval

@@ -47,10 +47,13 @@ PanelGrid arrange_panels(int width, std::size_t panels) {
                  .heading = {margin, margin, inner_width, heading_height},
                  .panels = {},
                  .legend = {margin, legend_top, inner_width, legend_height}};
-  for (std::size_t panel = 0; panel < panels; ++panel)
-    grid.panels.emplace_back(
-        margin + static_cast<double>(panel % columns) * (side + gap),
-        margin + heading_height + static_cast<double>(panel / columns) * row_height, side, side);
+  for (std::size_t panel = 0; panel < panels; ++panel) {
+    const std::size_t row = panel / columns;
+    const std::size_t column = panel % columns;
+    grid.panels.emplace_back(margin + static_cast<double>(column) * (side + gap),
+                             margin + heading_height + static_cast<double>(row) * row_height, side,
+                             side);
+  }
   return grid;
 }
 

@@ -34,6 +34,7 @@ std::string all_settings(const Json& results) {
   using enum Format;
   std::vector<Column> columns;
   const Json& keys = results.at("keys");
+  columns.reserve(keys.size() + 3 * metrics.size());
   for (std::size_t key = 0; key < keys.size(); ++key)
     columns.push_back(
         {"", keys[key].get<std::string>(), fmt::format("/values/{}", key), text, false});

@@ -36,8 +36,8 @@ std::string group_headings(std::span<const Column> columns) {
     std::size_t end = first + 1;
     while (end < columns.size() && columns[end].group == columns[first].group) ++end;
     html += columns[first].group.empty()
-                ? fmt::format("<td colspan=\"{}\"></td>", end - first)
-                : fmt::format("<th colspan=\"{}\" scope=\"colgroup\">{}</th>", end - first,
+                ? fmt::format(R"(<td colspan="{}"></td>)", end - first)
+                : fmt::format(R"(<th colspan="{}" scope="colgroup">{}</th>)", end - first,
                               escaped(columns[first].group));
     first = end;
   }

@@ -47,6 +47,17 @@ TEST(DemoCommand, MakesTheFilesItNamesAndTheSameBytesForTheSameSeed) {
   EXPECT_EQ(one["predictions/000000.label"].size(), 4 * points);
 }
 
+TEST(DemoCommand, ASeedBelowZeroIsOneLine) {
+  const io::TemporaryFolder folder;
+
+  const Outcome outcome = run({"demo", "--output", (folder / "out").string(), "--seed", "-1"});
+
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, is_one_line_with("--seed"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 TEST(DemoCommand, AnOutputFolderThatCannotBeMadeIsOneLine) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "taken", "mine");

@@ -23,10 +23,8 @@ ScanOutcome outcome_with(double true_positives) {
   made.score.by_area = {0.125, 0.25, 0.5, 1.0 / 3};
   made.score.by_range[2] = {5, 6, 7, 8};
   made.segment_ms = 1.1;
-  MethodOutcome failed;
-  failed.error = "scan: \xff is no UTF-8";
   ScanOutcome outcome;
-  outcome.methods = {made, failed};
+  outcome.methods = {made, made};
   outcome.read_ms = 0.1;
   outcome.score_ms = 0.2;
   return outcome;
@@ -37,7 +35,7 @@ class JournalFile : public testing::Test {
   std::map<std::string, ScanOutcome> resumed(const std::string& evaluation) {
     Journal journal;
     std::map<std::string, ScanOutcome> finished;
-    const Status status = journal.resume(file_, evaluation, finished);
+    const Status status = journal.resume(file_, evaluation, 2, finished);
     EXPECT_TRUE(status.ok()) << status.message();
     return finished;
   }
@@ -63,7 +61,6 @@ TEST_F(JournalFile, GivesBackWhatWasAddedBitForBit) {
   EXPECT_EQ(score.by_area.true_negatives, 1.0 / 3);
   EXPECT_EQ(score.by_range[2].false_negatives, 7);
   EXPECT_EQ(outcome.methods[0].segment_ms, 1.1);
-  EXPECT_TRUE(outcome.methods[1].error);
 }
 
 TEST_F(JournalFile, ALineCutShortCostsItsScanOnly) {
@@ -80,7 +77,7 @@ TEST_F(JournalFile, ALineCutShortCostsItsScanOnly) {
   {
     Journal journal;
     std::map<std::string, ScanOutcome> finished;
-    ASSERT_TRUE(journal.resume(file_, "one", finished).ok());
+    ASSERT_TRUE(journal.resume(file_, "one", 2, finished).ok());
     journal.add("c", outcome_with(3));
   }
   const auto finished = resumed("one");
@@ -93,10 +90,10 @@ TEST_F(JournalFile, OutcomesOfAnotherEvaluationAreNotMixedIn) {
   Journal journal;
   std::map<std::string, ScanOutcome> finished;
 
-  const Status status = journal.resume(file_, "two", finished);
+  const Status status = journal.resume(file_, "two", 2, finished);
 
   EXPECT_EQ(status.code(), StatusCode::invalid_argument);
-  EXPECT_THAT(status.message(), HasSubstr("--resume"));
+  EXPECT_THAT(status.message(), HasSubstr("delete it"));
 }
 
 TEST_F(JournalFile, AnyOtherFileIsLeftAlone) {
@@ -104,8 +101,52 @@ TEST_F(JournalFile, AnyOtherFileIsLeftAlone) {
   Journal journal;
   std::map<std::string, ScanOutcome> finished;
 
-  EXPECT_EQ(journal.resume(file_, "one", finished).code(), StatusCode::bad_file);
+  EXPECT_EQ(journal.resume(file_, "one", 2, finished).code(), StatusCode::bad_file);
   EXPECT_EQ(fs::file_size(file_), 9u);
+}
+
+TEST_F(JournalFile, WhatAnInterruptedRunLeftIsNotWrittenOver) {
+  {
+    Journal journal;
+    ASSERT_TRUE(journal.start(file_, "one").ok());
+    journal.add("a", outcome_with(1));
+  }
+
+  const Status status = Journal().start(file_, "one");
+
+  EXPECT_EQ(status.code(), StatusCode::invalid_argument);
+  EXPECT_THAT(status.message(), HasSubstr("--resume"));
+  EXPECT_EQ(resumed("one").count("a"), 1u);
+}
+
+TEST_F(JournalFile, AJournalWithoutScansIsNothingToLose) {
+  ASSERT_TRUE(Journal().start(file_, "one").ok());
+
+  EXPECT_TRUE(Journal().start(file_, "two").ok());
+}
+
+TEST_F(JournalFile, OutcomesOfAnotherNumberOfMethodsAreNone) {
+  {
+    Journal journal;
+    ASSERT_TRUE(journal.start(file_, "one").ok());
+    ScanOutcome outcome = outcome_with(1);
+    outcome.methods.clear();
+    journal.add("a", outcome);
+  }
+
+  EXPECT_TRUE(resumed("one").empty());
+}
+
+TEST_F(JournalFile, ScansOnWhichAMethodFailedAreTriedAgain) {
+  {
+    Journal journal;
+    ASSERT_TRUE(journal.start(file_, "one").ok());
+    ScanOutcome outcome = outcome_with(1);
+    outcome.methods[1].error = "a: labels are missing";
+    journal.add("a", outcome);
+  }
+
+  EXPECT_TRUE(resumed("one").empty());
 }
 
 TEST_F(JournalFile, ScansThatCouldNotBeReadAreTriedAgain) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eval/results_csv.hpp"
@@ -27,7 +28,14 @@ MethodOutcome made(double hits, double misses, double ms) {
   MethodOutcome outcome;
   outcome.score.points = {.true_positives = hits, .false_negatives = misses};
   outcome.score.by_range[0] = outcome.score.points;
+  outcome.score.by_area = outcome.score.points;
   outcome.segment_ms = ms;
+  return outcome;
+}
+
+ScanOutcome outcome_of(std::vector<MethodOutcome> methods) {
+  ScanOutcome outcome;
+  outcome.methods = std::move(methods);
   return outcome;
 }
 
@@ -37,11 +45,12 @@ class ThreeScans : public testing::Test {
   ThreeScans() {
     methods_[0].name = methods_[0].title = "first";
     methods_[1].name = methods_[1].title = "second";
-    outcomes_[0] = ScanOutcome{.methods = {made(90, 10, 1), made(50, 50, 4)}};
-    outcomes_[1] = ScanOutcome{.error = "b: unreadable"};
+    outcomes_[0] = outcome_of({made(90, 10, 1), made(50, 50, 4)});
+    outcomes_[1] = ScanOutcome();
+    outcomes_[1]->error = "b: unreadable";
     MethodOutcome failed;
     failed.error = "c: method second: out of memory";
-    outcomes_[2] = ScanOutcome{.methods = {made(70, 30, 3), failed}};
+    outcomes_[2] = outcome_of({made(70, 30, 3), failed});
     results_ = gather(methods_, scans_, outcomes_);
     results_.protocol = "patchwork";
     results_.datasets = {"made up"};
@@ -127,12 +136,30 @@ TEST_F(ThreeScans, EveryMethodHasARowAndMissingFiguresADash) {
   EXPECT_THAT(table.substr(table.find("second")), HasSubstr(" - "));
 }
 
+TEST_F(ThreeScans, AMethodThatMissesScansIsNotComparedAndSaysSo) {
+  outcomes_[0]->methods[1] = made(99, 1, 4);  // better than the first, on one scan of two
+
+  const Results results = gather(methods_, scans_, outcomes_);
+
+  EXPECT_THAT(accuracy_table(results, {}), AllOf(HasSubstr("80.00*"), Not(HasSubstr("99.00*")),
+                                                 HasSubstr("second: 1 of 2 scans")));
+}
+
+TEST_F(ThreeScans, AScanWithoutAScoredPointCountsNowhere) {
+  outcomes_[2] = outcome_of({made(0, 0, 1), made(0, 0, 1)});
+
+  const Results results = gather(methods_, scans_, outcomes_);
+
+  EXPECT_EQ(results.scans, 1u);
+  EXPECT_THAT(results.unscored, ElementsAre("c,\"1\""));
+  EXPECT_DOUBLE_EQ(results.methods[0].f1.mean, made(90, 10, 1).score.points.f1());
+}
+
 TEST(SpeedTable, PutsThePapersFiguresBesideOurs) {
   std::vector<Method> methods(1);
   methods[0].name = methods[0].title = "patchwork";
   const std::vector<LabelledScan> scans = {{"a", {}, {}}};
-  const std::vector<std::optional<ScanOutcome>> outcomes = {
-      ScanOutcome{.methods = {made(1, 1, 2)}}};
+  const std::vector<std::optional<ScanOutcome>> outcomes = {outcome_of({made(1, 1, 2)})};
 
   const std::string table = speed_table(gather(methods, scans, outcomes));
 

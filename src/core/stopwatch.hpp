@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-namespace flagstone::cli {
+namespace flagstone {
 
 /// Wall-clock time between laps.
 class Stopwatch {
@@ -21,4 +21,4 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace flagstone::cli
+}  // namespace flagstone

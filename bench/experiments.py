@@ -1,0 +1,466 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Runs the paper's experiments and writes their figures into docs/experiments.md. Needs nothing but Python.
+
+    python3 bench/experiments.py run --work /tmp/experiments   # all of them, some ten minutes
+    python3 bench/experiments.py page                          # the tables, from docs/results/experiments.json
+    python3 bench/experiments.py check                         # are the page's tables those of the results?
+
+`run` wants the command built (build/flagstone), the real scans in FLAGSTONE_DATA and, for the peers, the
+packages that bench/peers.py names. It simulates five sequences of 200 scans in the work folder unless they
+are there. Tables stand in the page between <!-- table NAME --> and <!-- end -->.
+"""
+
+import argparse
+import difflib
+import json
+import math
+import os
+import pathlib
+import re
+import shlex
+import statistics
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs" / "experiments.md"
+RESULTS = ROOT / "docs" / "results" / "experiments.json"
+SCENES = ["flat_street", "steep_street", "parked_cars", "bushes_and_lawn", "bumpy_field"]
+PRESETS = ["default", "reference", "paper"]
+
+# Table I and II of the paper: precision mean and std, recall mean and std, F1; Hz on an i7-7700K.
+TABLE_1 = {
+    "ransac": (88.16, 17.18, 91.26, 12.52, 89.7),
+    "gpf": (95.84, 3.41, 79.57, 21.08, 87.0),
+    "line_fit": (98.17, 1.47, 78.26, 9.29, 87.1),
+    "cascaded": (91.16, 11.10, 68.95, 11.18, 78.5),
+    "r_gpf": (66.94, 16.50, 93.34, 3.41, 78.0),
+    "r_gpf+u": (91.88, 4.97, 92.84, 4.45, 92.4),
+    "czm+u": (91.38, 5.33, 93.65, 4.10, 92.5),
+    "czm+u+e": (92.89, 4.25, 93.08, 4.73, 93.0),
+    "czm+u+e+f": (92.47, 4.26, 93.43, 4.63, 93.0),
+}
+TABLE_2 = {"line_fit": 58.96, "cascaded": 13.07, "gpf": 29.72, "r_gpf": 35.30, "patchwork": 43.97}
+
+# What the paper says of its rows: a row, another, the figure that the first is said to have more of, and
+# where in the paper.
+CLAIMS = [
+    ("U lifts R-GPF's precision", "r_gpf+u", "r_gpf", "precision"),
+    ("and costs it little recall", "r_gpf+u", "r_gpf", "recall"),
+    ("CZM keeps recall where R-GPF + U loses it", "czm+u", "r_gpf+u", "recall"),
+    ("E lifts precision", "czm+u+e", "czm+u", "precision"),
+    ("and costs some recall", "czm+u+e", "czm+u", "recall"),
+    ("F gives recall back", "czm+u+e+f", "czm+u+e", "recall"),
+    ("and costs a little precision", "czm+u+e+f", "czm+u+e", "precision"),
+    ("GPF has less recall than the full method", "gpf", "czm+u+e+f", "recall"),
+    ("CascadedSeg has less recall than the full method", "cascaded", "czm+u+e+f", "recall"),
+    ("LineFit has the best precision: against the full method", "line_fit", "czm+u+e+f", "precision"),
+    ("The full method against the best plane, RANSAC: F1", "czm+u+e+f", "ransac", "f1"),
+]
+
+
+# --- running -----------------------------------------------------------------------------------------------
+
+
+class Runner:
+    def __init__(self, work, flagstone):
+        self.work = work
+        self.places = {
+            "flagstone": str(flagstone),
+            "$FLAGSTONE_DATA": os.environ.get("FLAGSTONE_DATA", str(ROOT.parent / "shared" / "data")),
+            "$WORK": str(work),
+        }
+        self.results = {"experiments": {}}
+
+    def real(self, command):
+        text = command
+        for name, place in self.places.items():
+            if name.startswith("$"):
+                text = text.replace(name, place)
+        words = shlex.split(text)
+        return [self.places.get(words[0], words[0]), *words[1:]]
+
+    def say(self, command):
+        print(f"> {command}", file=sys.stderr, flush=True)
+
+    def call(self, command):
+        self.say(command)
+        done = subprocess.run(self.real(command), cwd=ROOT, text=True, stdout=subprocess.PIPE)
+        if done.returncode != 0:
+            sys.exit(f"exit code {done.returncode}: {command}")
+        return done.stdout
+
+    def evaluate(self, name, command):
+        """Runs an `eval` or `sweep` and keeps what it found under `name`."""
+        file = self.work / "result.json"
+        self.call(f"{command} --json {file}")
+        found = json.loads(file.read_text())
+        for key in ("flagstone", "machine", "date"):
+            self.results[key] = found.pop(key)
+        self.results["experiments"][name] = {"command": command, **found}
+        return self.results["experiments"][name]
+
+
+def t_975(degrees):
+    """Quantile 0.975 of Student's t for 30 degrees of freedom or more: Abramowitz and Stegun, 26.7.5."""
+    z = statistics.NormalDist().inv_cdf(0.975)
+    return z + (z**3 + z) / (4 * degrees) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * degrees**2)
+
+
+def paired(of, other, figure):
+    """Mean of the difference scan by scan and the half width of its 95 % interval."""
+    theirs = {scan["scan"]: scan[figure] for scan in other["per_scan"]}
+    differences = [scan[figure] - theirs[scan["scan"]] for scan in of["per_scan"]]
+    half_width = t_975(len(differences) - 1) * statistics.stdev(differences) / math.sqrt(len(differences))
+    return {"mean": statistics.fmean(differences), "ci95": half_width, "scans": len(differences)}
+
+
+def largest(of, other, figure, count):
+    """The scans where `of` is farthest ahead of `other`."""
+    theirs = {scan["scan"]: scan for scan in other["per_scan"]}
+    ranked = sorted(
+        of["per_scan"], key=lambda scan: theirs[scan["scan"]][figure] - scan[figure]
+    )[:count]
+    return [
+        {"scan": s["scan"], "before": theirs[s["scan"]][figure], "after": s[figure], "figure": figure}
+        for s in ranked
+    ]
+
+
+def by_name(experiment):
+    return {method["name"]: method for method in experiment["methods"]}
+
+
+def run_simulated(runner):
+    for number, scene in enumerate(SCENES):
+        runner.call(
+            f"flagstone simulate --scene {scene} --frames 200 --seed 1 --output $WORK/simulated"
+            f" --sequence {number:02}"
+        )
+        for preset in PRESETS:
+            found = runner.evaluate(
+                f"{scene}/{preset}",
+                f"flagstone eval $WORK/simulated --sequences {number:02} --protocol simulation"
+                f" --methods table1 --preset {preset} --sensor-height 1.73",
+            )
+            rows = by_name(found)
+            found["claims"] = [
+                paired(rows[first], rows[second], figure) for _, first, second, figure in CLAIMS
+            ]
+            found["gains"] = {
+                "elevation": largest(rows["czm+u+e"], rows["czm+u"], "precision", 3),
+                "flatness": largest(rows["czm+u+e+f"], rows["czm+u+e"], "recall", 3),
+            }
+        runner.evaluate(
+            f"{scene}/gpf",
+            f"flagstone eval $WORK/simulated --sequences {number:02} --protocol simulation"
+            " --methods gpf --set gpf.noise_factor=inf --sensor-height 1.73",
+        )
+
+
+def run_real(runner):
+    for protocol in ("patchwork", "patchwork++"):
+        for preset in PRESETS:
+            runner.evaluate(
+                f"kitti/{protocol}/{preset}",
+                f"flagstone eval $FLAGSTONE_DATA/kitti --protocol {protocol} --methods table1"
+                f" --preset {preset} --sensor-height 1.73",
+            )
+    runner.evaluate(
+        "speed",
+        "flagstone eval $FLAGSTONE_DATA/kitti --protocol patchwork --methods all --speed",
+    )
+
+
+def run_peers(runner):
+    text = runner.call(
+        f"{sys.executable} bench/peers.py $FLAGSTONE_DATA/kitti --output $WORK/peers"
+    )
+    labels = re.findall(r"--labels (\S+)", text.splitlines()[-1])
+    arguments = " ".join(f"--labels {label}" for label in labels)
+    arguments = arguments.replace(str(runner.work), "$WORK")
+    for protocol in ("patchwork", "patchwork++"):
+        found = runner.evaluate(
+            f"peers/{protocol}",
+            f"flagstone eval $FLAGSTONE_DATA/kitti --protocol {protocol} --methods patchwork --threads 1"
+            f" {arguments}",
+        )
+        found["hz"] = {
+            line.split()[0]: float(line.split()[1]) for line in text.splitlines() if " Hz mean" in line
+        }
+
+
+def run_sweeps(runner):
+    runner.evaluate("sweep/kitti", "flagstone sweep $FLAGSTONE_DATA/kitti --protocol patchwork")
+    runner.evaluate(
+        "sweep/simulated", "flagstone sweep $WORK/simulated --protocol simulation --every 10"
+    )
+
+
+def run_shares(runner):
+    runner.evaluate(
+        "shares",
+        "flagstone eval $WORK/simulated --protocol simulation --methods patchwork --threads 1",
+    )
+
+
+def run(work, flagstone):
+    work.mkdir(parents=True, exist_ok=True)
+    runner = Runner(work, flagstone)
+    for step in (run_simulated, run_real, run_peers, run_sweeps, run_shares):
+        step(runner)
+    for experiment in runner.results["experiments"].values():
+        for method in experiment.get("methods", []):
+            method.pop("per_scan")  # by far the most of it
+    RESULTS.parent.mkdir(exist_ok=True)
+    RESULTS.write_text(json.dumps(rounded(runner.results), indent=1) + "\n")
+
+
+def rounded(value):
+    """The same with shares to a thousandth of a percent."""
+    if isinstance(value, float):
+        return round(value, 5)
+    if isinstance(value, dict):
+        return {key: rounded(entry) for key, entry in value.items()}
+    return [rounded(entry) for entry in value] if isinstance(value, list) else value
+
+
+# --- tables ------------------------------------------------------------------------------------------------
+
+
+def percent(share, digits=2):
+    return "–" if share is None else f"{100 * share:.{digits}f}"
+
+
+def with_interval(value):
+    return f"{percent(value['mean'])} ± {percent(value['ci95'])}"
+
+
+def table(head, rows):
+    lines = [head, ["---"] + ["---:"] * (len(head) - 1), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def origin(results, experiment):
+    scans = experiment["scans"]
+    return (
+        f"{scans} scans, protocol `{experiment['protocol']}`, {results['date']},"
+        f" {results['machine']}:\n\n    {experiment['command']}"
+    )
+
+
+def table_1(results, name):
+    """Ours beside the paper's."""
+    experiment = results["experiments"][name]
+    rows = []
+    for method in experiment["methods"]:
+        theirs = TABLE_1[method["name"]]
+        rows.append(
+            [
+                method["title"],
+                *(f"{value:.2f}" for value in theirs[:4]),
+                f"{theirs[4]:.1f}",
+                percent(method["precision"]["mean"]),
+                percent(method["precision"]["std"]),
+                percent(method["recall"]["mean"]),
+                percent(method["recall"]["std"]),
+                with_interval(method["f1"]),
+            ]
+        )
+    head = ["", "paper: P", "σ", "R", "σ", "F1", "ours: P", "σ", "R", "σ", "F1 ± 95 %"]
+    return table(head, rows) + "\n\n" + origin(results, experiment)
+
+
+def f1_by_preset(results, places):
+    """F1 of every row: one column per place and preset."""
+    experiments = [results["experiments"][place] for place, _ in places]
+    rows = []
+    for m, method in enumerate(experiments[0]["methods"]):
+        rows.append([method["title"], *(with_interval(e["methods"][m]["f1"]) for e in experiments)])
+    lines = table([""] + [title for _, title in places], rows)
+    commands = "\n".join(f"    {e['command']}" for e in experiments)
+    return f"{lines}\n\n{experiments[0]['scans']} scans, {results['date']}, {results['machine']}:\n\n{commands}"
+
+
+def scene_table(results, scene, preset="reference"):
+    experiment = results["experiments"][f"{scene}/{preset}"]
+    rows = [
+        [
+            method["title"],
+            percent(method["precision"]["mean"]),
+            percent(method["precision"]["std"]),
+            percent(method["recall"]["mean"]),
+            percent(method["recall"]["std"]),
+            with_interval(method["f1"]),
+            percent(method["by_area"]["f1"]),
+        ]
+        for method in experiment["methods"]
+    ]
+    head = ["", "P", "σ", "R", "σ", "F1 ± 95 %", "F1 by area"]
+    return table(head, rows) + "\n\n" + origin(results, experiment)
+
+
+def claims_table(results, preset):
+    rows = []
+    for c, (claim, first, second, figure) in enumerate(CLAIMS):
+        theirs = {"precision": 0, "recall": 2, "f1": 4}[figure]
+        difference = TABLE_1[first][theirs] - TABLE_1[second][theirs]
+        row = [f"{claim} ({figure})", f"{difference:+.2f}"]
+        for scene in SCENES:
+            found = results["experiments"][f"{scene}/{preset}"]["claims"][c]
+            row.append(f"{100 * found['mean']:+.2f} ± {100 * found['ci95']:.2f}")
+        rows.append(row)
+    head = ["points more", "paper"] + [scene.replace("_", " ") for scene in SCENES]
+    return table(head, rows)
+
+
+def gpf_table(results):
+    """GPF with and without the removal of low points that its public implementation begins with."""
+    rows = []
+    for title, place in (("with", "reference"), ("without", "gpf")):
+        row = [f"{title} removal of low points"]
+        for scene in SCENES:
+            found = by_name(results["experiments"][f"{scene}/{place}"])["gpf"]
+            row.append(" / ".join(percent(found[figure]["mean"]) for figure in ("precision", "recall")))
+        rows.append(row)
+    head = ["GPF: P / R"] + [scene.replace("_", " ") for scene in SCENES]
+    command = results["experiments"][f"{SCENES[0]}/gpf"]["command"]
+    return f"{table(head, rows)}\n\nThe second row, here for the first scene:\n\n    {command}"
+
+
+def gains_table(results, preset):
+    rows = []
+    for term, scene in (("elevation", "parked_cars"), ("flatness", "steep_street")):
+        for gain in results["experiments"][f"{scene}/{preset}"]["gains"][term]:
+            rows.append(
+                [
+                    f"{term}, {scene.replace('_', ' ')}",
+                    f"`{gain['scan']}`",
+                    gain["figure"],
+                    percent(gain["before"]),
+                    percent(gain["after"]),
+                ]
+            )
+    return table(["term, scene", "scan", "figure", "without", "with"], rows)
+
+
+def sweep_table(results, name):
+    experiment = results["experiments"][name]
+    bins = list(dict.fromkeys(cell["values"][0] for cell in experiment["cells"]))
+    angles = list(dict.fromkeys(cell["values"][1] for cell in experiment["cells"]))
+    cells = {tuple(cell["values"]): cell for cell in experiment["cells"]}
+
+    def text(cell):
+        return " / ".join(percent(cell[figure]["mean"], 1) for figure in ("precision", "recall", "f1"))
+
+    rows = [[size, *(text(cells[size, angle]) for angle in angles)] for size in bins]
+    head = ["bins N_r × N_θ"] + [f"{angle}°" for angle in angles]
+    return f"{table(head, rows)}\n\n{experiment['winner']}\n\n{origin(results, experiment)}"
+
+
+def speed_table(results):
+    experiment = results["experiments"]["speed"]
+    rows = [
+        [
+            method["title"],
+            f"{TABLE_2[method['name']]:.2f}" if method["name"] in TABLE_2 else "–",
+            f"{method['hz']:.1f}",
+            f"{method['hz_slowest_1_percent']:.1f}",
+        ]
+        for method in experiment["methods"]
+    ]
+    head = ["", "paper, Hz", "ours, Hz", "slowest 1 %"]
+    return table(head, rows) + "\n\n" + origin(results, experiment)
+
+
+def peers_table(results):
+    one, other = (results["experiments"][f"peers/{p}"] for p in ("patchwork", "patchwork++"))
+    rows = []
+    for m, method in enumerate(one["methods"]):
+        hz = method["hz"] or one["hz"].get(method["name"])
+        rows.append(
+            [
+                method["title"],
+                with_interval(method["f1"]),
+                with_interval(other["methods"][m]["f1"]),
+                percent(method["by_area"]["f1"]),
+                f"{hz:.1f}",
+            ]
+        )
+    head = ["", "F1, `patchwork`", "F1, `patchwork++`", "F1 by area, `patchwork`", "Hz"]
+    command = "    python3 bench/peers.py $FLAGSTONE_DATA/kitti --output $WORK/peers"
+    return (
+        f"{table(head, rows)}\n\n{one['scans']} scans, {results['date']}, {results['machine']}:\n\n"
+        f"{command}\n    {one['command']}\n    {other['command']}"
+    )
+
+
+def shares_table(results):
+    experiment = results["experiments"]["shares"]
+    time = experiment["milliseconds"]
+    scans = experiment["scans"]
+    whole = sum(time.values())
+    rows = [
+        [name, f"{value / scans:.2f}", f"{100 * value / whole:.0f}"]
+        for name, value in zip(("reading", "segmenting", "scoring"), time.values())
+    ]
+    return table(["", "ms a scan", "%"], rows) + "\n\n" + origin(results, experiment)
+
+
+def tables(results):
+    kitti = [(f"kitti/{p}/{preset}", f"`{p}`, preset `{preset}`") for p in ("patchwork", "patchwork++") for preset in PRESETS]
+    found = {
+        "table-1": table_1(results, "kitti/patchwork/reference"),
+        "table-1-presets": f1_by_preset(results, kitti),
+        "claims-reference": claims_table(results, "reference"),
+        "claims-paper": claims_table(results, "paper"),
+        "gains": gains_table(results, "reference"),
+        "gpf": gpf_table(results),
+        "figure-5-kitti": sweep_table(results, "sweep/kitti"),
+        "figure-5-simulated": sweep_table(results, "sweep/simulated"),
+        "table-2": speed_table(results),
+        "peers": peers_table(results),
+        "shares": shares_table(results),
+    }
+    for scene in SCENES:
+        found[f"scene-{scene}"] = scene_table(results, scene)
+    return found
+
+
+def filled(page, results):
+    """The page with the tables of the results."""
+    found = tables(results)
+
+    def replace(match):
+        name = match.group(1)
+        if name not in found:
+            sys.exit(f"{PAGE.name}: there is no table {name}")
+        return f"<!-- table {name} -->\n\n{found[name]}\n\n<!-- end -->"
+
+    return re.sub(r"<!-- table (\S+) -->.*?<!-- end -->", replace, page, flags=re.DOTALL)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    commands = parser.add_subparsers(dest="command", required=True)
+    run_command = commands.add_parser("run", help="run all experiments, write results and page")
+    run_command.add_argument("--work", type=pathlib.Path, required=True, help="folder for what is large")
+    run_command.add_argument("--flagstone", type=pathlib.Path, default=ROOT / "build" / "flagstone")
+    commands.add_parser("page", help="write the page's tables from the results")
+    commands.add_parser("check", help="fail if the page's tables are not those of the results")
+    options = parser.parse_args()
+
+    if options.command == "run":
+        run(options.work.resolve(), options.flagstone.resolve())
+    results = json.loads(RESULTS.read_text())
+    page = PAGE.read_text()
+    wanted = filled(page, results)
+    if options.command == "check":
+        sys.stdout.writelines(difflib.unified_diff(page.splitlines(True), wanted.splitlines(True)))
+        sys.exit(page != wanted)
+    PAGE.write_text(wanted)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "eval/method_runner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace flagstone::eval {
+namespace {
+
+/// Do mean heights above the horizon, as seen from the sensor, rise from ring to ring? Some sensors
+/// number their rings from the top.
+bool lowest_come_first(CloudView cloud, const std::vector<std::uint16_t>& rings,
+                       std::size_t count) {
+  std::vector<double> sums(count);
+  std::vector<double> points(count);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Point p = cloud[i];
+    const double squared = static_cast<double>(p.x) * p.x + static_cast<double>(p.y) * p.y;
+    if (!(squared > 0) || !(squared < 1e12)) continue;  // nor NaN
+    sums[rings[i]] += p.z / std::sqrt(squared);
+    points[rings[i]] += 1;
+  }
+  double below = -std::numeric_limits<double>::infinity();
+  for (std::size_t ring = 0; ring < count; ++ring) {
+    if (points[ring] == 0) continue;
+    const double mean = sums[ring] / points[ring];
+    if (!(mean > below)) return false;
+    below = mean;
+  }
+  return true;
+}
+
+}  // namespace
+
+MethodRunner::MethodRunner(std::string_view name, const MethodConfig& config) {
+  if (const auto* settings = std::get_if<CascadedConfig>(&config)) {
+    auto cascaded = std::make_unique<Cascaded>(*settings);
+    ring_aware_ = cascaded.get();
+    segmenter_ = std::move(cascaded);
+  } else {
+    segmenter_ = make_segmenter(name, config);
+  }
+}
+
+bool MethodRunner::find_rings(const io::Cloud& cloud) {
+  const io::Field* field = cloud.find("ring");
+  if (field == nullptr || cloud.empty()) return false;
+  const std::size_t beams = ring_aware_->config().beam_elevations.size();
+  rings_.resize(cloud.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const double ring = cloud.value(i, *field);
+    if (!(ring >= 0 && ring < static_cast<double>(beams))) return false;
+    rings_[i] = static_cast<std::uint16_t>(ring);
+    if (static_cast<double>(rings_[i]) != ring) return false;
+    count = std::max<std::size_t>(count, rings_[i] + std::size_t{1});
+  }
+  return count == beams && lowest_come_first(cloud.view(), rings_, count);
+}
+
+void MethodRunner::prepare(const io::Cloud& cloud) {
+  has_rings_ = ring_aware_ != nullptr && find_rings(cloud);
+}
+
+Status MethodRunner::segment(const io::Cloud& cloud, Segmentation& result) {
+  const Status status = has_rings_ ? ring_aware_->segment(cloud.view(), rings_, result)
+                                   : segmenter_->segment(cloud.view(), result);
+  if (status.ok() || !status.message().empty()) return status;
+  return Status(status.code(),
+                status.code() == StatusCode::out_of_memory
+                    ? fmt::format("{} points are more than the memory holds", cloud.size())
+                    : fmt::format("{} points cannot be segmented", cloud.size()));
+}
+
+}  // namespace flagstone::eval

@@ -1,0 +1,633 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/command_process.hpp"
+#include "cli/files.hpp"
+#include "cli/labelled_scans.hpp"
+#include "cli/line_matchers.hpp"
+#include "io/file_contents.hpp"
+#include "io/label_files.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::SizeIs;
+using testing::StartsWith;
+
+constexpr double tiny = 1e-9;
+
+/// Points, or shares of cells, by what became of them.
+struct Counts {
+  double tp = 0, fp = 0, fn = 0, tn = 0;
+
+  void add(bool found, bool is, double weight = 1) {
+    (found ? (is ? tp : fp) : (is ? fn : tn)) += weight;
+  }
+  [[nodiscard]] double precision() const { return tp / (tp + fp); }
+  [[nodiscard]] double recall() const { return tp / (tp + fn); }
+  [[nodiscard]] double f1() const { return 2 * precision() * recall() / (precision() + recall()); }
+  [[nodiscard]] double accuracy() const { return (tp + tn) / (tp + fp + fn + tn); }
+  [[nodiscard]] double iou() const { return tp / (tp + fp + fn); }
+};
+
+/// A scan's counts under the paper's protocol, by hand: of what the library says.
+struct Expected {
+  Counts points;
+  std::array<Counts, 4> by_range;
+  Counts by_area;
+
+  explicit Expected(const io::Cloud& scan) {
+    const std::vector<Label> labels = labels_of(scan);
+    const auto classes = made_up_classes(scan);
+    std::map<std::pair<double, double>, Counts> cells;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      const Point p = scan.view()[i];
+      const bool found = labels[i] == Label::ground;
+      const bool is = classes[i] == 40 || (classes[i] == 70 && p.z < -1.3f);
+      points.add(found, is);
+      const double range = std::hypot(p.x, p.y);
+      const std::array ends = {10.0, 20.0, 40.0, 80.0};
+      const auto band = std::ranges::upper_bound(ends, range) - ends.begin();
+      if (band < 4) by_range[static_cast<std::size_t>(band)].add(found, is);
+      if (std::abs(p.x) < 80 && std::abs(p.y) < 80) {
+        cells[{std::floor(p.x / 0.5), std::floor(p.y / 0.5)}].add(found, is);
+      }
+    }
+    for (const auto& [place, cell] : cells) {
+      const double all = cell.tp + cell.fp + cell.fn + cell.tn;
+      by_area.tp += cell.tp / all;
+      by_area.fp += cell.fp / all;
+      by_area.fn += cell.fn / all;
+      by_area.tn += cell.tn / all;
+    }
+  }
+};
+
+/// A folder with velodyne/ and labels/ of three scans, where every test has its files.
+class EvalCommand : public testing::Test {
+ protected:
+  EvalCommand() {
+    for (const std::string name : {"a", "b", "c"}) {
+      put_labelled(folder_ / "kitti", name, scan(name));
+    }
+  }
+
+  static io::Cloud scan(const std::string& name) {
+    return small_scan(3000, static_cast<std::uint32_t>(name.back()));
+  }
+
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (folder_ / name).string();
+  }
+
+  /// `flagstone eval DATASET --json results.json` and more.
+  [[nodiscard]] Outcome eval(const std::string& dataset,
+                             const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"eval", path(dataset), "--json", path("results.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+
+  /// What that leaves in the results file, if all goes well.
+  [[nodiscard]] json results(const std::string& dataset,
+                             const std::vector<std::string>& more = {}) const {
+    const Outcome outcome = eval(dataset, more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    return json_of(folder_ / "results.json");
+  }
+
+  /// A method's figures without its name, titles and times.
+  static json figures_of(const json& results, std::size_t method) {
+    json figures = without_times(results)["methods"][method];
+    figures.erase("name");
+    figures.erase("title");
+    return figures;
+  }
+
+  static std::vector<std::string> scans_of(const json& results) {
+    std::vector<std::string> names;
+    for (const json& scan : results["methods"][0]["per_scan"]) names.push_back(scan["scan"]);
+    return names;
+  }
+
+  io::TemporaryFolder folder_;
+};
+
+TEST_F(EvalCommand, JsonAgreesWithCountsMadeByHand) {
+  const std::vector<Expected> expected = {Expected(scan("a")), Expected(scan("b")),
+                                          Expected(scan("c"))};
+
+  const json results = this->results("kitti");
+
+  EXPECT_EQ(results["protocol"], "patchwork");
+  EXPECT_EQ(results["scans"], 3);
+  EXPECT_EQ(results["datasets"], json::array({"kitti"}));
+  EXPECT_EQ(results["failed"], json::array());
+  ASSERT_THAT(results["methods"], SizeIs(1));
+  const json& method = results["methods"][0];
+  EXPECT_EQ(method["name"], "patchwork");
+  EXPECT_GT(method["hz"].get<double>(), 0);
+  EXPECT_LE(method["hz_slowest_1_percent"].get<double>(), method["hz"].get<double>());
+
+  const std::array<std::pair<const char*, double (Counts::*)() const>, 5> figures = {
+      {{"precision", &Counts::precision},
+       {"recall", &Counts::recall},
+       {"f1", &Counts::f1},
+       {"accuracy", &Counts::accuracy},
+       {"iou", &Counts::iou}}};
+  for (const auto& [name, figure] : figures) {
+    double mean = 0;
+    for (const Expected& scan : expected) mean += (scan.points.*figure)() / 3;
+    double squares = 0;
+    for (const Expected& scan : expected) {
+      squares += ((scan.points.*figure)() - mean) * ((scan.points.*figure)() - mean);
+    }
+    const double deviation = std::sqrt(squares / 2);
+    EXPECT_NEAR(method[name]["mean"], mean, tiny) << name;
+    EXPECT_NEAR(method[name]["std"], deviation, tiny) << name;
+    // Student's t for 2 degrees of freedom
+    EXPECT_NEAR(method[name]["ci95"], 4.303 * deviation / std::sqrt(3.0), tiny) << name;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_NEAR(method["per_scan"][i][name], (expected[i].points.*figure)(), tiny) << name;
+    }
+
+    Counts pooled;
+    Counts area;
+    const auto sum = [](Counts& all, const Counts& one) {
+      all = {all.tp + one.tp, all.fp + one.fp, all.fn + one.fn, all.tn + one.tn};
+    };
+    for (const Expected& scan : expected) {
+      sum(pooled, scan.points);
+      sum(area, scan.by_area);
+    }
+    EXPECT_NEAR(method["pooled"][name], (pooled.*figure)(), tiny) << name;
+    EXPECT_NEAR(method["by_area"][name], (area.*figure)(), 1e-6) << name;  // shares are floats
+    ASSERT_THAT(method["by_range"], SizeIs(4));
+    for (std::size_t band = 0; band < 4; ++band) {
+      Counts in_band;
+      for (const Expected& scan : expected) sum(in_band, scan.by_range[band]);
+      EXPECT_NEAR(method["by_range"][band][name], (in_band.*figure)(), tiny) << name << band;
+    }
+  }
+  EXPECT_EQ(method["pooled"]["points"], 9000);
+  EXPECT_EQ(method["by_range"][1]["from"], 10);
+  EXPECT_EQ(method["by_range"][1]["to"], 20);
+}
+
+TEST_F(EvalCommand, OneScanHasNoDeviationAndNoInterval) {
+  const json results = this->results("kitti", {"--every", "3"});
+
+  EXPECT_EQ(results["scans"], 1);
+  const json& f1 = results["methods"][0]["f1"];
+  EXPECT_TRUE(f1["mean"].is_number());
+  EXPECT_TRUE(f1["std"].is_null());
+  EXPECT_TRUE(f1["ci95"].is_null());
+}
+
+TEST_F(EvalCommand, Table1HasNineRowsAndMarksTheBestOfEachColumn) {
+  const Outcome outcome = eval("kitti", {"--methods", "table1"});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, StartsWith("Protocol patchwork, 3 scans of kitti; percent."));
+  const std::vector<std::string> lines = lines_of(outcome.out);
+  const auto heading =
+      std::ranges::find_if(lines, [](const auto& line) { return line.starts_with("Method"); });
+  ASSERT_GE(std::distance(heading, lines.end()), 10);
+  for (const char* column : {"precision", "std", "recall", "F1", "±95%", "IoU", "Hz"}) {
+    EXPECT_THAT(*heading, HasSubstr(column));
+  }
+  std::vector<std::string> rows(heading + 1, heading + 10);
+  const std::array titles = {"RANSAC ",    "GPF ",     "LineFit ",     "CascadedSeg ",   "R-GPF ",
+                             "R-GPF + U ", "CZM + U ", "CZM + U + E ", "CZM + U + E + F"};
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_THAT(rows[i], StartsWith(titles[i]));
+  // Seven columns and two deviations have a best one; output that is no terminal has no bold.
+  std::string table;
+  for (const std::string& row : rows) table += row;
+  EXPECT_GE(std::ranges::count(table, '*'), 9);
+  EXPECT_THAT(outcome.out, Not(HasSubstr("\x1b")));
+  EXPECT_THAT(outcome.out, HasSubstr("Lowest F1"));
+  EXPECT_THAT(outcome.out, ContainsRegex("time: reading [0-9]+ %, segmenting [0-9]+ %, scoring"));
+}
+
+TEST_F(EvalCommand, SequencesOfATreeArePickedAndStrided) {
+  for (const std::string name : {"000000", "000001", "000002", "000003"}) {
+    put_labelled(folder_ / "tree/sequences/04", name, small_scan(200));
+    put_labelled(folder_ / "tree/sequences/05", name, small_scan(200));
+    put_labelled(folder_ / "tree/sequences/10", name, small_scan(200));
+  }
+
+  const json all = results("tree");
+  const json picked = results("tree", {"--sequences", "05,10", "--every", "3"});
+
+  EXPECT_EQ(all["scans"], 12);
+  EXPECT_THAT(scans_of(picked), ElementsAre("05/000000", "05/000003", "10/000000", "10/000003"));
+}
+
+TEST_F(EvalCommand, NuScenesFilesAreScoredUnderTheirProtocol) {
+  put_lidarseg(folder_ / "nuscenes", "n1", scan("a"));
+  Counts counts;
+  const std::vector<Label> labels = labels_of(scan("a"));
+  const auto classes = made_up_classes(scan("a"));
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    counts.add(labels[i] == Label::ground, classes[i] == 40);
+  }
+
+  const json results = this->results("nuscenes", {"--protocol", "lidarseg"});
+
+  EXPECT_EQ(results["protocol"], "lidarseg");
+  EXPECT_THAT(scans_of(results), ElementsAre("n1"));
+  EXPECT_NEAR(results["methods"][0]["f1"]["mean"], counts.f1(), tiny);
+}
+
+TEST_F(EvalCommand, SeveralDatasetsAreScoredTogether) {
+  put_labelled(folder_ / "other", "a", scan("a"));
+
+  const json results = this->results("kitti", {path("other")});
+
+  EXPECT_EQ(results["datasets"], json::array({"kitti", "other"}));
+  EXPECT_THAT(scans_of(results), ElementsAre("kitti/a", "kitti/b", "kitti/c", "other/a"));
+}
+
+TEST_F(EvalCommand, AProtocolForOtherIdsIsRefused) {
+  put_lidarseg(folder_ / "nuscenes", "n1", small_scan(200));
+
+  const Outcome kitti = eval("kitti", {"--protocol", "lidarseg"});
+  const Outcome nuscenes = eval("nuscenes", {"--protocol", "patchwork++"});
+
+  EXPECT_EQ(kitti.exit_code, 2);
+  EXPECT_THAT(kitti.err, is_one_line_with("use --protocol patchwork or patchwork++"));
+  EXPECT_EQ(nuscenes.exit_code, 2);
+  EXPECT_THAT(nuscenes.err, is_one_line_with("use --protocol lidarseg"));
+  EXPECT_FALSE(fs::exists(folder_ / "results.json"));
+}
+
+TEST_F(EvalCommand, AProtocolFileSaysWhatIsGround) {
+  io::put_file(folder_ / "low.toml",
+               "ground = [40]\nignored = [0]\nlow_ground = [{id = 70, "
+               "height = -1.5}]\n");
+  io::put_file(folder_ / "classes.json",
+               R"({"labels": "mine", "ground": [40], "ignored": [0, 70], "not_ground": [50]})");
+  Counts low, classes_counts;
+  const io::Cloud cloud = scan("a");
+  const std::vector<Label> labels = labels_of(cloud);
+  const auto classes = made_up_classes(cloud);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (classes[i] == 0) continue;
+    const bool found = labels[i] == Label::ground;
+    low.add(found, classes[i] == 40 || (classes[i] == 70 && cloud.view()[i].z < -1.5f));
+    if (classes[i] != 70) classes_counts.add(found, classes[i] == 40);
+  }
+
+  const json by_toml = results("kitti", {"--protocol", path("low.toml"), "--every", "3"});
+  const json by_json = results("kitti", {"--protocol", path("classes.json"), "--every", "3"});
+
+  EXPECT_EQ(by_toml["protocol"], "low");
+  EXPECT_NEAR(by_toml["methods"][0]["precision"]["mean"], low.precision(), tiny);
+  EXPECT_NEAR(by_toml["methods"][0]["recall"]["mean"], low.recall(), tiny);
+  EXPECT_EQ(by_json["protocol"], "classes");
+  EXPECT_NEAR(by_json["methods"][0]["precision"]["mean"], classes_counts.precision(), tiny);
+  EXPECT_NEAR(by_json["methods"][0]["recall"]["mean"], classes_counts.recall(), tiny);
+}
+
+TEST_F(EvalCommand, AnUnreadableScanCostsOneLineAndNotTheRun) {
+  const json undisturbed = results("kitti", {"--methods", "patchwork,gpf"});
+  io::put_file(folder_ / "kitti/velodyne/aa.bin", "17 bytes, no scan");
+  io::put_file(folder_ / "kitti/labels/aa.label", "");
+
+  const Outcome outcome = eval("kitti", {"--methods", "patchwork,gpf"});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, is_one_line_with("aa.bin"));
+  json results = json_of(folder_ / "results.json");
+  EXPECT_EQ(results["scans"], 3);
+  ASSERT_THAT(results["failed"], SizeIs(1));
+  EXPECT_EQ(results["failed"][0]["scan"], "aa");
+  EXPECT_THAT(results["failed"][0]["error"].get<std::string>(), HasSubstr("aa.bin"));
+  EXPECT_EQ(without_times(results)["methods"], without_times(undisturbed)["methods"]);
+}
+
+TEST_F(EvalCommand, NoReadableScanAtAllIsOneLineEachAndNoResults) {
+  for (const char* name : {"a", "b", "c"}) {
+    io::put_file(folder_ / ("kitti/velodyne/" + std::string(name) + ".bin"), "no scan");
+  }
+
+  const Outcome outcome = eval("kitti");
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(lines_of(outcome.err), AllOf(SizeIs(3), Each(StartsWith("flagstone: "))));
+  EXPECT_FALSE(fs::exists(folder_ / "results.json"));
+  EXPECT_FALSE(fs::exists(folder_ / "results.json.journal"));
+}
+
+TEST_F(EvalCommand, CsvHasARowPerMethodAndScan) {
+  const json results =
+      this->results("kitti", {"--methods", "patchwork,ransac", "--csv", path("results.csv")});
+
+  const std::vector<std::string> lines = lines_of(io::contents_of(folder_ / "results.csv"));
+  ASSERT_THAT(lines, SizeIs(1 + 2 * 3));
+  EXPECT_THAT(lines[0], StartsWith("method,scan,precision,recall,f1,accuracy,iou,tp,fp,fn,tn,"));
+  for (std::size_t row = 0; row < 6; ++row) {
+    const json& method = results["methods"][row / 3];
+    const json& scan = method["per_scan"][row % 3];
+    std::vector<std::string> cells;
+    std::string cell;
+    for (std::istringstream line(lines[row + 1]); std::getline(line, cell, ',');) {
+      cells.push_back(cell);
+    }
+    ASSERT_GE(cells.size(), 11U);
+    EXPECT_EQ(cells[0], method["name"]);
+    EXPECT_EQ(cells[1], scan["scan"]);
+    EXPECT_NEAR(std::stod(cells[4]), scan["f1"], 1e-6);
+    EXPECT_EQ(
+        std::stoi(cells[7]) + std::stoi(cells[8]) + std::stoi(cells[9]) + std::stoi(cells[10]),
+        3000);
+  }
+}
+
+TEST_F(EvalCommand, HtmlIsOneFileThatLoadsNothing) {
+  const Outcome outcome = run({"eval", path("kitti"), "--methods", "patchwork,gpf", "--html",
+                               path("report.html"), "--pictures", "1", "--output", path("drawn")});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(names_below(folder_ / "drawn"), SizeIs(1));
+  EXPECT_THAT(outcome.out, HasSubstr("wrote " + path("report.html")));
+  const std::string html = io::contents_of(folder_ / "report.html");
+  const auto has = [&](const char* text) { return html.find(text) != std::string::npos; };
+  EXPECT_TRUE(html.starts_with("<!doctype html>") && html.ends_with("</html>\n"));
+  EXPECT_TRUE(has("<th scope=\"row\">Patchwork</th>"));
+  EXPECT_TRUE(has("src=\"data:image/png;base64,"));
+  // Attributes and rules that load; the plotting library's own comments may name its site.
+  const std::regex loads(R"((src|href)\s*=\s*["']?\s*(https?:|//)|@import|url\()");
+  EXPECT_FALSE(std::regex_search(html, loads));
+}
+
+TEST_F(EvalCommand, PicturesAreOfTheWorstScans) {
+  const Outcome outcome =
+      eval("kitti", {"--methods", "patchwork,gpf", "--pictures", "2", "--output", path("drawn")});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json results = json_of(folder_ / "results.json");
+  std::vector<std::pair<double, std::string>> order;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double f1 = 0;
+    for (const json& method : results["methods"]) f1 += method["per_scan"][i]["f1"].get<double>();
+    order.emplace_back(f1,
+                       results["methods"][0]["per_scan"][i]["scan"].get<std::string>() + ".png");
+  }
+  std::ranges::sort(order);
+  const auto pictures = files_below(folder_ / "drawn");
+  ASSERT_THAT(pictures, SizeIs(2));
+  for (const std::size_t i : {0U, 1U}) {
+    ASSERT_TRUE(pictures.contains(order[i].second)) << order[i].second;
+    EXPECT_THAT(pictures.at(order[i].second), StartsWith("\x89PNG\r\n\x1a\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("drew " + path("drawn/" + order[i].second)));
+  }
+}
+
+TEST_F(EvalCommand, FoldersOfResultsAreMade) {
+  const Outcome outcome = run({"eval", path("kitti"), "--csv", path("new/deep/results.csv")});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(names_below(folder_ / "new"), ElementsAre("deep/results.csv"));
+}
+
+TEST_F(EvalCommand, AFolderThatCannotBeMadeIsOneLineBeforeAnyWork) {
+  io::put_file(folder_ / "taken", "mine");
+
+  const Outcome outcome = run({"eval", path("kitti"), "--csv", path("taken/results.csv")});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, is_one_line_with("taken: cannot be made"));
+}
+
+TEST_F(EvalCommand, ResultsThatCannotBeWrittenAreOneLineBeforeAnyWork) {
+  const std::string file = path("results");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> misuses = {
+      {{"--json", path("kitti")}, "kitti: is a folder"},
+      {{"--json", file, "--csv", file}, "results: is named twice"},
+  };
+  for (const auto& [arguments, said] : misuses) {
+    std::vector<std::string> all = {"eval", path("kitti")};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = run(all);
+
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_THAT(outcome.err, is_one_line_with(said));
+  }
+  EXPECT_EQ(folder_.entries(), 1);
+}
+
+TEST_F(EvalCommand, AFolderForPicturesThatCannotBeMadeIsOneLineBeforeAnyWork) {
+  io::put_file(folder_ / "taken", "mine");
+
+  const Outcome outcome = eval("kitti", {"--pictures", "1", "--output", path("taken/drawn")});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, is_one_line_with("taken/drawn: cannot be made"));
+}
+
+TEST_F(EvalCommand, SpeedStandsBesideThePapersOwn) {
+  const Outcome outcome =
+      eval("kitti", {"--methods", "patchwork,gpf,ransac", "--speed", "--threads", "2"});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, ContainsRegex("Method +mean +slowest 1% +paper"));
+  EXPECT_THAT(outcome.out, ContainsRegex("Patchwork +[0-9.]+ +[0-9.]+ +43.97"));
+  EXPECT_THAT(outcome.out, ContainsRegex("GPF +[0-9.]+ +[0-9.]+ +29.72"));
+  EXPECT_THAT(outcome.out, ContainsRegex("RANSAC +[0-9.]+ +[0-9.]+ +- "));
+  EXPECT_EQ(json_of(folder_ / "results.json")["threads"], 1);
+}
+
+TEST_F(EvalCommand, AnyNumberOfThreadsComesToTheSame) {
+  const json one = results("kitti", {"--methods", "all", "--threads", "1"});
+  const json two = results("kitti", {"--methods", "all", "--threads", "2"});
+
+  EXPECT_EQ(one["threads"], 1);
+  EXPECT_EQ(two["threads"], 2);
+  EXPECT_EQ(without_times(one), without_times(two));
+}
+
+/// What `flagstone segment` wrote is scored as `flagstone eval` scores the method itself.
+class LabelsMadeElsewhere : public EvalCommand {
+ protected:
+  /// Labels of all three scans.
+  void segment(const std::string& output, const std::string& label_map) const {
+    const Outcome outcome = run({"segment", path("kitti/velodyne"), "--output", path(output),
+                                 "--label-map", label_map, "--method", "gpf"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+
+  /// Scores method 0, GPF itself, and method 1, its labels in a folder.
+  [[nodiscard]] json both(const std::string& dataset, const std::string& labels,
+                          const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"--methods", "gpf", "--labels", "peer=" + path(labels)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    json found = results(dataset, arguments);
+    EXPECT_EQ(found["methods"][1]["name"], "peer");
+    EXPECT_TRUE(found["methods"][1]["hz"].is_null());
+    return found;
+  }
+};
+
+TEST_F(LabelsMadeElsewhere, ScoreLikeTheMethodThatMadeThem) {
+  for (const std::string label_map : {"flagstone", "semantic-kitti"}) {
+    segment(label_map, label_map);
+
+    const json found = both("kitti", label_map, {"--label-map", label_map});
+
+    EXPECT_EQ(figures_of(found, 0), figures_of(found, 1)) << label_map;
+  }
+}
+
+TEST_F(LabelsMadeElsewhere, MayBeNumPyArrays) {
+  segment("made", "flagstone");
+  for (const std::string name : {"a", "b", "c"}) {
+    std::vector<Label> labels;
+    for (const std::uint32_t code : codes_of(folder_ / ("made/" + name + ".label"))) {
+      labels.push_back(static_cast<Label>(code));
+    }
+    fs::create_directories(folder_ / "arrays");
+    ASSERT_TRUE(io::write_label_npy(folder_ / ("arrays/" + name + ".npy"), labels).ok());
+  }
+
+  const json found = both("kitti", "arrays");
+
+  EXPECT_EQ(figures_of(found, 0), figures_of(found, 1));
+}
+
+TEST_F(LabelsMadeElsewhere, MayLieAsSemanticKittisPredictionsDo) {
+  segment("made", "semantic-kitti");
+  fs::create_directories(folder_ / "tree/sequences");
+  fs::rename(folder_ / "kitti", folder_ / "tree/sequences/08");
+  fs::create_directories(folder_ / "submission/sequences/08");
+  fs::rename(folder_ / "made", folder_ / "submission/sequences/08/predictions");
+
+  const json found = both("tree", "submission", {"--label-map", "semantic-kitti"});
+
+  EXPECT_EQ(figures_of(found, 0), figures_of(found, 1));
+}
+
+TEST_F(LabelsMadeElsewhere, MayBeWhatSegmentMakesOfTheWholeDataset) {
+  put_labelled(folder_ / "tree/sequences/08", "000000", scan("a"));
+  for (const std::string dataset : {"kitti", "tree"}) {
+    const Outcome outcome =
+        run({"segment", path(dataset), "--output", path("of-" + dataset), "--method", "gpf"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+
+    const json found = both(dataset, "of-" + dataset);
+
+    EXPECT_EQ(figures_of(found, 0), figures_of(found, 1)) << dataset;
+  }
+}
+
+TEST_F(LabelsMadeElsewhere, OfSeveralDatasetsHaveAFolderEach) {
+  for (const std::string dataset : {"one", "two"}) {
+    put_labelled(folder_ / (dataset + "/sequences/08"), "000000", scan(dataset));
+    const Outcome outcome =
+        run({"segment", path(dataset), "--output", path("made/" + dataset), "--method", "gpf"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+
+  const json found = both("one", "made", {path("two")});
+
+  EXPECT_EQ(found["scans"], 2);
+  EXPECT_EQ(figures_of(found, 0), figures_of(found, 1));
+}
+
+TEST_F(LabelsMadeElsewhere, ThatAreAllMissingHaveNoFigures) {
+  fs::create_directories(folder_ / "made");
+
+  const Outcome outcome = eval("kitti", {"--methods", "gpf", "--labels", "peer=" + path("made"),
+                                         "--html", path("report.html")});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(lines_of(outcome.err), SizeIs(3));
+  EXPECT_THAT(outcome.out, ContainsRegex("\npeer +- +- +- "));
+  const json peer = json_of(folder_ / "results.json")["methods"][1];
+  for (const char* figure : {"precision", "recall", "f1", "accuracy", "iou"}) {
+    EXPECT_TRUE(peer[figure]["mean"].is_null()) << figure;
+    EXPECT_TRUE(peer["pooled"][figure].is_null()) << figure;
+    EXPECT_TRUE(peer["by_area"][figure].is_null()) << figure;
+    EXPECT_TRUE(peer["by_range"][0][figure].is_null()) << figure;
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "report.html"));
+}
+
+TEST_F(LabelsMadeElsewhere, MissingOnesCostOneLineAndLeaveTheScanToTheOthers) {
+  segment("made", "flagstone");
+  fs::remove(folder_ / "made/b.label");
+
+  const Outcome outcome = eval("kitti", {"--methods", "gpf", "--labels", "peer=" + path("made"),
+                                         "--pictures", "3", "--output", path("drawn")});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, AllOf(is_one_line_with("method peer"), HasSubstr("made/b.label")));
+  const json found = json_of(folder_ / "results.json");
+  EXPECT_THAT(found["methods"][0]["per_scan"], SizeIs(3));
+  EXPECT_THAT(found["methods"][1]["per_scan"], SizeIs(2));
+  EXPECT_EQ(found["failed"][0]["scan"], "b");
+  EXPECT_THAT(names_below(folder_ / "drawn"), ElementsAre("a.png", "b.png", "c.png"));
+}
+
+TEST_F(EvalCommand, WrongUsageIsOneLine) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> misuses = {
+      {{"--methods", "magic"}, "no method is named \"magic\""},
+      {{"--methods", "none"}, "no method to evaluate"},
+      {{"--protocol", "kitti"}, "patchwork, patchwork++, lidarseg, simulation"},
+      {{"--protocol", "nowhere.toml"}, "nowhere.toml"},
+      {{"--sequences", "05"}, "has no sequences/"},
+      {{"--every", "0"}, "--every"},
+      {{"--threads", "0"}, "--threads"},
+      {{"--labels", "peer"}, "NAME=DIR"},
+      {{"--set", "patchwork.seed_cuont=3"}, "seed_cuont is no setting"},
+      {{"--set", "patchwork.distance_margin=-1"}, "distance_margin = -1"},
+      {{"--pictures", "-1"}, "--pictures"},
+      {{"--label-map", "mine"}, "{flagstone,semantic-kitti}"},
+      {{path("empty")}, "empty: no dataset"},
+      {{path("gone")}, "gone: no such folder"},
+      {{path("kitti")}, "scan kitti/a is listed twice"},
+  };
+  fs::create_directories(folder_ / "empty");
+  for (const auto& [arguments, said] : misuses) {
+    const Outcome outcome = eval("kitti", arguments);
+
+    EXPECT_EQ(outcome.exit_code, 2) << arguments[0];
+    EXPECT_EQ(outcome.out, "") << arguments[0];
+    EXPECT_THAT(outcome.err, is_one_line_with(said));
+    EXPECT_FALSE(fs::exists(folder_ / "results.json"));
+  }
+}
+
+}  // namespace
+}  // namespace flagstone::cli

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/eval_methods.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "baselines/settings.hpp"
+#include "cli/same_config.hpp"
+#include "io/file_contents.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> names_of(const std::vector<eval::Method>& methods) {
+  std::vector<std::string> names;
+  for (const eval::Method& method : methods) names.push_back(method.name);
+  return names;
+}
+
+const eval::Method& named(const std::vector<eval::Method>& methods, const std::string& name) {
+  return *std::ranges::find(methods, name, &eval::Method::name);
+}
+
+const PatchworkConfig& patchwork_of(const eval::Method& method) {
+  return std::get<PatchworkConfig>(method.config.value());
+}
+
+/// What is said where `methods` come to nothing.
+std::string refusal(const EvalMethods& methods) {
+  try {
+    static_cast<void>(methods.resolve());
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+TEST(EvalMethods, Table1IsThePapersNineRowsInItsOrder) {
+  std::vector<std::string> titles;
+  for (const eval::Method& method : EvalMethods{.names = {"table1"}}.resolve()) {
+    titles.push_back(method.title);
+  }
+
+  EXPECT_THAT(titles, ElementsAre("RANSAC", "GPF", "LineFit", "CascadedSeg", "R-GPF", "R-GPF + U",
+                                  "CZM + U", "CZM + U + E", "CZM + U + E + F"));
+}
+
+TEST(EvalMethods, AllIsEveryMethodThereIs) {
+  const auto all = method_names();
+
+  EXPECT_EQ(names_of(EvalMethods{.names = {"all"}}.resolve()),
+            std::vector<std::string>(all.begin(), all.end()));
+}
+
+TEST(EvalMethods, AreThoseListedInThatOrderEachOnce) {
+  EXPECT_THAT(names_of(EvalMethods{.names = {"gpf", "patchwork", "ransac", "gpf"}}.resolve()),
+              ElementsAre("gpf", "patchwork", "ransac"));
+  const auto names = names_of(EvalMethods{.names = {"patchwork", "table1", "gpf"}}.resolve());
+  EXPECT_EQ(names.size(), 10U);
+  EXPECT_EQ(names.front(), "patchwork");
+}
+
+TEST(EvalMethods, ASettingOfAMethodIsThatMethodsAlone) {
+  const auto methods =
+      EvalMethods{.names = {"all"}, .settings = {"gpf.segments=5", "czm+u.seed_count=7"}}.resolve();
+
+  EXPECT_EQ(std::get<GpfConfig>(*named(methods, "gpf").config).segments, 5);
+  EXPECT_EQ(patchwork_of(named(methods, "czm+u")).seed_count, 7);
+  EXPECT_EQ(patchwork_of(named(methods, "czm+u+e")).seed_count, PatchworkConfig{}.seed_count);
+  EXPECT_EQ(patchwork_of(named(methods, "patchwork")).seed_count, PatchworkConfig{}.seed_count);
+}
+
+TEST(EvalMethods, PatchworksSettingsReachTheAblationAndNotRGpf) {
+  const auto methods =
+      EvalMethods{.names = {"all"}, .settings = {"patchwork.distance_margin=0.31"}}.resolve();
+
+  for (const char* name : {"patchwork", "czm+u", "czm+u+e", "czm+u+e+f"}) {
+    EXPECT_EQ(patchwork_of(named(methods, name)).distance_margin, 0.31f) << name;
+  }
+  EXPECT_TRUE(is_same(patchwork_of(named(methods, "r_gpf")), r_gpf_config()));
+  EXPECT_NE(patchwork_of(named(methods, "r_gpf+u")).distance_margin, 0.31f);
+}
+
+TEST(EvalMethods, PresetAndFileAreWherePatchworksSettingsStart) {
+  const io::TemporaryFolder folder;
+  io::put_file(folder / "mine.toml", "seed_count = 11\n");
+
+  const auto methods = EvalMethods{.names = {"patchwork", "czm+u"},
+                                   .preset = "paper",
+                                   .config_file = (folder / "mine.toml").string()}
+                           .resolve();
+
+  for (const eval::Method& method : methods) {
+    EXPECT_EQ(patchwork_of(method).seed_count, 11) << method.name;
+    EXPECT_EQ(patchwork_of(method).distance_margin,
+              PatchworkConfig::preset("paper").distance_margin);
+  }
+}
+
+TEST(EvalMethods, TheAblationHasTheTermsThatItsNameListsWhateverPatchworkHas) {
+  const auto methods =
+      EvalMethods{.names = {"all"}, .settings = {"patchwork.elevation.enabled=false"}}.resolve();
+
+  EXPECT_FALSE(patchwork_of(named(methods, "patchwork")).elevation.enabled);
+  EXPECT_FALSE(patchwork_of(named(methods, "czm+u")).elevation.enabled);
+  EXPECT_TRUE(patchwork_of(named(methods, "czm+u+e")).elevation.enabled);
+  EXPECT_FALSE(patchwork_of(named(methods, "czm+u+e")).flatness.enabled);
+  EXPECT_TRUE(patchwork_of(named(methods, "czm+u+e+f")).flatness.enabled);
+}
+
+TEST(EvalMethods, TheSensorsHeightReachesEveryMethodThatHasOne) {
+  std::vector<std::string> without;
+  for (eval::Method& method : EvalMethods{.names = {"all"}, .sensor_height = 1.25f}.resolve()) {
+    const auto settings = settings_of(method.config.value());
+    const auto height = std::ranges::find(settings, "sensor_height", &Setting::key);
+    if (height == settings.end()) {
+      without.push_back(method.name);
+    } else {
+      EXPECT_EQ(*std::get<float*>(height->value), 1.25f) << method.name;
+    }
+  }
+  EXPECT_THAT(without, ElementsAre("ransac"));
+}
+
+TEST(EvalMethods, LabelsMadeElsewhereFollowUnderTheirOwnName) {
+  const io::TemporaryFolder folder;
+  const std::string other = folder.path().string();
+
+  const auto methods = EvalMethods{.names = {"gpf"},
+                                   .labels = {"peer=" + other, "second=" + other},
+                                   .label_map = io::LabelMap::semantic_kitti}
+                           .resolve();
+
+  ASSERT_THAT(names_of(methods), ElementsAre("gpf", "peer", "second"));
+  EXPECT_FALSE(methods[1].config);
+  EXPECT_EQ(methods[1].title, "peer");
+  EXPECT_EQ(methods[1].labels, folder.path());
+  EXPECT_EQ(methods[1].label_map, io::LabelMap::semantic_kitti);
+}
+
+TEST(EvalMethods, NoneLeavesLabelsMadeElsewhereAlone) {
+  const io::TemporaryFolder folder;
+
+  EXPECT_THAT(
+      names_of(
+          EvalMethods{.names = {"none"}, .labels = {"peer=" + folder.path().string()}}.resolve()),
+      ElementsAre("peer"));
+  EXPECT_THAT(refusal({.names = {"none"}}), AllOf(HasSubstr("--methods"), HasSubstr("--labels")));
+}
+
+TEST(EvalMethods, ErrorsNameWhatIsAllowed) {
+  EXPECT_THAT(refusal({.names = {"magic"}}), AllOf(HasSubstr("magic"), HasSubstr("czm+u+e+f")));
+  EXPECT_THAT(refusal({.settings = {"segments=5"}}),
+              AllOf(HasSubstr("--set segments=5"), HasSubstr("gpf.segments=5")));
+  EXPECT_THAT(refusal({.settings = {"magic.power=5"}}),
+              AllOf(HasSubstr("--set magic.power=5"), HasSubstr("line_fit")));
+  EXPECT_THAT(refusal({.names = {"gpf"}, .settings = {"gpf.segmentz=5"}}),
+              AllOf(HasSubstr("--set gpf.segmentz=5"), HasSubstr("segmentz is no setting")));
+  EXPECT_THAT(refusal({.names = {"gpf"}, .settings = {"gpf.segments=many"}}),
+              HasSubstr("--set gpf.segments=many"));
+}
+
+TEST(EvalMethods, ASettingOfAMethodThatIsNotEvaluatedIsRefused) {
+  EXPECT_THAT(refusal({.names = {"ransac"}, .settings = {"gpf.segments=5"}}),
+              AllOf(HasSubstr("--set gpf.segments=5"), HasSubstr("not among --methods")));
+}
+
+TEST(EvalMethods, LabelsNeedANameAndAFolderThatIsThere) {
+  const io::TemporaryFolder folder;
+  const std::string there = folder.path().string();
+  for (const std::string& wrong : {std::string("peer"), std::string("peer="), "=" + there}) {
+    EXPECT_THAT(refusal({.labels = {wrong}}),
+                AllOf(HasSubstr("--labels " + wrong), HasSubstr("NAME=DIR")));
+  }
+  EXPECT_THAT(refusal({.labels = {"peer=" + there + "/gone"}}), HasSubstr("/gone: no such folder"));
+  EXPECT_THAT(refusal({.names = {"gpf"}, .labels = {"gpf=" + there}}),
+              HasSubstr("two methods are called gpf"));
+}
+
+}  // namespace
+}  // namespace flagstone::cli

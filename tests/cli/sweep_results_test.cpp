@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/sweep_results.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/command_process.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A point of a sweep whose scans have these F1, one in a hundred of 100 points each.
+eval::MethodResult point_of(const std::vector<int>& f1_percent) {
+  eval::MethodResult result;
+  std::vector<double> values;
+  for (const int percent : f1_percent) {
+    eval::ScanScore scan;
+    scan.scan = std::to_string(values.size());
+    // precision = recall = F1
+    scan.score.points = {.true_positives = static_cast<double>(percent),
+                         .false_positives = 100.0 - percent,
+                         .false_negatives = 100.0 - percent};
+    result.scans.push_back(scan);
+    values.push_back(scan.score.points.f1());
+  }
+  result.precision = result.recall = result.f1 = eval::spread_of(values);
+  return result;
+}
+
+/// A sweep over seed_count with a point per value.
+Sweep sweep_of(const std::vector<std::string>& values,
+               const std::vector<std::vector<int>>& f1_percent) {
+  Sweep sweep{.method = "patchwork", .axes = {{"seed_count", values}}, .results = {}};
+  sweep.results.protocol = "patchwork";
+  sweep.results.datasets = {"kitti"};
+  sweep.results.scans = f1_percent[0].size();
+  for (const auto& percents : f1_percent) sweep.results.methods.push_back(point_of(percents));
+  return sweep;
+}
+
+TEST(SweepResults, TheLastAxisChangesFastest) {
+  const Sweep sweep{
+      .method = "", .axes = {{"a", {"1", "2"}}, {"b", {"x", "y", "z"}}}, .results = {}};
+
+  EXPECT_THAT(sweep.values_at(0), ElementsAre("1", "x"));
+  EXPECT_THAT(sweep.values_at(2), ElementsAre("1", "z"));
+  EXPECT_THAT(sweep.values_at(3), ElementsAre("2", "x"));
+  EXPECT_THAT(sweep.values_at(5), ElementsAre("2", "z"));
+}
+
+TEST(SweepResults, TheWinnerIsAheadByMultiplesOfTheIntervalOfTheDifference) {
+  // Differences of 4, 6 and 5 points: mean 5, deviation 1, half width 4.303 / sqrt(3) = 2.484.
+  const Sweep sweep = sweep_of({"5", "10", "20"}, {{50, 60, 70}, {80, 90, 95}, {76, 84, 90}});
+
+  EXPECT_EQ(winner_text(sweep),
+            "Best F1: 88.33 % at seed_count = 10; 5.00 points ahead of seed_count = 20, 2.0 times "
+            "the 95 % interval of the difference: more than noise.");
+}
+
+TEST(SweepResults, ALeadWithinItsIntervalIsCalledNoise) {
+  const Sweep sweep = sweep_of({"5", "10"}, {{50, 90}, {80, 61}});
+
+  EXPECT_THAT(winner_text(sweep), HasSubstr("at seed_count = 10; 0.50 points ahead"));
+  EXPECT_THAT(winner_text(sweep), HasSubstr("no more than noise"));
+}
+
+TEST(SweepResults, ALeadThatEveryScanHasNeedsNoInterval) {
+  const Sweep sweep = sweep_of({"5", "10"}, {{50, 50}, {50, 50}});
+
+  EXPECT_EQ(winner_text(sweep),
+            "Best F1: 50.00 % at seed_count = 5; 0.00 points ahead of seed_count = 10, the same on "
+            "every scan.");
+}
+
+TEST(SweepResults, OneScanGivesNoInterval) {
+  EXPECT_THAT(winner_text(sweep_of({"5", "10"}, {{50}, {60}})),
+              HasSubstr("10.00 points ahead of seed_count = 5; one scan gives no interval."));
+}
+
+TEST(SweepResults, OnePointWinsAlone) {
+  EXPECT_EQ(winner_text(sweep_of({"5"}, {{50, 70}})), "Best F1: 60.00 % at seed_count = 5.");
+}
+
+TEST(SweepResults, CsvHasARowPerPointAndEmptyCellsWhereThereIsNoNumber) {
+  const std::string csv = to_csv(sweep_of({"5", "1,5"}, {{50}, {60}}));
+
+  EXPECT_EQ(csv,
+            "seed_count,scans,precision_mean,precision_std,precision_ci95,recall_mean,recall_std,"
+            "recall_ci95,f1_mean,f1_std,f1_ci95\r\n"
+            "5,1,0.500000,,,0.500000,,,0.500000,,\r\n"
+            "\"1,5\",1,0.600000,,,0.600000,,,0.600000,,\r\n");
+}
+
+TEST(SweepResults, TextHasARowPerPointInPercent) {
+  const std::vector<std::string> lines = lines_of(to_text(sweep_of({"5", "10"}, {{50, 60}, {70}})));
+
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_THAT(lines[0], HasSubstr("seed_count"));
+  EXPECT_THAT(lines[1], testing::ContainsRegex("^ +5 +55.00 +7.07 +55.00 +7.07 +55.00 +7.07 +63"));
+  EXPECT_THAT(lines[2], testing::ContainsRegex("^ +10 +70.00 "));
+}
+
+TEST(SweepResults, ColumnsOfTheTextAreApartAndEndUnderTheirHeadings) {
+  Sweep sweep = sweep_of({"true", "false"}, {{50, 60}, {70, 80}});
+  sweep.axes[0].key = "few_points_are_ground";
+
+  const std::vector<std::string> lines = lines_of(to_text(sweep));
+
+  EXPECT_THAT(lines[0], HasSubstr("few_points_are_ground  precision    std"));
+  const std::size_t end = lines[0].find("precision") + std::string("precision").size();
+  EXPECT_EQ(lines[1].substr(end - 6, 6), " 55.00");
+  EXPECT_EQ(lines[1][end], ' ');
+}
+
+TEST(SweepResults, JsonHasACellPerPoint) {
+  const auto json = to_json(sweep_of({"5", "10"}, {{50, 60}, {70, 80}}));
+
+  EXPECT_EQ(json["method"], "patchwork");
+  EXPECT_EQ(json["protocol"], "patchwork");
+  EXPECT_EQ(json["scans"], 2);
+  EXPECT_EQ(json["keys"], nlohmann::json::array({"seed_count"}));
+  ASSERT_EQ(json["cells"].size(), 2U);
+  EXPECT_EQ(json["cells"][1]["values"], nlohmann::json::array({"10"}));
+  EXPECT_DOUBLE_EQ(json["cells"][1]["f1"]["mean"], 0.75);
+  EXPECT_TRUE(json["cells"][1]["f1"]["ci95"].is_number());
+  EXPECT_THAT(json["winner"].get<std::string>(), HasSubstr("seed_count = 10"));
+}
+
+}  // namespace
+}  // namespace flagstone::cli
