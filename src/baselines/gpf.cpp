@@ -80,10 +80,10 @@ struct Gpf::Pipeline {
   /// LPR: mean height of the N_LPR lowest points, or of all if there are fewer.
   [[nodiscard]] double lowest_point_representative(std::span<const float> z) noexcept {
     float* begin = heights.data();
-    float* end = std::copy(z.begin(), z.end(), begin);
+    float* end = std::ranges::copy(z, begin).out;
     const std::ptrdiff_t lowest = std::min<std::ptrdiff_t>(config.lowest_points, end - begin);
     std::nth_element(begin, begin + lowest - 1, end);
-    std::sort(begin, begin + lowest);  // the sum must not depend on the order of the input
+    std::ranges::sort(begin, begin + lowest);  // the sum must not depend on the order of the input
     double sum = 0;
     for (const float* height = begin; height < begin + lowest; ++height) sum += *height;
     return sum / static_cast<double>(lowest);

@@ -47,10 +47,13 @@ void run_crew(std::size_t count, unsigned threads, const MakeWorker& make_worker
     const std::size_t size = std::min<std::size_t>(thread_count(threads), count);
     std::vector<std::jthread> others;
     others.reserve(size);
-    try {
-      while (others.size() + 1 < size) others.emplace_back(work);
-    } catch (const std::system_error&) {
-      // Then there are fewer.
+    bool there_are_more = true;
+    while (there_are_more && others.size() + 1 < size) {
+      try {
+        others.emplace_back(work);
+      } catch (const std::system_error&) {
+        there_are_more = false;
+      }
     }
     work();
   }

@@ -53,8 +53,8 @@ std::vector<eval::LabelledScan> list_scans(const EvaluationOptions& options) {
       scans[i].name = dataset_name(dataset) + "/" + scans[i].name;
     }
   }
-  std::vector<std::string> names;
-  for (const eval::LabelledScan& scan : scans) names.push_back(scan.name);
+  std::vector<std::string> names(scans.size());
+  std::ranges::transform(scans, names.begin(), &eval::LabelledScan::name);
   std::ranges::sort(names);
   if (const auto twice = std::ranges::adjacent_find(names); twice != names.end()) {
     throw std::invalid_argument(fmt::format(
@@ -117,9 +117,9 @@ void EvaluationOptions::add_to(CLI::App& command) {
                    "again");
 }
 
-Evaluation::Evaluation(const EvaluationOptions& options, std::vector<eval::Method> methods,
+Evaluation::Evaluation(EvaluationOptions options, std::vector<eval::Method> methods,
                        fs::path journal)
-    : options_(options), methods_(std::move(methods)), journal_(std::move(journal)) {
+    : options_(std::move(options)), methods_(std::move(methods)), journal_(std::move(journal)) {
   throw_if_bad(eval::find_protocol(options_.protocol, protocol_));
   scans_ = list_scans(options_);
   check_ids(protocol_, scans_);

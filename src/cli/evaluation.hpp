@@ -37,7 +37,7 @@ class Evaluation {
   /// `journal`: where finished scans are kept until the results are written; empty for nowhere.
   /// Throws std::invalid_argument with one line that says what is wrong with options, methods or
   /// datasets.
-  Evaluation(const EvaluationOptions& options, std::vector<eval::Method> methods,
+  Evaluation(EvaluationOptions options, std::vector<eval::Method> methods,
              std::filesystem::path journal);
 
   /// Evaluates every scan that is not done. What goes wrong with a scan is printed and kept in the

@@ -42,8 +42,8 @@ std::vector<std::size_t> worst_first(const Evaluation& evaluation, const eval::R
   for (std::size_t i = 0; i < evaluation.scans().size(); ++i) {
     if (values.contains(evaluation.scans()[i].name)) order.push_back(i);
   }
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
-    return eval::spread_of(values[evaluation.scans()[i].name]).mean;
+  std::ranges::sort(order, {}, [&](std::size_t i) {
+    return std::pair(eval::spread_of(values[evaluation.scans()[i].name]).mean, i);
   });
   return order;
 }

@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -49,8 +48,8 @@ struct SimulateOptions {
 /// One world and the frames taken of it. Made by who comes first, shared by all who help.
 struct DriveInWork {
   std::once_flag planned, built;
-  std::optional<sim::Drive> drive;
-  std::optional<sim::Scene> scene;
+  std::unique_ptr<sim::Drive> drive;
+  std::unique_ptr<sim::Scene> scene;
   std::atomic<std::size_t> next = 0;     ///< frame of the drive that nobody has taken yet
   std::atomic<std::size_t> working = 0;  ///< threads at it
 };
@@ -68,7 +67,7 @@ class SequenceRun {
         poses_(options.frames),
         kept_(options.frames) {
     for (std::size_t frame = 0; frame < kept_.size(); ++frame) kept_[frame] = files.has(frame);
-    progress_.emplace(missing());
+    progress_ = std::make_unique<Progress>(missing());
   }
 
   /// Works until all is done or somebody interrupts; throws what went wrong.
@@ -120,7 +119,7 @@ class SequenceRun {
       if (offset >= count) break;
       std::call_once(at.planned, [&] { plan(at, index); });
       if (kept_[first + offset]) continue;
-      std::call_once(at.built, [&] { at.scene.emplace(at.drive->scene()); });
+      std::call_once(at.built, [&] { at.scene = std::make_unique<sim::Scene>(at.drive->scene()); });
       files_.write(first + offset,
                    at.drive->scan(*at.scene, sim::Noise{}, static_cast<int>(offset)));
       report();
@@ -130,7 +129,7 @@ class SequenceRun {
   }
 
   void plan(DriveInWork& at, std::size_t index) {
-    at.drive.emplace(scene_, sim::hdl_64e(), sim::drive_seed(seed_, index));
+    at.drive = std::make_unique<sim::Drive>(scene_, sim::hdl_64e(), sim::drive_seed(seed_, index));
     const std::size_t first = index * drive_length;
     for (std::size_t i = 0; i < drive_length && first + i < poses_.size(); ++i) {
       poses_[first + i] = at.drive->poses()[i];
@@ -159,7 +158,7 @@ class SequenceRun {
   std::atomic<bool> failed_ = false;
 
   std::mutex mutex_;  // of what follows
-  std::optional<Progress> progress_;
+  std::unique_ptr<Progress> progress_;
   std::size_t simulated_ = 0;
   std::exception_ptr failure_;
 };

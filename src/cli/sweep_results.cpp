@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "eval/results_csv.hpp"
 #include "eval/results_json.hpp"
@@ -133,7 +134,7 @@ std::string winner_text(const Sweep& sweep) {
   const std::vector<eval::MethodResult>& points = sweep.results.methods;
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater(), [&](std::size_t p) { return points[p].f1.mean; });
+  std::ranges::sort(order, {}, [&](std::size_t p) { return std::pair(-points[p].f1.mean, p); });
   std::string text = fmt::format("Best F1: {:.2f} % at {}", percent * points[order[0]].f1.mean,
                                  name_of(sweep, order[0]));
   if (points.size() < 2) return text + ".";

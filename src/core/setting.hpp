@@ -13,10 +13,10 @@ namespace flagstone {
 struct Allowed {
   double low = 0;
   double high = 0;
-  std::string_view unit = "";    ///< "m", "degrees"; empty for none
+  std::string_view unit = {};    ///< "m", "degrees"; empty for none
   bool without_low = false;      ///< `low` itself is not allowed
   bool or_infinity = false;      ///< infinity is allowed too and stands for "none"
-  std::string_view remark = "";  ///< in parentheses after the range
+  std::string_view remark = {};  ///< in parentheses after the range
 };
 
 /// "0 to 100 m", "above 0, up to 100 m, or inf for none".

@@ -56,7 +56,8 @@ bool MethodRunner::find_rings(const io::Cloud& cloud) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const double ring = cloud.value(i, *field);
-    if (!(ring >= 0 && ring < static_cast<double>(beams))) return false;
+    const bool is_one = ring >= 0 && ring < static_cast<double>(beams);  // not if NaN
+    if (!is_one) return false;
     rings_[i] = static_cast<std::uint16_t>(ring);
     if (static_cast<double>(rings_[i]) != ring) return false;
     count = std::max<std::size_t>(count, rings_[i] + std::size_t{1});
@@ -69,8 +70,8 @@ void MethodRunner::prepare(const io::Cloud& cloud) {
 }
 
 Status MethodRunner::segment(const io::Cloud& cloud, Segmentation& result) {
-  const Status status = has_rings_ ? ring_aware_->segment(cloud.view(), rings_, result)
-                                   : segmenter_->segment(cloud.view(), result);
+  Status status = has_rings_ ? ring_aware_->segment(cloud.view(), rings_, result)
+                             : segmenter_->segment(cloud.view(), result);
   if (status.ok() || !status.message().empty()) return status;
   return Status(status.code(),
                 status.code() == StatusCode::out_of_memory

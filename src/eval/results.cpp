@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 namespace flagstone::eval {
 namespace {
@@ -95,8 +96,8 @@ Results gather(std::span<const Method> methods, std::span<const LabelledScan> sc
 std::vector<std::size_t> worst_scans(const MethodResult& result, std::size_t count) {
   std::vector<std::size_t> order(result.scans.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {},
-                           [&](std::size_t i) { return result.scans[i].score.points.f1(); });
+  std::ranges::sort(order, {},
+                    [&](std::size_t i) { return std::pair(result.scans[i].score.points.f1(), i); });
   order.resize(std::min(count, order.size()));
   return order;
 }

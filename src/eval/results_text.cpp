@@ -99,8 +99,8 @@ std::string table(const Results& results, const std::vector<Column>& columns,
       const Column& column = columns[c];
       const std::optional<double> value =
           result.scans.empty() ? std::nullopt : column.value(result);
-      const bool is_best = value && best[c] && is_complete(results, result) &&
-                           printed(*value, column.digits) == best[c].value();
+      const std::optional<double> top = is_complete(results, result) ? best[c] : std::nullopt;
+      const bool is_best = value && top && printed(*value, column.digits) == *top;
       text += optional_cell(value, column.width, column.digits, is_best, style);
     }
     text += '\n';

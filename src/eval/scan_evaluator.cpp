@@ -69,10 +69,9 @@ Status ScanEvaluator::read(const LabelledScan& scan) {
 }
 
 Status ScanEvaluator::segment(Worker& worker, std::optional<double>& segment_ms) {
-  const bool is_new = !worker.runner;
-  if (is_new) {
-    worker.runner = std::make_unique<MethodRunner>(worker.method->name, *worker.method->config);
-  }
+  const std::optional<MethodConfig>& config = worker.method->config;
+  const bool is_new = !worker.runner && config;
+  if (is_new) worker.runner = std::make_unique<MethodRunner>(worker.method->name, *config);
   worker.runner->prepare(cloud_);
   // Memory is taken and caches are filled before the first time that counts.
   Status status;

@@ -147,7 +147,7 @@ TEST(Gpf, FirstPlaneIsThatOfTheSeeds) {
     seeds += 1;
   }
 
-  const Segmentation result = segment(cloud, {.segments = 1, .iterations = 1});
+  const Segmentation result = segment(cloud, {.segments = 1, .seed_height = 0.4f, .iterations = 1});
 
   ASSERT_EQ(result.patches().size(), 1u);
   EXPECT_NEAR(result.patches()[0].mean[0], sum / seeds, 1e-4);

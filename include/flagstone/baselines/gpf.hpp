@@ -8,7 +8,8 @@
 
 namespace flagstone {
 
-/// Settings of Gpf. The initial values of those with a symbol are the paper's.
+/// Settings of Gpf. The initial values are those that Patchwork's authors compared it with
+/// (url-kaist/Ground-Segmentation-Benchmark); they differ from GPF's own paper in Th_seeds alone.
 struct GpfConfig {
   /// h_s: height of the sensor above the ground, metres, above 0, up to 100.
   float sensor_height = 1.73f;
@@ -29,8 +30,9 @@ struct GpfConfig {
   int lowest_points = 20;
 
   /// Th_seeds: points lower than the lowest point representative plus this are the seeds; metres,
-  /// above 0, up to 100.
-  float seed_height = 0.4f;
+  /// above 0, up to 100. GPF's own paper has 0.4, with which a street that falls away, or a ditch
+  /// beside it, more often leaves too few seeds.
+  float seed_height = 0.6f;
 
   /// N_iter: plane fits a segment, 1 to 100.
   int iterations = 3;
