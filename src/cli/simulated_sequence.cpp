@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "cli/result_files.hpp"
 #include "flagstone/version.hpp"
 #include "io/atomic_file.hpp"
 #include "io/cloud.hpp"
@@ -28,15 +29,6 @@ constexpr std::string_view elsewhere = "choose another --output or --sequence, o
 
 void must(const Status& status) {
   if (!status.ok()) throw std::runtime_error(status.message());
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw std::runtime_error(
-        fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
-  }
 }
 
 std::string scene_text(const SequenceOrigin& origin) {

@@ -14,12 +14,12 @@ namespace flagstone {
 namespace {
 
 /// Tests of what is allocated; the parameter is the method.
-class BaselineAllocation : public testing::TestWithParam<tests::Method> {};
+class Allocation : public testing::TestWithParam<tests::Method> {};
 
-INSTANTIATE_TEST_SUITE_P(All, BaselineAllocation, testing::ValuesIn(tests::methods()),
+INSTANTIATE_TEST_SUITE_P(All, Allocation, testing::ValuesIn(tests::methods()),
                          tests::name_of);
 
-TEST_P(BaselineAllocation, SegmentAllocatesNothingAfterWarmUp) {
+TEST_P(Allocation, SegmentAllocatesNothingAfterWarmUp) {
   const std::vector<Point> large = tests::made_up_cloud(60000, 1);
   const std::vector<Point> other = tests::corrupted_cloud(60000, 2);
   const std::vector<Point> small = tests::made_up_cloud(500, 3);
@@ -37,7 +37,7 @@ TEST_P(BaselineAllocation, SegmentAllocatesNothingAfterWarmUp) {
   EXPECT_EQ(io::allocated, 0u);
 }
 
-TEST_P(BaselineAllocation, WarmUpAllocatesSoThatTheCounterIsSeenToCount) {
+TEST_P(Allocation, WarmUpAllocatesSoThatTheCounterIsSeenToCount) {
   const std::vector<Point> cloud = tests::made_up_cloud(1000, 1);
   io::allocated = 0;
   Segmentation result;
@@ -46,7 +46,7 @@ TEST_P(BaselineAllocation, WarmUpAllocatesSoThatTheCounterIsSeenToCount) {
   EXPECT_GT(io::allocated, 0u);
 }
 
-TEST_P(BaselineAllocation, WithoutMemoryAScanIsRefusedAndTheNextOneSegmented) {
+TEST_P(Allocation, WithoutMemoryAScanIsRefusedAndTheNextOneSegmented) {
   const std::vector<Point> small = tests::made_up_cloud(1000, 1);
   const std::vector<Point> large = tests::made_up_cloud(30000, 1);
   const auto segmenter = GetParam().make();

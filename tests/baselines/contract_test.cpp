@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// The data contract, clause by clause, for every baseline.
+// The data contract, clause by clause, for every method.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -50,7 +50,7 @@ std::size_t sum_of_counts(const Segmentation& result) {
 }
 
 /// Tests of the contract; the parameter is the method.
-class BaselineContract : public testing::TestWithParam<tests::Method> {
+class Contract : public testing::TestWithParam<tests::Method> {
  protected:
   [[nodiscard]] static std::vector<Label> labels_of(CloudView cloud) {
     return flagstone::labels_of(GetParam(), cloud);
@@ -63,10 +63,10 @@ class BaselineContract : public testing::TestWithParam<tests::Method> {
   Segmentation result;
 };
 
-INSTANTIATE_TEST_SUITE_P(All, BaselineContract, testing::ValuesIn(tests::methods()),
+INSTANTIATE_TEST_SUITE_P(All, Contract, testing::ValuesIn(tests::methods()),
                          tests::name_of);
 
-TEST_P(BaselineContract, OneLabelPerPointAndCountsAddUp) {
+TEST_P(Contract, OneLabelPerPointAndCountsAddUp) {
   for (const std::size_t points : {0u, 1u, 2u, 3u, 100u, 12345u}) {
     ASSERT_TRUE(segmenter->segment(view_of(corrupted_cloud(points, 3)), result).ok());
 
@@ -75,14 +75,14 @@ TEST_P(BaselineContract, OneLabelPerPointAndCountsAddUp) {
   }
 }
 
-TEST_P(BaselineContract, GroundIsFound) {
+TEST_P(Contract, GroundIsFound) {
   ASSERT_TRUE(segmenter->segment(view_of(made_up_cloud(64000, 2)), result).ok());
 
   EXPECT_GT(result.count(Label::ground), 64000u / 3);
   EXPECT_GT(result.count(Label::nonground), 0u);
 }
 
-TEST_P(BaselineContract, LabelsAreInInputOrder) {
+TEST_P(Contract, LabelsAreInInputOrder) {
   std::vector<Point> cloud = made_up_cloud(6400, 1);
   cloud[3000].y = nan;
   cloud.back() = {1e6f, 0, 0};
@@ -94,7 +94,7 @@ TEST_P(BaselineContract, LabelsAreInInputOrder) {
   EXPECT_EQ(std::ranges::count(labels, Label::invalid), 1);
 }
 
-TEST_P(BaselineContract, AScanLeavesNoTraceInTheNext) {
+TEST_P(Contract, AScanLeavesNoTraceInTheNext) {
   const std::vector<Point> first = corrupted_cloud(30000, 5);
   const std::vector<Point> second = made_up_cloud(9000, 6);
   Segmentation fresh;
@@ -106,7 +106,7 @@ TEST_P(BaselineContract, AScanLeavesNoTraceInTheNext) {
   EXPECT_TRUE(same_bytes(result, fresh));
 }
 
-TEST_P(BaselineContract, RepeatsAreByteIdentical) {
+TEST_P(Contract, RepeatsAreByteIdentical) {
   const std::vector<Point> cloud = corrupted_cloud(30000, 7);
   ASSERT_TRUE(segmenter->segment(view_of(cloud), result).ok());
 
@@ -117,7 +117,7 @@ TEST_P(BaselineContract, RepeatsAreByteIdentical) {
   }
 }
 
-TEST_P(BaselineContract, TheLayoutOfTheInputDoesNotMatter) {
+TEST_P(Contract, TheLayoutOfTheInputDoesNotMatter) {
   const std::vector<Point> cloud = corrupted_cloud(5000, 8);
   std::vector<float> planar(3 * cloud.size());
   std::vector<std::byte> blob(17 * cloud.size());
@@ -135,14 +135,14 @@ TEST_P(BaselineContract, TheLayoutOfTheInputDoesNotMatter) {
   EXPECT_EQ(labels_of(CloudView(blob.data(), cloud.size(), {17, 5, 9, 13})), labels);
 }
 
-TEST_P(BaselineContract, NothingIsReadOutsideTheUsersBuffer) {
+TEST_P(Contract, NothingIsReadOutsideTheUsersBuffer) {
   // Exactly as long as its points: AddressSanitizer sees a read beyond.
   for (std::size_t points = 1; points < 70; ++points) {
     EXPECT_EQ(labels_of(made_up_cloud(points, 9)).size(), points);
   }
 }
 
-TEST_P(BaselineContract, NothingIsPrinted) {
+TEST_P(Contract, NothingIsPrinted) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   const std::vector<Label> labels = labels_of(corrupted_cloud(20000, 10));
@@ -152,7 +152,7 @@ TEST_P(BaselineContract, NothingIsPrinted) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST_P(BaselineContract, AnyBitPatternIsAllowed) {
+TEST_P(Contract, AnyBitPatternIsAllowed) {
   EXPECT_TRUE(rc::check([](const std::vector<std::uint32_t>& bits) {
     std::vector<float> floats(bits.size());
     std::ranges::transform(bits, floats.begin(),
@@ -163,7 +163,7 @@ TEST_P(BaselineContract, AnyBitPatternIsAllowed) {
   }));
 }
 
-TEST_P(BaselineContract, CoordinatesThatAreNotFiniteAreInvalid) {
+TEST_P(Contract, CoordinatesThatAreNotFiniteAreInvalid) {
   for (const float bad : {nan, inf, -inf}) {
     EXPECT_EQ(labels_of({{bad, 5, -1.7f}}), std::vector{Label::invalid});
     EXPECT_EQ(labels_of({{5, bad, -1.7f}}), std::vector{Label::invalid});
@@ -171,12 +171,12 @@ TEST_P(BaselineContract, CoordinatesThatAreNotFiniteAreInvalid) {
   }
 }
 
-TEST_P(BaselineContract, TheAllZeroReturnIsInvalid) {
+TEST_P(Contract, TheAllZeroReturnIsInvalid) {
   EXPECT_EQ(labels_of({{0, 0, 0}}), std::vector{Label::invalid});
   EXPECT_EQ(labels_of({{-0.0f, 0, -0.0f}}), std::vector{Label::invalid});
 }
 
-TEST_P(BaselineContract, PointsMoreThanTenKilometresAwayAreOutOfRange) {
+TEST_P(Contract, PointsMoreThanTenKilometresAwayAreOutOfRange) {
   for (const float far : {10001.0f, -10001.0f, 3e38f, -3e38f}) {
     EXPECT_EQ(labels_of({{far, 5, -1.7f}}), std::vector{Label::out_of_range});
     EXPECT_EQ(labels_of({{5, far, -1.7f}}), std::vector{Label::out_of_range});
@@ -184,7 +184,7 @@ TEST_P(BaselineContract, PointsMoreThanTenKilometresAwayAreOutOfRange) {
   }
 }
 
-TEST_P(BaselineContract, HugeCoordinatesHarmNothingElse) {
+TEST_P(Contract, HugeCoordinatesHarmNothingElse) {
   const std::vector<Point> good = made_up_cloud(20000, 12);
   std::vector<Point> cloud = good;
   for (std::size_t i = 0; i < 500; ++i) {
@@ -199,14 +199,14 @@ TEST_P(BaselineContract, HugeCoordinatesHarmNothingElse) {
               testing::Each(Label::out_of_range));
 }
 
-TEST_P(BaselineContract, AnEmptyCloudHasNoLabelsAndNoPatches) {
+TEST_P(Contract, AnEmptyCloudHasNoLabelsAndNoPatches) {
   EXPECT_TRUE(segmenter->segment(CloudView(), result).ok());
 
   EXPECT_TRUE(result.labels().empty());
   EXPECT_TRUE(result.patches().empty());
 }
 
-TEST_P(BaselineContract, ANullCloudThatClaimsPointsIsRefused) {
+TEST_P(Contract, ANullCloudThatClaimsPointsIsRefused) {
   const Status status =
       segmenter->segment(CloudView(static_cast<const float*>(nullptr), 5), result);
 
@@ -214,17 +214,17 @@ TEST_P(BaselineContract, ANullCloudThatClaimsPointsIsRefused) {
   EXPECT_TRUE(result.labels().empty());
 }
 
-TEST_P(BaselineContract, AllPointsEqualAreLabelledAlike) {
+TEST_P(Contract, AllPointsEqualAreLabelledAlike) {
   const std::vector<Label> labels = labels_of(std::vector<Point>(5000, Point{6, 2, -1.7f}));
 
   EXPECT_THAT(labels, testing::Each(labels.front()));
 }
 
-TEST_P(BaselineContract, AllNotFiniteIsAllInvalid) {
+TEST_P(Contract, AllNotFiniteIsAllInvalid) {
   EXPECT_THAT(labels_of(std::vector<Point>(1000, {nan, nan, nan})), testing::Each(Label::invalid));
 }
 
-TEST_P(BaselineContract, PatchesHoldEveryPointThatIsJudged) {
+TEST_P(Contract, PatchesHoldEveryPointThatIsJudged) {
   ASSERT_TRUE(segmenter->segment(view_of(corrupted_cloud(50000, 14)), result).ok());
   if (result.patches().empty()) return;  // a method without patches
 
@@ -242,7 +242,7 @@ TEST_P(BaselineContract, PatchesHoldEveryPointThatIsJudged) {
   EXPECT_EQ(ground, result.count(Label::ground));
 }
 
-TEST_P(BaselineContract, EveryPatchOfGroundComesWithItsPlane) {
+TEST_P(Contract, EveryPatchOfGroundComesWithItsPlane) {
   ASSERT_TRUE(segmenter->segment(view_of(corrupted_cloud(50000, 15)), result).ok());
 
   for (const Patch& patch : result.patches()) {
@@ -257,12 +257,12 @@ TEST_P(BaselineContract, EveryPatchOfGroundComesWithItsPlane) {
 }
 
 /// Tests of the methods for which the order of the points is nothing.
-class OrderFreeBaseline : public testing::TestWithParam<tests::Method> {};
+class OrderFreeMethod : public testing::TestWithParam<tests::Method> {};
 
-INSTANTIATE_TEST_SUITE_P(All, OrderFreeBaseline, testing::ValuesIn(tests::order_free_methods()),
+INSTANTIATE_TEST_SUITE_P(All, OrderFreeMethod, testing::ValuesIn(tests::order_free_methods()),
                          tests::name_of);
 
-TEST_P(OrderFreeBaseline, PermutingTheInputPermutesTheLabels) {
+TEST_P(OrderFreeMethod, PermutingTheInputPermutesTheLabels) {
   EXPECT_TRUE(rc::check([](std::uint32_t seed) {
     const std::vector<Point> cloud = corrupted_cloud(4000, seed % 1000);
     std::vector<std::size_t> order(cloud.size());

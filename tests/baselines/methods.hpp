@@ -13,7 +13,7 @@
 
 namespace flagstone::tests {
 
-/// A baseline as the tests that hold for all of them see it.
+/// A method as the tests that hold for all of them see it.
 struct Method {
   std::string name;
   /// Makes one with its initial settings: the sensor 1.73 m above ground, as on KITTI's car and in
