@@ -16,8 +16,7 @@ namespace {
 /// Tests of what is allocated; the parameter is the method.
 class Allocation : public testing::TestWithParam<tests::Method> {};
 
-INSTANTIATE_TEST_SUITE_P(All, Allocation, testing::ValuesIn(tests::methods()),
-                         tests::name_of);
+INSTANTIATE_TEST_SUITE_P(All, Allocation, testing::ValuesIn(tests::methods()), tests::name_of);
 
 TEST_P(Allocation, SegmentAllocatesNothingAfterWarmUp) {
   const std::vector<Point> large = tests::made_up_cloud(60000, 1);

@@ -63,8 +63,7 @@ class Contract : public testing::TestWithParam<tests::Method> {
   Segmentation result;
 };
 
-INSTANTIATE_TEST_SUITE_P(All, Contract, testing::ValuesIn(tests::methods()),
-                         tests::name_of);
+INSTANTIATE_TEST_SUITE_P(All, Contract, testing::ValuesIn(tests::methods()), tests::name_of);
 
 TEST_P(Contract, OneLabelPerPointAndCountsAddUp) {
   for (const std::size_t points : {0u, 1u, 2u, 3u, 100u, 12345u}) {

@@ -23,8 +23,10 @@ std::unique_ptr<Segmenter> make_r_gpf() { return std::make_unique<Patchwork>(r_g
 
 std::vector<Method> methods() {
   return {
-      {"Ransac", make<Ransac>, false, 91.1, 93.7},  {"Gpf", make<Gpf>, true, 77.6, 79.8},
-      {"LineFit", make<LineFit>, true, 88.1, 91.9}, {"Cascaded", make<Cascaded>, false, 81.2, 85.5},
+      {"Ransac", make<Ransac>, false, 91.1, 93.7},
+      {"Gpf", make<Gpf>, true, 77.6, 79.8},
+      {"LineFit", make<LineFit>, true, 88.1, 91.9},
+      {"Cascaded", make<Cascaded>, false, 81.2, 85.5},
       {"RGpf", make_r_gpf, true, 82.7, 87.4},
       {"Patchwork", make<Patchwork>, true, 93.9, 97.6},
   };
