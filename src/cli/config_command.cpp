@@ -6,7 +6,6 @@
 
 #include <memory>
 #include <string>
-#include <variant>
 
 #include "cli/config_toml.hpp"
 #include "cli/method_options.hpp"
@@ -22,9 +21,8 @@ void add_config_command(CLI::App& app, int& exit_code) {
   options->add_to(*command);
   command->callback([options, &exit_code] {
     const MethodConfig config = options->resolve();
-    const std::string origin = std::holds_alternative<PatchworkConfig>(config)
-                                   ? fmt::format(", from preset {}", options->preset)
-                                   : "";
+    const std::string origin =
+        options->starts_from_preset() ? fmt::format(", from preset {}", options->preset) : "";
     fmt::print("# flagstone, method {}{}\n\n{}", options->method, origin, to_toml(config));
     exit_code = 0;
   });

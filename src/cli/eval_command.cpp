@@ -8,6 +8,7 @@
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,8 @@
 
 #include "cli/eval_methods.hpp"
 #include "cli/evaluation.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/print_error.hpp"
 #include "cli/result_files.hpp"
 #include "cli/scan_pictures.hpp"
 #include "eval/machine.hpp"
@@ -80,6 +83,11 @@ int evaluate(const EvalOptions& options) {
       draw_worst_scans(evaluation, results, options.pictures, options.output);
   write_result(options.files.html, [&] { return report::eval_report(json(), pictures); });
   evaluation.remove_journal();
+  if (interrupted()) {
+    print_error(fmt::format("interrupted, {} of {} pictures are drawn", pictures.size(),
+                            std::min(options.pictures, results.scans)));
+    return 1;
+  }
   return results.failures.empty() ? 0 : 1;
 }
 

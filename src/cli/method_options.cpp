@@ -34,9 +34,12 @@ void MethodOptions::add_to(CLI::App& command) {
   add_sensor_height_option(command, sensor_height);
 }
 
+bool MethodOptions::starts_from_preset() const {
+  return method == "patchwork" || method.starts_with("czm");
+}
+
 MethodConfig MethodOptions::resolve() const {
-  const bool starts_from_preset = method == "patchwork" || method.starts_with("czm");
-  if (!starts_from_preset && preset != "default") {
+  if (!starts_from_preset() && preset != "default") {
     throw std::invalid_argument(fmt::format(
         "--preset {}: method {} has settings of its own; presets are of patchwork and czm+...",
         preset, method));

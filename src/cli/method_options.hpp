@@ -22,6 +22,9 @@ struct MethodOptions {
   /// Adds the options to a command.
   void add_to(CLI::App& command);
 
+  /// Do the method's settings start from a preset of Patchwork?
+  [[nodiscard]] bool starts_from_preset() const;
+
   /// The settings they come to: preset, then file, then --set, then --sensor-height; checked.
   /// Throws std::invalid_argument with one line that says what is wrong.
   [[nodiscard]] MethodConfig resolve() const;

@@ -180,7 +180,7 @@ Status ScanWorker::score_and_draw(const ScanInput& input, ScanReport& report) {
   options.title = input.file.filename().string();
   options.subtitle = subtitle(report);
   options.zones = std::get_if<PatchworkConfig>(&job_.config);
-  options.tint_patches = job_.tint_patches && options.zones != nullptr;
+  options.tint_patches = job_.tint_patches;
   options.reference = truth;
   const fs::path picture = with_suffix(job_.output / input.output_stem, ".png");
   Status status = render::draw_birds_eye(picture, cloud_.view(), result_, options);
