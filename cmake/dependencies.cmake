@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# The library itself needs nothing. What its command and its tests need, and why: docs/dependencies.md.
+# What the library, its command and its tests need, and why: docs/dependencies.md.
 # A package of the system comes first; where there is none, or only an older one, the project's own
 # archive of a pinned version is fetched and checked against its checksum.
 include(FetchContent)
@@ -27,6 +27,22 @@ function(flagstone_dependency name url sha256)
     set_property(DIRECTORY ${source} PROPERTY EXCLUDE_FROM_ALL ON)
   endif()
 endfunction()
+
+# Highway is the library's one dependency, and no header of ours shows it. A system's Highway is linked by
+# whoever links flagstone::flagstone; a fetched one becomes part of it.
+set(HWY_ENABLE_TESTS OFF)
+set(HWY_ENABLE_EXAMPLES OFF)
+set(HWY_ENABLE_CONTRIB OFF)
+set(HWY_ENABLE_INSTALL OFF)
+flagstone_dependency(
+  hwy https://github.com/google/highway/archive/refs/tags/1.0.3.tar.gz
+  566fc77315878473d9a6bd815f7de78c73734acdcb745c3dde8579560ac5440e 1.0.3)
+add_library(flagstone_highway INTERFACE)
+if(NOT TARGET hwy)
+  target_link_libraries(flagstone_highway INTERFACE hwy::hwy)
+else()
+  target_link_libraries(flagstone_highway INTERFACE hwy)
+endif()
 
 set(needs_command OFF)
 if(FLAGSTONE_BUILD_COMMAND OR FLAGSTONE_BUILD_TESTS)

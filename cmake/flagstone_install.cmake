@@ -7,6 +7,16 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/flagstone)
+# A static library leaves it to its users to link the system's Highway.
+set(find_highway "")
+set(highway_of_pkgconfig "")
+if(NOT TARGET hwy AND NOT BUILD_SHARED_LIBS)
+  set(find_highway "include(CMakeFindDependencyMacro)\nfind_dependency(hwy)\n")
+  set(highway_of_pkgconfig "Requires: libhwy")
+endif()
+file(
+  WRITE ${PROJECT_BINARY_DIR}/flagstoneConfig.cmake
+  "${find_highway}include(\${CMAKE_CURRENT_LIST_DIR}/flagstoneTargets.cmake)\n")
 write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/flagstoneConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 
@@ -21,6 +31,7 @@ prefix=${pcfiledir}/@prefix_of_pkgconfig@
 Name: flagstone
 Description: @PROJECT_DESCRIPTION@
 Version: @PROJECT_VERSION@
+@highway_of_pkgconfig@
 Cflags: -I${prefix}/@CMAKE_INSTALL_INCLUDEDIR@
 Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -lflagstone
 ]])
@@ -29,9 +40,10 @@ install(TARGETS libflagstone libflagstone_baselines EXPORT flagstone)
 install(
   EXPORT flagstone
   NAMESPACE flagstone::
-  FILE flagstoneConfig.cmake
+  FILE flagstoneTargets.cmake
   DESTINATION ${config_folder})
-install(FILES ${PROJECT_BINARY_DIR}/flagstoneConfigVersion.cmake DESTINATION ${config_folder})
+install(FILES ${PROJECT_BINARY_DIR}/flagstoneConfig.cmake ${PROJECT_BINARY_DIR}/flagstoneConfigVersion.cmake
+        DESTINATION ${config_folder})
 install(FILES ${PROJECT_BINARY_DIR}/flagstone.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/flagstone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -39,6 +39,13 @@ function(flagstone_public_library name)
   add_library(flagstone::${name} ALIAS ${target})
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_link_libraries(${target} PUBLIC ${arg_LINK})
+  if(core IN_LIST arg_FOLDERS)
+    if(NOT TARGET hwy)
+      target_link_libraries(${target} PRIVATE hwy::hwy)
+    else()
+      target_sources(${target} PRIVATE $<TARGET_OBJECTS:hwy>)
+    endif()
+  endif()
   target_include_directories(
     ${target} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                         $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

@@ -11,5 +11,6 @@
 #include "flagstone/patchwork_config.hpp"  // IWYU pragma: export
 #include "flagstone/segmentation.hpp"      // IWYU pragma: export
 #include "flagstone/segmenter.hpp"         // IWYU pragma: export
+#include "flagstone/stage_times.hpp"       // IWYU pragma: export
 #include "flagstone/status.hpp"            // IWYU pragma: export
 #include "flagstone/version.hpp"           // IWYU pragma: export

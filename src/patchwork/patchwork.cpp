@@ -133,13 +133,15 @@ struct Patchwork::Pipeline {
   GroundLikelihood likelihood;
 };
 
-Patchwork::Patchwork(PatchworkConfig config)
+Patchwork::Patchwork(PatchworkConfig config, unsigned /*threads*/)
     : pipeline_(std::make_unique<Pipeline>(std::move(config))) {}
 Patchwork::~Patchwork() = default;
 Patchwork::Patchwork(Patchwork&&) noexcept = default;
 Patchwork& Patchwork::operator=(Patchwork&&) noexcept = default;
 
 const PatchworkConfig& Patchwork::config() const noexcept { return pipeline_->config; }
+
+void Patchwork::time_stages(StageTimes* /*times*/) noexcept {}
 
 Status Patchwork::segment(CloudView cloud, Segmentation& result) noexcept {
   return segment_scan(cloud, result, [&](std::span<Label> labels) {

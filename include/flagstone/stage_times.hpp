@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace flagstone {
+
+/// What Patchwork::segment does, in order.
+enum class Stage : std::uint8_t {
+  bin,      ///< read every point, find its bin, note where runs of one bin begin (III-B)
+  group,    ///< sort the runs by bin
+  gather,   ///< pack the points of each bin
+  seed,     ///< mean height of the lowest points, eq. (4)
+  moments,  ///< sums over the ground sets, eqs. (5) and (6)
+  solve,    ///< planes and their likelihood, eqs. (3), (7) to (11)
+  label,    ///< write labels
+};
+
+/// Number of stages.
+inline constexpr std::size_t stage_count = 7;
+
+/// Name of a stage, e.g. "gather".
+constexpr const char* to_string(Stage stage) noexcept {
+  switch (stage) {
+    case Stage::bin: return "bin";
+    case Stage::group: return "group";
+    case Stage::gather: return "gather";
+    case Stage::seed: return "seed";
+    case Stage::moments: return "moments";
+    case Stage::solve: return "solve";
+    case Stage::label: return "label";
+  }
+  return "unknown";
+}
+
+/// Seconds spent in each stage, in the order of `Stage`.
+using StageTimes = std::array<double, stage_count>;
+
+}  // namespace flagstone
