@@ -3,34 +3,50 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
+#include <new>
 #include <type_traits>
+#include <utility>
 
 namespace flagstone {
 
 /// Working memory that only grows and is never initialised: pages a scan does not touch cost
-/// nothing.
+/// nothing. It begins at a cache line.
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_destructible_v<T>);
+  static constexpr std::align_val_t alignment{64};
 
  public:
+  Buffer() = default;
+  ~Buffer() { release(); }
+  Buffer(Buffer&& other) noexcept
+      : data_(std::exchange(other.data_, nullptr)), capacity_(std::exchange(other.capacity_, 0)) {}
+  Buffer& operator=(Buffer&& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(capacity_, other.capacity_);
+    return *this;
+  }
+
   /// Makes room for `count` elements; what was there is lost if it has to grow. May throw
   /// std::bad_alloc.
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
-    data_.reset();  // before the new one, so that both are never held
-    capacity_ = 0;
-    data_ =
-        std::make_unique_for_overwrite<T[]>(count);  // NOLINT(modernize-avoid-c-arrays): as data_
+    release();  // before the new one, so that both are never held
+    data_ = static_cast<T*>(::operator new(count * sizeof(T), alignment));
     capacity_ = count;
   }
 
-  [[nodiscard]] T* data() noexcept { return data_.get(); }
-  [[nodiscard]] const T* data() const noexcept { return data_.get(); }
+  [[nodiscard]] T* data() noexcept { return data_; }
+  [[nodiscard]] const T* data() const noexcept { return data_; }
 
  private:
-  std::unique_ptr<T[]> data_;  // NOLINT(modernize-avoid-c-arrays): the type for a run of objects
+  void release() noexcept {
+    ::operator delete(data_, alignment);
+    data_ = nullptr;
+    capacity_ = 0;
+  }
+
+  T* data_ = nullptr;
   std::size_t capacity_ = 0;
 };
 

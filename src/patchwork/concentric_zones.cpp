@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "patchwork/concentric_zones.hpp"
 
-#include <numbers>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
 
 namespace flagstone::patchwork {
 namespace {
+
+constexpr float bin_0 = 8388608;  // 2^23, see locate-inl.hpp
 
 float squared(float radius) {
   return static_cast<float>(static_cast<double>(radius) * static_cast<double>(radius));
@@ -16,49 +21,43 @@ float squared(float radius) {
 ConcentricZones::ConcentricZones(const PatchworkConfig& config) {
   squared_radii_.push_back(squared(config.min_range));
   for (std::size_t zone = 0; zone < config.zones.size(); ++zone) {
-    const auto first_heading = static_cast<std::uint32_t>(headings_.size());
-    add_headings(config.zones[zone].sectors);
     for (std::size_t ring = 0; ring < config.zones[zone].ring_radii.size(); ++ring) {
-      add_ring(config, zone, ring, first_heading);
+      add_ring(config, zone, ring);
     }
   }
-  fill_ring_table();
+  const std::size_t table_size = std::max(rings_.size(), RingTree::few);
+  for (std::vector<float>* table : {&sectors_, &first_bins_, &noise_heights_}) {
+    table->resize(table_size);
+  }
+  grow_tree();
 }
 
-void ConcentricZones::add_ring(const PatchworkConfig& config, std::size_t zone, std::size_t ring,
-                               std::uint32_t first_heading) {
+void ConcentricZones::add_ring(const PatchworkConfig& config, std::size_t zone, std::size_t ring) {
   const float inner = std::sqrt(squared_radii_.back());
   const float outer = config.zones[zone].ring_radii[ring];
   const int sectors = config.zones[zone].sectors;
-  rings_.push_back(
-      {.zone = static_cast<std::uint16_t>(zone),
-       .ring = static_cast<std::uint16_t>(ring),
-       .sectors = static_cast<std::uint16_t>(sectors),
-       .first_bin = bin_count_,
-       .first_heading = first_heading,
-       .noise_height = -config.sensor_height - config.noise_depth - config.noise_slope * outer,
-       .center_radius = (inner + outer) / 2});
+  rings_.push_back({.zone = static_cast<std::uint16_t>(zone),
+                    .ring = static_cast<std::uint16_t>(ring),
+                    .sectors = static_cast<std::uint16_t>(sectors),
+                    .first_bin = bin_count_,
+                    .center_radius = (inner + outer) / 2});
+  sectors_.push_back(static_cast<float>(sectors));
+  first_bins_.push_back(bin_0 + static_cast<float>(bin_count_));
+  noise_heights_.push_back(-config.sensor_height - config.noise_depth - config.noise_slope * outer);
   bin_count_ += static_cast<std::uint32_t>(sectors);
   squared_radii_.push_back(squared(outer));
 }
 
-void ConcentricZones::add_headings(int sectors) {
-  for (int j = 0; j <= sectors; ++j) {
-    const double theta = 2 * std::numbers::pi * j / sectors - std::numbers::pi;  // eq. (2)
-    // Boundaries on an axis are on it exactly, and so are the points that lie there.
-    const auto exact = [](double v) { return std::abs(v) < 1e-15 ? 0.0f : static_cast<float>(v); };
-    headings_.push_back({exact(std::cos(theta)), exact(std::sin(theta))});
-  }
-}
-
-void ConcentricZones::fill_ring_table() {
-  first_cell_ = std::bit_cast<std::uint32_t>(squared_radii_.front()) >> cell_shift;
-  const std::uint32_t last_cell = std::bit_cast<std::uint32_t>(squared_radii_.back()) >> cell_shift;
-  std::uint16_t ring = 0;
-  for (std::uint32_t cell = first_cell_; cell <= last_cell; ++cell) {
-    const auto cell_begin = std::bit_cast<float>(cell << cell_shift);
-    while (ring + 1u < rings_.size() && cell_begin >= squared_radii_[ring + 1u]) ++ring;
-    ring_table_.push_back(ring);
+void ConcentricZones::grow_tree() {
+  const std::size_t leaves = std::max(std::bit_ceil(rings_.size()), RingTree::few);
+  for (std::size_t width = leaves; width > 1; width /= 2) {
+    std::vector<float>& level = tree_.boundaries.emplace_back();
+    for (std::size_t begin = 0; begin < leaves; begin += width) {
+      const std::size_t ring = begin + width / 2;  // the first one of the right half
+      level.push_back(ring < rings_.size() ? squared_radii_[ring]
+                                           : std::numeric_limits<float>::infinity());
+    }
+    level.resize(std::max<std::size_t>(level.size(), 16));
   }
 }
 

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/exponential.hpp"
+
 namespace flagstone::patchwork {
 namespace {
 
 /// exp(x) that stays away from 0 and infinity, so that a very small scale gives a step, and a
 /// product of two such steps is never 0 * infinity.
-double bounded_exp(double x) { return std::exp(std::clamp(x, -300.0, 300.0)); }
+double bounded_exp(double x) { return exponential(std::clamp(x, -300.0, 300.0)); }
 
 }  // namespace
 
@@ -27,7 +29,7 @@ GroundLikelihood::GroundLikelihood(const PatchworkConfig& config, const std::vec
     const double r = ring.center_radius;
     rings_.push_back({.near = config.elevation.enabled && r < config.elevation.range,
                       .midpoint = -static_cast<double>(config.sensor_height) +
-                                  config.elevation.base * std::exp(config.elevation.growth * r),
+                                  config.elevation.base * exponential(config.elevation.growth * r),
                       .flat = thresholds[threshold]});
   }
 }

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/plane.hpp"
 #include "flagstone/patch.hpp"
 #include "flagstone/patchwork_config.hpp"
 #include "patchwork/concentric_zones.hpp"
-#include "patchwork/plane_fit.hpp"
 
 namespace flagstone::patchwork {
 

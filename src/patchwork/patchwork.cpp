@@ -8,22 +8,26 @@
 #include <utility>
 
 #include "core/segment_scan.hpp"
-#include "patchwork/bin_runs.hpp"
+#include "patchwork/bin_batch.hpp"
+#include "patchwork/bin_groups.hpp"
+#include "patchwork/bin_labels.hpp"
 #include "patchwork/concentric_zones.hpp"
 #include "patchwork/ground_likelihood.hpp"
-#include "patchwork/packed_points.hpp"
 #include "patchwork/plane_fit.hpp"
+#include "patchwork/scan_points.hpp"
+#include "patchwork/stage_clock.hpp"
 
 namespace flagstone {
 
-using patchwork::BinRuns;
+using patchwork::BinBatch;
+using patchwork::BinGroups;
+using patchwork::BinLabels;
 using patchwork::ConcentricZones;
 using patchwork::GroundLikelihood;
-using patchwork::PackedPoints;
-using patchwork::Plane;
 using patchwork::PlaneFit;
 using patchwork::Ring;
-using patchwork::Run;
+using patchwork::ScanPoints;
+using patchwork::StageClock;
 
 namespace {
 
@@ -48,89 +52,132 @@ struct Patchwork::Pipeline {
         likelihood(config, zones.rings()) {}
 
   void reserve(std::size_t point_count, Segmentation& result) {
-    runs.reserve(point_count, zones.bin_count());
-    points.reserve(point_count);
+    scan.reserve(point_count);
+    groups.reserve(point_count, zones.group_count());
+    batch.reserve(point_count);
     fit.reserve(point_count);
+    bin_labels.reserve(point_count);
     result.mutable_patches().reserve(zones.bin_count());
+    patch_bins.reserve(zones.bin_count());
   }
 
   void segment(CloudView cloud, Segmentation& result, std::span<Label> labels) noexcept {
-    // Concentric Zone Model (III-B)
-    runs.collect(cloud, zones, labels);
+    StageClock clock(stage_times);
 
+    // Concentric Zone Model (III-B)
+    for (std::size_t chunk = 0; chunk < ScanPoints::chunk_count(cloud.size()); ++chunk) {
+      scan.read(cloud, chunk, zones);
+    }
+    clock.end(Stage::bin);
+    groups.group(scan, cloud.size(), zones.group_count());
+    label_binless(labels);
+    list_patches(result.mutable_patches());
+    clock.end(Stage::group);
+
+    const std::span<Patch> patches = result.mutable_patches();
+    for (std::size_t next = 0; next < patches.size();) {
+      next = fill_batch(patches, next, labels);
+      segment_batch(patches, labels, clock);
+    }
+  }
+
+  /// Points that have no bin.
+  void label_binless(std::span<Label> labels) const noexcept {
+    BinLabels::fill(groups, zones.noise(), Label::noise, labels);
+    BinLabels::fill(groups, zones.out_of_range(), Label::out_of_range, labels);
+    BinLabels::fill(groups, zones.invalid(), Label::invalid, labels);
+  }
+
+  /// One patch for each bin that holds points.
+  void list_patches(std::vector<Patch>& patches) noexcept {
     for (std::size_t r = 0; r < zones.rings().size(); ++r) {
       const Ring& ring = zones.rings()[r];
       for (std::uint16_t sector = 0; sector < ring.sectors; ++sector) {
-        const std::uint32_t bin = ring.first_bin + sector;
-        if (runs.points_in(bin) == 0) continue;
+        const std::uint32_t points = groups.size(ring.first_bin + sector);
+        if (points == 0) continue;
+        patch_bins.data()[patches.size()] = {.bin = ring.first_bin + sector,
+                                             .ring = static_cast<std::uint32_t>(r)};
         Patch patch{.zone = ring.zone, .ring = ring.ring, .sector = sector};
-        patch.point_count = runs.points_in(bin);
-        segment_bin(cloud, bin, r, patch, labels);
-        result.mutable_patches().push_back(patch);  // within what was reserved
+        patch.point_count = points;
+        patches.push_back(patch);  // within what was reserved
       }
     }
   }
 
-  void segment_bin(CloudView cloud, std::uint32_t bin, std::size_t ring, Patch& patch,
-                   std::span<Label> labels) noexcept {
-    const std::span<const Run> bin_runs = runs.of(bin);
-    if (patch.point_count < static_cast<std::uint32_t>(config.min_points)) {
-      patch.verdict = Verdict::too_few_points;
-      if (config.few_points_are_ground) label_all_ground(bin_runs, patch, labels);
-      return;
+  /// Takes the next bins to fit, from patch `next` on; returns where to go on.
+  std::size_t fill_batch(std::span<Patch> patches, std::size_t next,
+                         std::span<Label> labels) noexcept {
+    batch.clear();
+    for (; next < patches.size() && batch.count() < batch_size; ++next) {
+      Patch& patch = patches[next];
+      const std::uint32_t bin = patch_bins.data()[next].bin;
+      if (patch.point_count >= static_cast<std::uint32_t>(config.min_points)) {
+        batch_patches[batch.count()] = next;
+        batch_zones[batch.count()] = patch.zone;
+        batch.add(bin, patch.point_count);
+      } else if (config.few_points_are_ground) {
+        BinLabels::fill(groups, bin, Label::ground, labels);
+        patch.ground_count = patch.point_count;
+      }
     }
+    return next;
+  }
 
+  void segment_batch(std::span<Patch> patches, std::span<Label> labels,
+                     StageClock& clock) noexcept {
     // Region-wise Ground Plane Fitting (III-C)
-    points.gather(cloud, bin_runs);
-    const float margin = config.zones[patch.zone].height_margin;  // M_h
-    const double seed_cut = static_cast<double>(margin) * config.sensor_height;
-    const PlaneFit::Result fitted = fit.fit(points, seed_cut);
-    if (!fitted.last.exists()) {
+    batch.gather(scan, groups);
+    clock.end(Stage::gather);
+    fit.fit(batch, batch_zones, clock, fitted);
+
+    // Ground Likelihood Estimation (III-D)
+    for (std::size_t i = 0; i < batch.count(); ++i) {
+      judge(i, patches[batch_patches[i]], patch_bins.data()[batch_patches[i]].ring);
+    }
+    clock.end(Stage::solve);
+
+    // The final ground set, eq. (6) of the last plane, less the noise below it. All other points
+    // stay nonground.
+    for (std::size_t i = 0; i < batch.count(); ++i) {
+      Patch& patch = patches[batch_patches[i]];
+      if (!patch.is_ground()) continue;
+      patch.ground_count = bin_labels.write(batch, i, fitted.sets[i], groups, labels);
+    }
+    clock.end(Stage::label);
+  }
+
+  void judge(std::size_t i, Patch& patch, std::size_t ring) const noexcept {
+    if ((fitted.exists >> i & 1U) == 0) {
       patch.verdict = Verdict::no_plane;
       return;
     }
-    patch.mean = to_floats(fitted.judged.mean);
-    patch.normal = to_floats(fitted.judged.normal);
-    patch.d = static_cast<float>(fitted.judged.d);
-    patch.eigenvalues = to_floats(fitted.judged.eigenvalues);
-
-    // Ground Likelihood Estimation (III-D)
-    likelihood.judge(fitted.judged, ring, patch);
-    if (patch.is_ground()) label_ground_set(fitted.last, bin_runs, patch, labels);
+    const Plane plane = fitted.judged[i].moved_by(fitted.origins[i]);
+    patch.mean = to_floats(plane.mean);
+    patch.normal = to_floats(plane.normal);
+    patch.d = static_cast<float>(plane.d);
+    patch.eigenvalues = to_floats(plane.eigenvalues);
+    likelihood.judge(plane, ring, patch);
   }
 
-  /// The final ground set, eq. (6) of the last plane, less the noise below it. All other points
-  /// stay nonground.
-  void label_ground_set(const Plane& plane, std::span<const Run> bin_runs, Patch& patch,
-                        std::span<Label> labels) const noexcept {
-    const double top = config.distance_margin - plane.d;  // M_d
-    const double bottom = -config.noise_margin - plane.d;
-    const Vector3& n = plane.normal;
-    std::size_t i = 0;
-    for (const Run& run : bin_runs) {
-      for (Label& label : labels.subspan(run.begin, run.length)) {
-        const double height = n[0] * points.x()[i] + n[1] * points.y()[i] + n[2] * points.z()[i];
-        label = height >= top ? Label::nonground : height >= bottom ? Label::ground : Label::noise;
-        patch.ground_count += label == Label::ground;
-        ++i;
-      }
-    }
-  }
-
-  static void label_all_ground(std::span<const Run> bin_runs, Patch& patch,
-                               std::span<Label> labels) noexcept {
-    for (const Run& run : bin_runs) {
-      std::ranges::fill(labels.subspan(run.begin, run.length), Label::ground);
-    }
-    patch.ground_count = patch.point_count;
-  }
+  struct PatchBin {
+    std::uint32_t bin;
+    std::uint32_t ring;  ///< counted over all zones
+  };
 
   PatchworkConfig config;
   ConcentricZones zones;
-  BinRuns runs;
-  PackedPoints points;  // of one bin at a time
+  ScanPoints scan;
+  BinGroups groups;
+  Buffer<PatchBin> patch_bins;  ///< of each patch
   PlaneFit fit;
   GroundLikelihood likelihood;
+  StageTimes* stage_times = nullptr;
+
+  BinBatch batch;
+  std::array<std::size_t, batch_size> batch_patches{};
+  std::array<std::uint16_t, batch_size> batch_zones{};
+  PlaneFit::Result fitted;
+  BinLabels bin_labels;
 };
 
 Patchwork::Patchwork(PatchworkConfig config, unsigned /*threads*/)
@@ -141,7 +188,7 @@ Patchwork& Patchwork::operator=(Patchwork&&) noexcept = default;
 
 const PatchworkConfig& Patchwork::config() const noexcept { return pipeline_->config; }
 
-void Patchwork::time_stages(StageTimes* /*times*/) noexcept {}
+void Patchwork::time_stages(StageTimes* times) noexcept { pipeline_->stage_times = times; }
 
 Status Patchwork::segment(CloudView cloud, Segmentation& result) noexcept {
   return segment_scan(cloud, result, [&](std::span<Label> labels) {

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+//
+// What the vector code of every instruction set stands on. Included once for each of them, after
+// hwy/highway.h, inside HWY_BEFORE_NAMESPACE.
+//
+// The same bits everywhere: work is laid out for 16 virtual lanes, which are one AVX-512 vector, two
+// of AVX2, four of SSE4 or NEON, sixteen numbers in plain C++. What one lane computes never depends
+// on how many of them share a vector, sums over lanes follow one fixed tree, and a * b + c is always
+// two roundings: no target fuses it.
+
+// clang-format off
+#if defined(FLAGSTONE_CORE_SIMD_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef FLAGSTONE_CORE_SIMD_LANES_INL_HPP
+#undef FLAGSTONE_CORE_SIMD_LANES_INL_HPP
+#else
+#define FLAGSTONE_CORE_SIMD_LANES_INL_HPP
+#endif
+// clang-format on
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Virtual lanes.
+inline constexpr std::size_t lanes = 16;
+
+using FloatTag = hn::CappedTag<float, lanes>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using DoubleTag = hn::CappedTag<double, lanes>;
+using FloatVector = hn::Vec<FloatTag>;
+using IntVector = hn::Vec<IntTag>;
+using DoubleVector = hn::Vec<DoubleTag>;
+
+/// Element `index` (0 to 15 in each lane) of a table of 16.
+HWY_INLINE FloatVector lookup_16(const float* HWY_RESTRICT table, IntVector index) {
+  const FloatTag d;
+#if HWY_TARGET == HWY_AVX3
+  return hn::TableLookupLanes(hn::Load(d, table), hn::IndicesFromVec(d, index));
+#elif HWY_TARGET == HWY_AVX2
+  const IntTag di;
+  const auto within = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, 7)));
+  const FloatVector low = hn::TableLookupLanes(hn::Load(d, table), within);
+  const FloatVector high = hn::TableLookupLanes(hn::Load(d, table + 8), within);
+  return hn::IfThenElse(hn::RebindMask(d, hn::Gt(index, hn::Set(di, 7))), high, low);
+#else
+  return hn::GatherIndex(d, table, index);
+#endif
+}
+
+/// The same for an index of 0 to 7.
+HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
+  const FloatTag d;
+  return hn::TableLookupLanes(hn::Load(d, table), hn::IndicesFromVec(d, index));
+#else
+  return lookup_16(table, index);
+#endif
+}
+
+/// x, y and z of points that are records of three or four floats.
+template <int floats>
+HWY_INLINE void load_points(const float* HWY_RESTRICT points, FloatVector& x, FloatVector& y,
+                            FloatVector& z) {
+  const FloatTag d;
+  if constexpr (floats == 3) {
+    hn::LoadInterleaved3(d, points, x, y, z);
+  } else {
+#if HWY_TARGET == HWY_AVX3
+    // Seven shuffles; the general way takes fifteen.
+    HWY_ALIGN static constexpr std::int32_t x_then_y[] = {0, 4, 8,  12, 16, 20, 24, 28,
+                                                          1, 5, 9, 13, 17, 21, 25, 29};
+    HWY_ALIGN static constexpr std::int32_t z_twice[] = {2, 6, 10, 14, 18, 22, 26, 30,
+                                                         2, 6, 10, 14, 18, 22, 26, 30};
+    const __m512i xy = _mm512_load_si512(x_then_y);
+    const __m512i zz = _mm512_load_si512(z_twice);
+    const __m512 p0 = hn::LoadU(d, points).raw;
+    const __m512 p4 = hn::LoadU(d, points + 16).raw;
+    const __m512 p8 = hn::LoadU(d, points + 32).raw;
+    const __m512 p12 = hn::LoadU(d, points + 48).raw;
+    const __m512 xy_0 = _mm512_permutex2var_ps(p0, xy, p4);
+    const __m512 xy_8 = _mm512_permutex2var_ps(p8, xy, p12);
+    const __m512 z_0 = _mm512_permutex2var_ps(p0, zz, p4);
+    const __m512 z_8 = _mm512_permutex2var_ps(p8, zz, p12);
+    x = FloatVector{_mm512_shuffle_f32x4(xy_0, xy_8, 0x44)};
+    y = FloatVector{_mm512_shuffle_f32x4(xy_0, xy_8, 0xEE)};
+    z = FloatVector{_mm512_shuffle_f32x4(z_0, z_8, 0x44)};
+#else
+    FloatVector unused;
+    hn::LoadInterleaved4(d, points, x, y, z, unused);
+#endif
+  }
+}
+
+}  // namespace
+}  // namespace flagstone::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "patchwork/bin_batch.hpp"
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "patchwork/bin_batch.cpp"
+#include <hwy/foreach_target.h>
+// The above includes this file once for each instruction set.
+#include "core/simd/lanes-inl.hpp"
+
+#ifndef FLAGSTONE_PATCHWORK_BIN_BATCH_ONCE
+#define FLAGSTONE_PATCHWORK_BIN_BATCH_ONCE
+namespace flagstone::patchwork {
+
+/// Where the points of one bin go. What lies behind them may be written up to the next multiple of
+/// 16, and 16 places beyond.
+struct PackedBin {
+  BinBatch::Origin origin;
+  float *x, *y, *z;
+};
+
+}  // namespace flagstone::patchwork
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::patchwork::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
+
+HWY_INLINE void pad(const PackedBin& bin, std::size_t size) {
+  const FloatTag d;
+  for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
+    hn::StoreU(hn::Zero(d), d, bin.x + size + lane);
+    hn::StoreU(hn::Zero(d), d, bin.y + size + lane);
+    hn::StoreU(hn::Set(d, std::numeric_limits<float>::infinity()), d, bin.z + size + lane);
+  }
+}
+
+/// Sixteen points a step, the rest of a step being overwritten by the next run.
+void gather_runs(const ScanPoints& scan, std::span<const Run> runs, const PackedBin& bin) {
+  const FloatTag d;
+  const FloatVector origin_x = hn::Set(d, bin.origin.x);
+  const FloatVector origin_y = hn::Set(d, bin.origin.y);
+  const float* HWY_RESTRICT from_x = scan.x();
+  const float* HWY_RESTRICT from_y = scan.y();
+  const float* HWY_RESTRICT from_z = scan.z();
+  float* HWY_RESTRICT to_x = bin.x;
+  float* HWY_RESTRICT to_y = bin.y;
+  float* HWY_RESTRICT to_z = bin.z;
+  std::size_t size = 0;
+  for (const Run& run : runs) {
+    for (std::size_t i = 0; i < run.length; i += hn::Lanes(d)) {
+      const std::size_t from = run.begin + i;
+      hn::StoreU(hn::Sub(hn::LoadU(d, from_x + from), origin_x), d, to_x + size + i);
+      hn::StoreU(hn::Sub(hn::LoadU(d, from_y + from), origin_y), d, to_y + size + i);
+      hn::StoreU(hn::LoadU(d, from_z + from), d, to_z + size + i);
+    }
+    size += run.length;
+  }
+  pad(bin, size);
+}
+
+void gather_points(const ScanPoints& scan, std::span<const std::uint32_t> points,
+                   const PackedBin& bin) {
+  const FloatTag d;
+  const IntTag di;
+  const FloatVector origin_x = hn::Set(d, bin.origin.x);
+  const FloatVector origin_y = hn::Set(d, bin.origin.y);
+  const auto* indices = reinterpret_cast<const std::int32_t*>(points.data());
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d) <= points.size(); i += hn::Lanes(d)) {
+    const IntVector from = hn::LoadU(di, indices + i);
+    hn::StoreU(hn::Sub(hn::GatherIndex(d, scan.x(), from), origin_x), d, bin.x + i);
+    hn::StoreU(hn::Sub(hn::GatherIndex(d, scan.y(), from), origin_y), d, bin.y + i);
+    hn::StoreU(hn::GatherIndex(d, scan.z(), from), d, bin.z + i);
+  }
+  for (; i < points.size(); ++i) {
+    bin.x[i] = scan.x()[points[i]] - bin.origin.x;
+    bin.y[i] = scan.y()[points[i]] - bin.origin.y;
+    bin.z[i] = scan.z()[points[i]];
+  }
+  pad(bin, points.size());
+}
+
+}  // namespace
+}  // namespace flagstone::patchwork::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace flagstone::patchwork {
+namespace {
+HWY_EXPORT(gather_runs);
+HWY_EXPORT(gather_points);
+
+BinBatch::Origin midway(const ScanPoints& scan, std::size_t first, std::size_t last) {
+  return {(scan.x()[first] + scan.x()[last]) / 2, (scan.y()[first] + scan.y()[last]) / 2};
+}
+
+}  // namespace
+
+void BinBatch::reserve(std::size_t points) {
+  const std::size_t places = points + (batch_size + 2) * 16;
+  for (Buffer<float>* coordinate : {&x_, &y_, &z_}) coordinate->reserve(places);
+}
+
+void BinBatch::gather(const ScanPoints& scan, const BinGroups& groups) noexcept {
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    firsts_[i] = first;
+    PackedBin packed{.origin = {}, .x = x(i), .y = y(i), .z = z(i)};
+    if (groups.scattered()) {
+      const std::span<const std::uint32_t> points = groups.points(bins_[i]);
+      packed.origin = midway(scan, points.front(), points.back());
+      HWY_DYNAMIC_DISPATCH(gather_points)(scan, points, packed);
+    } else {
+      const std::span<const Run> runs = groups.runs(bins_[i]);
+      packed.origin = midway(scan, runs.front().begin, runs.back().begin + runs.back().length - 1);
+      HWY_DYNAMIC_DISPATCH(gather_runs)(scan, runs, packed);
+    }
+    origins_[i] = packed.origin;
+    first += places(i);
+  }
+}
+
+}  // namespace flagstone::patchwork
+#endif

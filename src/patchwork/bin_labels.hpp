@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/buffer.hpp"
+#include "flagstone/label.hpp"
+#include "patchwork/bin_batch.hpp"
+#include "patchwork/bin_groups.hpp"
+#include "patchwork/ground_sets.hpp"
+
+namespace flagstone::patchwork {
+
+/// Brings the labels of a bin's points to where the points stand in the cloud.
+class BinLabels {
+ public:
+  /// Makes room for bins of `points` points; may throw std::bad_alloc.
+  void reserve(std::size_t points) { packed_.reserve(points + 64); }
+
+  /// Labels the points of bin `i` of the batch: ground if in the set, noise below it, nonground
+  /// above. Returns how many are ground.
+  std::uint32_t write(const BinBatch& batch, std::size_t i, const GroundSet& set,
+                      const BinGroups& groups, std::span<Label> labels) noexcept;
+
+  /// Gives all points of a bin one label.
+  static void fill(const BinGroups& groups, std::uint32_t bin, Label label,
+                   std::span<Label> labels) noexcept;
+
+ private:
+  Buffer<std::uint8_t> packed_;  ///< labels of one bin, in the order of its points
+};
+
+}  // namespace flagstone::patchwork

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/plane.hpp"
+#include "patchwork/bin_batch.hpp"
+
+namespace flagstone::patchwork {
+
+/// The points G of a bin with bottom <= n . p < top, metres: eqs. (5) and (6) with p as the batch
+/// has it and n = (normal_x, normal_y, normal_z). With n = (0, 0, 1) a set of eq. (4).
+struct GroundSet {
+  float normal_x, normal_y, normal_z;
+  float bottom, top;
+};
+
+/// One for each bin of a batch.
+using GroundSets = std::array<GroundSet, batch_size>;
+
+/// Bins of a batch, bit i for bin i.
+using BinMask = std::uint32_t;
+
+/// Precision of sums over points; the sets are the same in both.
+enum class Precision : std::uint8_t {
+  /// Sums of at most 64 numbers a lane in single precision, sums of these in double: errors of up
+  /// to 4e-6 of the sum of the squares, and mostly a tenth of that.
+  single,
+  /// All in double.
+  full,
+};
+
+/// Moments of the sets of the bins in `wanted`; those of other bins are left alone.
+void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
+                 Precision precision, MomentsBatch& moments) noexcept;
+
+/// Moves the origin of z to `origins[i]` metres in each bin of the batch.
+void shift_heights(BinBatch& batch, const std::array<float, batch_size>& origins) noexcept;
+
+/// Labels the points of bin `i`: ground if in the set, noise below it, nonground above; one byte
+/// for each place of the bin. Returns how many are in the set.
+std::uint32_t label_points(const BinBatch& batch, std::size_t i, const GroundSet& set,
+                           std::uint8_t* labels) noexcept;
+
+}  // namespace flagstone::patchwork

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+//
+// Concentric Zone Model, section III-B, eqs. (1) and (2): the bin S_i,j,m that a point falls into,
+// for a vector of points at once. Included once for each instruction set.
+
+// clang-format off
+#if defined(FLAGSTONE_PATCHWORK_LOCATE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef FLAGSTONE_PATCHWORK_LOCATE_INL_HPP
+#undef FLAGSTONE_PATCHWORK_LOCATE_INL_HPP
+#else
+#define FLAGSTONE_PATCHWORK_LOCATE_INL_HPP
+#endif
+// clang-format on
+
+#include <algorithm>
+#include <limits>
+
+#include "core/simd/lanes-inl.hpp"
+#include "patchwork/concentric_zones.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::patchwork::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
+
+/// theta of eq. (2) as a share of a full turn, counted from -pi: 0 to 1, within 6e-8; exact on the
+/// axes. By + - * / alone, so that every instruction set has the same bits.
+HWY_INLINE FloatVector turn_of(FloatVector x, FloatVector y) {
+  const FloatTag d;
+  const FloatVector ax = hn::Abs(x);
+  const FloatVector ay = hn::Abs(y);
+  // arctan(t) / 2 pi on [0, 1]: odd polynomial of least greatest error, 6e-9 before rounding.
+  const FloatVector t =
+      hn::Div(hn::Min(ax, ay), hn::Max(hn::Max(ax, ay), hn::Set(d, 1e-30f)));
+  const FloatVector t2 = hn::Mul(t, t);
+  FloatVector p = hn::Set(d, -0.000645303f);
+  for (const float coefficient : {0.003479593f, -0.008898717f, 0.01534603f, -0.02213627f,
+                                  0.031745944f, -0.053046122f, 0.15915483f}) {
+    p = hn::Add(hn::Mul(p, t2), hn::Set(d, coefficient));
+  }
+  const FloatVector eighth = hn::Mul(p, t);
+  const FloatVector quarter =
+      hn::IfThenElse(hn::Gt(ax, ay), eighth, hn::Sub(hn::Set(d, 0.25f), eighth));
+  const FloatVector half = hn::IfThenElse(hn::Lt(x, hn::Zero(d)),
+                                          hn::Sub(hn::Set(d, 0.5f), quarter), quarter);
+  return hn::Add(hn::Set(d, 0.5f), hn::CopySignToAbs(half, y));
+}
+
+/// Which ring holds rho^2: a walk down the tree. `few`: at most 16 rings, all tables in registers.
+template <bool few>
+HWY_INLINE IntVector ring_of(FloatVector squared_range, const RingTree& tree) {
+  const FloatTag d;
+  const IntTag di;
+  const auto step = [&](IntVector node, FloatVector boundary) HWY_ATTR {
+    const IntVector left = hn::Add(node, node);
+    const auto right = hn::RebindMask(di, hn::Ge(squared_range, boundary));
+    return hn::IfThenElse(right, hn::Add(left, hn::Set(di, 1)), left);
+  };
+  const std::vector<float>* level = tree.boundaries.data();
+  IntVector node = step(hn::Zero(di), hn::Set(d, level[0][0]));
+  for (std::size_t l = 1; l < 4; ++l) node = step(node, lookup_8(level[l].data(), node));
+  if constexpr (!few) {
+    for (std::size_t l = 4; l < tree.boundaries.size(); ++l) {
+      node = step(node, hn::GatherIndex(d, level[l].data(), node));
+    }
+  }
+  return node;
+}
+
+template <bool few>
+HWY_INLINE FloatVector of_ring(const float* table, IntVector ring) {
+  if constexpr (few) {
+    return lookup_16(table, ring);
+  } else {
+    return hn::GatherIndex(FloatTag(), table, ring);
+  }
+}
+
+/// Bins travel as floats of 2^23 + bin: adding them needs no conversion, and their low bits are the
+/// bin.
+inline constexpr std::int32_t bits_of_bin_0 = 0x4B000000;
+
+HWY_INLINE IntVector bin_bits_of(std::uint32_t bin) {
+  return hn::Set(IntTag(), bits_of_bin_0 + static_cast<std::int32_t>(bin));
+}
+
+/// The bins of points some of which may have none: these are out_of_range() or invalid().
+HWY_INLINE IntVector with_binless(IntVector bins, FloatVector squared_range, FloatVector x,
+                                  FloatVector y, FloatVector z, const ConcentricZones& zones) {
+  const FloatTag d;
+  const IntTag di;
+  const FloatVector zero = hn::Zero(d);
+  // Infinity * 0 and NaN * 0 are NaN.
+  const FloatVector nothing =
+      hn::Add(hn::Add(hn::Mul(x, zero), hn::Mul(y, zero)), hn::Mul(z, zero));
+  const auto somewhere = hn::Or(hn::Or(hn::Ne(x, zero), hn::Ne(y, zero)), hn::Ne(z, zero));
+  const auto valid = hn::And(hn::Eq(nothing, zero), somewhere);
+  const auto in_range =
+      hn::And(hn::And(hn::Ge(squared_range, hn::Set(d, zones.min_squared_range())),
+                      hn::Lt(squared_range, hn::Set(d, zones.max_squared_range()))),
+              hn::Le(hn::Abs(z), hn::Set(d, max_height)));
+  const IntVector binless =
+      hn::IfThenElse(hn::RebindMask(di, valid), bin_bits_of(zones.out_of_range()),
+                     bin_bits_of(zones.invalid()));
+  return hn::IfThenElse(hn::RebindMask(di, hn::And(in_range, valid)), bins, binless);
+}
+
+/// The bins of points, each a bin, noise(), out_of_range() or invalid(), as bits_of_bin_0 + bin.
+/// Takes any bit pattern.
+template <bool few>
+HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z,
+                            const ConcentricZones& zones) {
+  const FloatTag d;
+  const IntTag di;
+  const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));  // infinite if too far
+  const IntVector ring = ring_of<few>(squared_range, zones.tree());
+
+  // Sector j of eq. (2); theta = pi itself counts as -pi.
+  const FloatVector sectors = of_ring<few>(zones.sectors(), ring);
+  const FloatVector turns = hn::Mul(turn_of(x, y), sectors);
+  const FloatVector sector = hn::Trunc(hn::IfThenElseZero(hn::Lt(turns, sectors), turns));
+  IntVector bins = hn::BitCast(di, hn::Add(of_ring<few>(zones.first_bins(), ring), sector));
+
+  const auto noise = hn::Lt(z, of_ring<few>(zones.noise_heights(), ring));
+  bins = hn::IfThenElse(hn::RebindMask(di, noise), bin_bits_of(zones.noise()), bins);
+
+  // Points straight above or below the sensor are looked at closely, too.
+  const float least = std::max(zones.min_squared_range(), std::numeric_limits<float>::denorm_min());
+  const auto in_range =
+      hn::And(hn::And(hn::Ge(squared_range, hn::Set(d, least)),
+                      hn::Lt(squared_range, hn::Set(d, zones.max_squared_range()))),
+              hn::Le(hn::Abs(z), hn::Set(d, max_height)));
+  if (HWY_UNLIKELY(!hn::AllTrue(d, in_range))) {
+    bins = with_binless(bins, squared_range, x, y, z, zones);
+  }
+  return bins;
+}
+
+}  // namespace
+}  // namespace flagstone::patchwork::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

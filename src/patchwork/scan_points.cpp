@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "patchwork/scan_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "patchwork/scan_points.cpp"
+#include <hwy/foreach_target.h>
+// The above includes this file once for each instruction set.
+#include "core/simd/lanes-inl.hpp"
+#include "patchwork/locate-inl.hpp"
+
+#ifndef FLAGSTONE_PATCHWORK_SCAN_POINTS_ONCE
+#define FLAGSTONE_PATCHWORK_SCAN_POINTS_ONCE
+namespace flagstone::patchwork {
+
+/// A stretch of a cloud to read and where to put it.
+struct Stretch {
+  CloudView cloud;
+  std::size_t begin, end;  ///< at most chunk_size points
+  float *x, *y, *z;        ///< of point `begin`; room for 16 more than there are
+  RunStart* starts;        ///< room for 17 more
+};
+
+}  // namespace flagstone::patchwork
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::patchwork::HWY_NAMESPACE {
+namespace {
+
+/// Of each lane the one before it; of the first the last.
+constexpr std::array<std::int32_t, lanes> rotation() {
+  constexpr std::size_t n = hn::MaxLanes(IntTag());
+  std::array<std::int32_t, lanes> indices{};
+  for (std::size_t i = 0; i < n; ++i) indices[i] = static_cast<std::int32_t>((i + n - 1) % n);
+  return indices;
+}
+
+/// Writes down where the bin changes from one point to the next.
+class RunWriter {
+ public:
+  RunWriter(RunStart* starts) : begin_(starts), end_(starts) {}
+
+  /// The bins of the next vector of points, each as bits_of_bin_0 + bin.
+  HWY_INLINE void add(IntVector bins) {
+    const IntTag di;
+    const IntVector rotated = rotate(bins);
+    const IntVector before = hn::IfThenElse(hn::FirstN(di, 1), previous_, rotated);
+    const auto starts = hn::Ne(bins, before);
+    const IntVector words = hn::Add(bins, places_);
+    hn::StoreU(hn::Compress(words, starts), di, reinterpret_cast<std::int32_t*>(end_));
+    end_ += hn::CountTrue(di, starts);
+    previous_ = rotated;
+    places_ = hn::Add(places_, hn::Set(di, static_cast<std::int32_t>(hn::Lanes(di)) << bin_bits));
+  }
+
+  /// Drops what begins at `count` or later, closes the list and returns how many runs there are.
+  std::size_t close(std::size_t count) {
+    while (end_ > begin_ && (end_[-1] >> bin_bits) >= count) --end_;
+    *end_ = static_cast<RunStart>(count) << bin_bits;
+    return static_cast<std::size_t>(end_ - begin_);
+  }
+
+ private:
+  /// The last lane comes first.
+  static HWY_INLINE IntVector rotate(IntVector bins) {
+    const IntTag di;
+    if constexpr (hn::MaxLanes(di) == 1) {
+      return bins;
+    } else {
+      HWY_ALIGN constexpr std::array<std::int32_t, lanes> by_lanes = rotation();
+      return hn::TableLookupLanes(bins, hn::SetTableIndices(di, by_lanes.data()));
+    }
+  }
+
+  RunStart* begin_;
+  RunStart* end_;
+  IntVector previous_ = hn::Zero(IntTag());  // no point's bin
+  /// What makes run starts of bins: the points' indices << bin_bits, less bits_of_bin_0.
+  IntVector places_ = hn::Sub(hn::ShiftLeft<bin_bits>(hn::Iota(IntTag(), 0)),
+                              hn::Set(IntTag(), bits_of_bin_0));
+};
+
+/// Reads sixteen points of `floats` floats each and finds their bins.
+template <int floats, bool few>
+HWY_INLINE void read_block(const float* HWY_RESTRICT points, std::size_t index,
+                           const Stretch& stretch, const ConcentricZones& zones, RunWriter& runs) {
+  const FloatTag d;
+  for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
+    FloatVector x, y, z;
+    load_points<floats>(points + floats * lane, x, y, z);
+    hn::StoreU(x, d, stretch.x + index + lane);
+    hn::StoreU(y, d, stretch.y + index + lane);
+    hn::StoreU(z, d, stretch.z + index + lane);
+    runs.add(locate<few>(x, y, z, zones));
+  }
+}
+
+/// Blocks read where they lie as long as no read can leave the cloud; the last one, and all of a
+/// layout that is neither packed xyz nor records of four floats, by way of a copy.
+template <bool few>
+HWY_INLINE std::size_t read_with(const Stretch& stretch, const ConcentricZones& zones) {
+  const CloudView& cloud = stretch.cloud;
+  const CloudLayout& layout = cloud.layout();
+  const auto* first = static_cast<const std::byte*>(cloud.data()) + layout.x;
+  const bool contiguous = layout.y == layout.x + 4 && layout.z == layout.x + 8 &&
+                          std::bit_cast<std::uintptr_t>(first) % sizeof(float) == 0;
+  const std::size_t count = stretch.end - stretch.begin;
+  const std::size_t in_place = contiguous ? (std::min(stretch.end, cloud.size() - 1) -
+                                             stretch.begin) / lanes * lanes
+                                          : 0;
+  RunWriter runs(stretch.starts);
+  std::size_t i = 0;
+  if (layout.stride == 16) {
+    const float* points = reinterpret_cast<const float*>(first) + 4 * stretch.begin;
+    for (; i < in_place; i += lanes) {
+      read_block<4, few>(points + 4 * i, i, stretch, zones, runs);
+    }
+  } else if (layout.stride == 12) {
+    const float* points = reinterpret_cast<const float*>(first) + 3 * stretch.begin;
+    for (; i < in_place; i += lanes) {
+      read_block<3, few>(points + 3 * i, i, stretch, zones, runs);
+    }
+  }
+  HWY_ALIGN std::array<float, 4 * lanes> copy{};
+  for (; i < count; i += lanes) {
+    const std::size_t end = std::min(count, i + lanes);
+    for (std::size_t k = i; k < end; ++k) {
+      const Point p = cloud[stretch.begin + k];
+      std::memcpy(copy.data() + 4 * (k - i), &p, sizeof p);
+    }
+    read_block<4, few>(copy.data(), i, stretch, zones, runs);
+  }
+  return runs.close(count);
+}
+
+/// Reads a stretch; returns how many runs it has.
+std::size_t read_stretch(const Stretch& stretch, const ConcentricZones& zones) {
+  return zones.rings().size() <= RingTree::few ? read_with<true>(stretch, zones)
+                                               : read_with<false>(stretch, zones);
+}
+
+}  // namespace
+}  // namespace flagstone::patchwork::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace flagstone::patchwork {
+namespace {
+HWY_EXPORT(read_stretch);
+}  // namespace
+
+void ScanPoints::reserve(std::size_t points) {
+  const std::size_t chunks = chunk_count(points);
+  for (Buffer<float>* coordinate : {&x_, &y_, &z_}) coordinate->reserve(points + 2 * slack);
+  starts_.reserve(chunks * (chunk_size + slack) + slack);
+  run_counts_.reserve(chunks);
+}
+
+void ScanPoints::read(CloudView cloud, std::size_t chunk, const ConcentricZones& zones) noexcept {
+  const std::size_t begin = chunk * chunk_size;
+  const Stretch stretch{.cloud = cloud,
+                        .begin = begin,
+                        .end = std::min(begin + chunk_size, cloud.size()),
+                        .x = x_.data() + begin,
+                        .y = y_.data() + begin,
+                        .z = z_.data() + begin,
+                        .starts = starts_.data() + chunk * (chunk_size + slack)};
+  run_counts_.data()[chunk] =
+      static_cast<std::uint32_t>(HWY_DYNAMIC_DISPATCH(read_stretch)(stretch, zones));
+}
+
+}  // namespace flagstone::patchwork
+#endif

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "patchwork/seed_heights.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "patchwork/seed_heights.cpp"
+#include <hwy/foreach_target.h>
+// The above includes this file once for each instruction set.
+#include "core/simd/lanes-inl.hpp"
+
+#ifndef FLAGSTONE_PATCHWORK_SEED_HEIGHTS_ONCE
+#define FLAGSTONE_PATCHWORK_SEED_HEIGHTS_ONCE
+namespace flagstone::patchwork {
+
+/// Up to this many candidates of sixteen bins are sorted side by side.
+inline constexpr std::size_t most_candidates = 32;
+
+/// Row r holds the candidate r of each bin, metres; infinity where there is none.
+struct alignas(64) Candidates : std::array<std::array<float, batch_size>, most_candidates> {};
+
+}  // namespace flagstone::patchwork
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::patchwork::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
+
+/// Sorts every column by Batcher's odd-even merge sort.
+void sort_columns(Candidates& rows) {
+  const FloatTag d;
+  const auto compare_exchange = [&](std::size_t low, std::size_t high) HWY_ATTR {
+    for (std::size_t lane = 0; lane < batch_size; lane += hn::Lanes(d)) {
+      const FloatVector a = hn::Load(d, rows[low].data() + lane);
+      const FloatVector b = hn::Load(d, rows[high].data() + lane);
+      hn::Store(hn::Min(a, b), d, rows[low].data() + lane);
+      hn::Store(hn::Max(a, b), d, rows[high].data() + lane);
+    }
+  };
+  constexpr std::size_t n = most_candidates;
+  for (std::size_t p = 1; p < n; p *= 2) {
+    for (std::size_t k = p; k >= 1; k /= 2) {
+      for (std::size_t j = k % p; j + k < n; j += 2 * k) {
+        for (std::size_t i = 0; i < std::min(k, n - j - k); ++i) {
+          if ((i + j) / (2 * p) == (i + j + k) / (2 * p)) compare_exchange(i + j, i + j + k);
+        }
+      }
+    }
+  }
+}
+
+/// The two lowest heights of each of the 16 lanes that are not below `floor`.
+void lowest_of_lanes(const float* HWY_RESTRICT z, std::size_t places, float floor,
+                     float* HWY_RESTRICT lowest) {
+  const FloatTag d;
+  const FloatVector none = hn::Set(d, std::numeric_limits<float>::infinity());
+  const FloatVector bottom = hn::Set(d, floor);
+  for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
+    FloatVector first = none;
+    FloatVector second = none;
+    for (std::size_t i = lane; i < places; i += lanes) {
+      const FloatVector height = hn::Load(d, z + i);
+      const FloatVector candidate = hn::IfThenElse(hn::Ge(height, bottom), height, none);
+      second = hn::Min(second, hn::Max(first, candidate));
+      first = hn::Min(first, candidate);
+    }
+    hn::StoreU(first, d, lowest + lane);
+    hn::StoreU(second, d, lowest + lanes + lane);
+  }
+}
+
+/// Copies the heights from `floor` to `ceiling`; returns how many they are. May write 16 more.
+std::size_t copy_between(const float* HWY_RESTRICT z, std::size_t places, float floor,
+                         float ceiling, float* HWY_RESTRICT heights) {
+  const FloatTag d;
+  const FloatVector bottom = hn::Set(d, floor);
+  const FloatVector top = hn::Set(d, ceiling);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < places; i += hn::Lanes(d)) {
+    const FloatVector height = hn::Load(d, z + i);
+    const auto inside = hn::And(hn::Ge(height, bottom), hn::Le(height, top));
+    hn::StoreU(hn::Compress(height, inside), d, heights + count);
+    count += hn::CountTrue(d, inside);
+  }
+  return count;
+}
+
+/// Means of the first `seed_count` rows, where they are heights.
+void mean_of_rows(const Candidates& rows, std::size_t seed_count, Batch& means) {
+  const DoubleTag d;
+  const hn::Rebind<float, DoubleTag> df;
+  for (std::size_t lane = 0; lane < batch_size; lane += hn::Lanes(d)) {
+    DoubleVector sum = hn::Zero(d);
+    DoubleVector count = hn::Zero(d);
+    for (std::size_t row = 0; row < seed_count; ++row) {
+      const DoubleVector height = hn::PromoteTo(d, hn::Load(df, rows[row].data() + lane));
+      const auto there = hn::Lt(height, hn::Set(d, 1e30));
+      sum = hn::Add(sum, hn::IfThenElseZero(there, height));
+      count = hn::Add(count, hn::IfThenElseZero(there, hn::Set(d, 1.0)));
+    }
+    hn::Store(hn::Div(sum, hn::Max(count, hn::Set(d, 1.0))), d, means.data() + lane);
+  }
+}
+
+}  // namespace
+}  // namespace flagstone::patchwork::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace flagstone::patchwork {
+namespace {
+HWY_EXPORT(sort_columns);
+HWY_EXPORT(lowest_of_lanes);
+HWY_EXPORT(copy_between);
+HWY_EXPORT(mean_of_rows);
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float highest = std::numeric_limits<float>::max();
+
+void set_column(Candidates& rows, std::size_t column, const float* heights, std::size_t count) {
+  for (std::size_t row = 0; row < most_candidates; ++row) {
+    rows[row][column] = row < count ? heights[row] : infinity;
+  }
+}
+
+double mean_of_lowest(float* heights, std::size_t count, std::size_t seed_count) {
+  const std::size_t seeds = std::min(count, seed_count);
+  if (seeds == 0) return 0;
+  std::nth_element(heights, heights + (seeds - 1), heights + count);
+  std::sort(heights, heights + seeds);
+  double sum = 0;
+  for (const float* z = heights; z < heights + seeds; ++z) sum += *z;
+  return sum / static_cast<double>(seeds);
+}
+
+}  // namespace
+
+/// The two lowest points of every lane are candidates. The N_seed-th lowest candidate is a bound
+/// for the N_seed-th lowest point, and few points lie below it: these are sorted, sixteen bins side
+/// by side. Where they are not few, or N_seed is large, bins are sorted one by one.
+void SeedHeights::find(const BinBatch& batch, const std::array<float, batch_size>& floors,
+                       Batch& means) noexcept {
+  means = {};
+  float* heights = heights_.data();
+  if (seed_count_ > most_candidates) {
+    for (std::size_t i = 0; i < batch.count(); ++i) {
+      const std::size_t count = HWY_DYNAMIC_DISPATCH(copy_between)(
+          batch.z(i), batch.places(i), floors[i], highest, heights);
+      means[i] = mean_of_lowest(heights, count, seed_count_);
+    }
+    return;
+  }
+
+  Candidates rows{};
+  for (std::size_t i = 0; i < batch.count(); ++i) {
+    HWY_DYNAMIC_DISPATCH(lowest_of_lanes)(batch.z(i), batch.places(i), floors[i], heights);
+    set_column(rows, i, heights, most_candidates);
+  }
+  HWY_DYNAMIC_DISPATCH(sort_columns)(rows);
+  const std::array<float, batch_size> bounds = rows[seed_count_ - 1];
+
+  for (std::size_t i = 0; i < batch.count(); ++i) {
+    const std::size_t count = HWY_DYNAMIC_DISPATCH(copy_between)(
+        batch.z(i), batch.places(i), floors[i], std::min(bounds[i], highest), heights);
+    if (count > most_candidates) {
+      std::nth_element(heights, heights + (seed_count_ - 1), heights + count);
+    }
+    set_column(rows, i, heights, count > most_candidates ? seed_count_ : count);
+  }
+  HWY_DYNAMIC_DISPATCH(sort_columns)(rows);
+  HWY_DYNAMIC_DISPATCH(mean_of_rows)(rows, seed_count_, means);
+}
+
+}  // namespace flagstone::patchwork
+#endif
