@@ -57,6 +57,15 @@ class Segmentation {
     for (const Label label : labels_) ++counts_[static_cast<std::size_t>(label)];
   }
 
+  /// The same for those who have counted while they wrote them: how many have each label but
+  /// nonground, which all others have.
+  void finish(std::array<std::size_t, label_count> counts) noexcept {
+    counts_ = counts;
+    std::size_t others = labels_.size();
+    for (std::size_t code = 1; code < label_count; ++code) others -= counts[code];
+    counts_[static_cast<std::size_t>(Label::nonground)] = others;
+  }
+
   /// @}
 
  private:

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "baselines/polar_grid.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace flagstone::baselines {
@@ -27,11 +26,7 @@ PolarGrid::PolarGrid(float min_range, float max_range, int rings, int sectors)
 
 std::span<const std::uint32_t> PolarGrid::locate(const UsablePoints& points) noexcept {
   const std::size_t n = points.size();
-  for (std::size_t begin = 0; begin < n; begin += patchwork::ConcentricZones::block_size) {
-    const std::size_t count = std::min(patchwork::ConcentricZones::block_size, n - begin);
-    zones_.locate(points.x().data() + begin, points.y().data() + begin, points.z().data() + begin,
-                  count, bins_.data() + begin);
-  }
+  zones_.locate(points.x().data(), points.y().data(), points.z().data(), n, bins_.data());
   return {bins_.data(), n};
 }
 

@@ -38,12 +38,8 @@ HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, Pla
                         covariance(2, sum[0], mean.z), covariance(3, sum[1], mean.y),
                         covariance(4, sum[1], mean.z), covariance(5, sum[2], mean.z)};
   const DoubleVector trace = add(add(c.xx, c.yy), c.zz);
-  const DoubleMask has_spread = hn::And(hn::Gt(trace, number(0)), hn::Lt(trace, number(1e300)));
-
   const Axes axes = principal_axes(c, trace);
   const Vectors3& normal = axes.normal;
-  const auto spread = [&](DoubleVector share)
-                          HWY_ATTR { return hn::IfThenElseZero(has_spread, mul(share, trace)); };
   store(n, planes.count);
   store(mean.x, planes.mean[0]);
   store(mean.y, planes.mean[1]);
@@ -53,9 +49,9 @@ HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, Pla
   store(normal.z, planes.normal[2]);
   store(hn::Neg(add(add(mul(normal.x, mean.x), mul(normal.y, mean.y)), mul(normal.z, mean.z))),
         planes.d);
-  store(spread(axes.l1), planes.eigenvalues[0]);
-  store(spread(axes.l2), planes.eigenvalues[1]);
-  store(spread(axes.l3), planes.eigenvalues[2]);
+  store(mul(axes.l1, trace), planes.eigenvalues[0]);
+  store(mul(axes.l2, trace), planes.eigenvalues[1]);
+  store(mul(axes.l3, trace), planes.eigenvalues[2]);
 
   // An error of 1e-6 of the squares, seen from the origin, turns the normal by that over the gap
   // between the two lesser eigenvalues.

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/principal_axes.hpp"
 
-#include <cmath>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/principal_axes.cpp"
 #include <hwy/foreach_target.h>
@@ -19,8 +17,9 @@ void axes_of(const Symmetric3& c, double trace, PrincipalAxes& result) {
   const Axes axes = principal_axes({number(c[0]), number(c[1]), number(c[2]), number(c[3]),
                                     number(c[4]), number(c[5])},
                                    number(trace));
-  result.eigenvalues = {hn::GetLane(axes.l1) * trace, hn::GetLane(axes.l2) * trace,
-                        hn::GetLane(axes.l3) * trace};
+  const double spread = hn::GetLane(axes.l1) > 0 ? trace : 0;  // not infinite
+  result.eigenvalues = {hn::GetLane(axes.l1) * spread, hn::GetLane(axes.l2) * spread,
+                        hn::GetLane(axes.l3) * spread};
   result.normal = {hn::GetLane(axes.normal.x), hn::GetLane(axes.normal.y),
                    hn::GetLane(axes.normal.z)};
 }
@@ -36,11 +35,8 @@ HWY_EXPORT(axes_of);
 }  // namespace
 
 PrincipalAxes principal_axes(const Symmetric3& covariance) noexcept {
-  const double trace = covariance[0] + covariance[3] + covariance[5];
-  PrincipalAxes axes{{0, 0, 0}, {0, 0, 1}};
-  if (trace > 0 && std::isfinite(trace)) {
-    HWY_DYNAMIC_DISPATCH(axes_of)(covariance, trace, axes);
-  }
+  PrincipalAxes axes{};
+  HWY_DYNAMIC_DISPATCH(axes_of)(covariance, covariance[0] + covariance[3] + covariance[5], axes);
   return axes;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <new>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "flagstone/cloud_view.hpp"
@@ -16,7 +17,8 @@ namespace flagstone {
 
 /// What every Segmenter::segment does around its own work: refuses impossible clouds, starts and
 /// finishes the result, turns a failed allocation into a status. `work(labels)` sets the labels
-/// that are not to be nonground; it may throw std::bad_alloc and nothing else.
+/// that are not to be nonground; it may throw std::bad_alloc and nothing else. It may return how many
+/// it set, as Segmentation::finish takes it.
 template <class Work>
 Status segment_scan(CloudView cloud, Segmentation& result, Work&& work) noexcept {
   result.clear();
@@ -25,8 +27,13 @@ Status segment_scan(CloudView cloud, Segmentation& result, Work&& work) noexcept
     return Status(StatusCode::invalid_argument);
   }
   try {
-    std::forward<Work>(work)(result.start(cloud.size()));
-    result.finish();
+    const std::span<Label> labels = result.start(cloud.size());
+    if constexpr (std::is_void_v<std::invoke_result_t<Work, std::span<Label>>>) {
+      std::forward<Work>(work)(labels);
+      result.finish();
+    } else {
+      result.finish(std::forward<Work>(work)(labels));
+    }
   } catch (const std::bad_alloc&) {
     result.clear();
     return Status(StatusCode::out_of_memory);

@@ -30,9 +30,9 @@ void copy(const std::uint8_t* from, std::size_t count, Label* to) noexcept {
 
 }  // namespace
 
-std::uint32_t BinLabels::write(const BinBatch& batch, std::size_t i, const GroundSet& set,
+LabelCounts BinLabels::write(const BinBatch& batch, std::size_t i, const GroundSet& set,
                                const BinGroups& groups, std::span<Label> labels) noexcept {
-  const std::uint32_t ground = label_points(batch, i, set, packed_.data());
+  const LabelCounts counts = label_points(batch, i, set, packed_.data());
   const std::uint8_t* next = packed_.data();
   if (groups.scattered()) {
     for (const std::uint32_t point : groups.points(batch.bin(i))) {
@@ -44,12 +44,11 @@ std::uint32_t BinLabels::write(const BinBatch& batch, std::size_t i, const Groun
       next += run.length;
     }
   }
-  return ground;
+  return counts;
 }
 
-void BinLabels::fill(const BinGroups& groups, std::uint32_t bin, Label label,
+std::uint32_t BinLabels::fill(const BinGroups& groups, std::uint32_t bin, Label label,
                      std::span<Label> labels) noexcept {
-  if (groups.size(bin) == 0) return;
   if (groups.scattered()) {
     for (const std::uint32_t point : groups.points(bin)) labels[point] = label;
   } else {
@@ -57,6 +56,7 @@ void BinLabels::fill(const BinGroups& groups, std::uint32_t bin, Label label,
       std::fill_n(labels.data() + run.begin, run.length, label);
     }
   }
+  return groups.size(bin);
 }
 
 }  // namespace flagstone::patchwork

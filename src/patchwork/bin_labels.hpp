@@ -21,12 +21,13 @@ class BinLabels {
   void reserve(std::size_t points) { packed_.reserve(points + 64); }
 
   /// Labels the points of bin `i` of the batch: ground if in the set, noise below it, nonground
-  /// above. Returns how many are ground.
-  std::uint32_t write(const BinBatch& batch, std::size_t i, const GroundSet& set,
+  /// above.
+  LabelCounts write(const BinBatch& batch, std::size_t i, const GroundSet& set,
                       const BinGroups& groups, std::span<Label> labels) noexcept;
 
   /// Gives all points of a bin one label.
-  static void fill(const BinGroups& groups, std::uint32_t bin, Label label,
+  /// Returns how many they are.
+  static std::uint32_t fill(const BinGroups& groups, std::uint32_t bin, Label label,
                    std::span<Label> labels) noexcept;
 
  private:

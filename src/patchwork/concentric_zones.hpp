@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "flagstone/patchwork_config.hpp"
@@ -35,13 +36,18 @@ struct RingTree {
 };
 
 /// The Concentric Zone Model, section III-B: zones Z_m of rings and sectors, eqs. (1) and (2), as
-/// tables. `locate` (locate-inl.hpp) reads them.
+/// tables, which the vector code in locate-inl.hpp reads.
 class ConcentricZones {
  public:
   explicit ConcentricZones(const PatchworkConfig& config);
 
   /// Bins in all: N_C.
   [[nodiscard]] std::uint32_t bin_count() const noexcept { return bin_count_; }
+
+  /// The bins of `count` points, each a bin, noise(), out_of_range() or invalid(). Takes any bit
+  /// pattern.
+  void locate(const float* x, const float* y, const float* z, std::size_t count,
+              std::uint32_t* bins) const noexcept;
 
   /// What points have instead of a bin that belong to none.
   [[nodiscard]] std::uint32_t noise() const noexcept { return bin_count_; }
@@ -55,6 +61,10 @@ class ConcentricZones {
 
   /// L_min^2 and L_max^2.
   [[nodiscard]] float min_squared_range() const noexcept { return squared_radii_.front(); }
+  /// L_min^2, or the least above 0.
+  [[nodiscard]] float least_squared_range() const noexcept {
+    return std::max(min_squared_range(), std::numeric_limits<float>::denorm_min());
+  }
   [[nodiscard]] float max_squared_range() const noexcept { return squared_radii_.back(); }
 
   [[nodiscard]] const RingTree& tree() const noexcept { return tree_; }

@@ -137,25 +137,28 @@ void shift(float* heights, std::size_t places, float origin) {
   }
 }
 
-std::uint32_t label_bin(const BinBatch& batch, std::size_t bin, const GroundSet& set,
+LabelCounts label_bin(const BinBatch& batch, std::size_t bin, const GroundSet& set,
                         std::uint8_t* HWY_RESTRICT labels) {
   const FloatTag d;
   const IntTag di;
   const hn::Rebind<std::uint8_t, FloatTag> d8;
   const std::size_t places = batch.places(bin);
-  std::size_t count = 0;
+  std::size_t ground = 0;
+  std::size_t ground_or_noise = 0;
   for (std::size_t i = 0; i < places; i += hn::Lanes(d)) {
     const FloatVector h = height(d, hn::Load(d, batch.x(bin) + i), hn::Load(d, batch.y(bin) + i),
                                  hn::Load(d, batch.z(bin) + i), set);
     const auto below_top = hn::Lt(h, hn::Set(d, set.top));
     const auto in_set = hn::And(below_top, hn::Ge(h, hn::Set(d, set.bottom)));
-    count += hn::CountTrue(d, in_set);
+    ground += hn::CountTrue(d, in_set);
+    ground_or_noise += hn::CountTrue(d, below_top);
     const IntVector below = hn::IfThenElse(hn::RebindMask(di, in_set), hn::Set(di, 1),
                                            hn::Set(di, 2));  // ground, noise
     const IntVector label = hn::IfThenElseZero(hn::RebindMask(di, below_top), below);
     hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
   }
-  return static_cast<std::uint32_t>(count);
+  return {.ground = static_cast<std::uint32_t>(ground),
+          .noise = static_cast<std::uint32_t>(ground_or_noise - ground)};
 }
 
 }  // namespace
@@ -181,7 +184,7 @@ void shift_heights(BinBatch& batch, const std::array<float, batch_size>& origins
   }
 }
 
-std::uint32_t label_points(const BinBatch& batch, std::size_t i, const GroundSet& set,
+LabelCounts label_points(const BinBatch& batch, std::size_t i, const GroundSet& set,
                            std::uint8_t* labels) noexcept {
   return HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, labels);
 }

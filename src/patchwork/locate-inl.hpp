@@ -13,9 +13,6 @@
 #endif
 // clang-format on
 
-#include <algorithm>
-#include <limits>
-
 #include "core/simd/lanes-inl.hpp"
 #include "patchwork/concentric_zones.hpp"
 
@@ -27,14 +24,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
 /// theta of eq. (2) as a share of a full turn, counted from -pi: 0 to 1, within 6e-8; exact on the
-/// axes. By + - * / alone, so that every instruction set has the same bits.
+/// axes, NaN at the origin. By + - * / alone, so that every instruction set has the same bits.
 HWY_INLINE FloatVector turn_of(FloatVector x, FloatVector y) {
   const FloatTag d;
   const FloatVector ax = hn::Abs(x);
   const FloatVector ay = hn::Abs(y);
   // arctan(t) / 2 pi on [0, 1]: odd polynomial of least greatest error, 6e-9 before rounding.
-  const FloatVector t =
-      hn::Div(hn::Min(ax, ay), hn::Max(hn::Max(ax, ay), hn::Set(d, 1e-30f)));
+  const FloatVector t = hn::Div(hn::Min(ax, ay), hn::Max(ax, ay));
   const FloatVector t2 = hn::Mul(t, t);
   FloatVector p = hn::Set(d, -0.000645303f);
   for (const float coefficient : {0.003479593f, -0.008898717f, 0.01534603f, -0.02213627f,
@@ -57,7 +53,7 @@ HWY_INLINE IntVector ring_of(FloatVector squared_range, const RingTree& tree) {
   const auto step = [&](IntVector node, FloatVector boundary) HWY_ATTR {
     const IntVector left = hn::Add(node, node);
     const auto right = hn::RebindMask(di, hn::Ge(squared_range, boundary));
-    return hn::IfThenElse(right, hn::Add(left, hn::Set(di, 1)), left);
+    return increment_if(right, left);
   };
   const std::vector<float>* level = tree.boundaries.data();
   IntVector node = step(hn::Zero(di), hn::Set(d, level[0][0]));
@@ -128,9 +124,8 @@ HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z,
   bins = hn::IfThenElse(hn::RebindMask(di, noise), bin_bits_of(zones.noise()), bins);
 
   // Points straight above or below the sensor are looked at closely, too.
-  const float least = std::max(zones.min_squared_range(), std::numeric_limits<float>::denorm_min());
   const auto in_range =
-      hn::And(hn::And(hn::Ge(squared_range, hn::Set(d, least)),
+      hn::And(hn::And(hn::Ge(squared_range, hn::Set(d, zones.least_squared_range())),
                       hn::Lt(squared_range, hn::Set(d, zones.max_squared_range()))),
               hn::Le(hn::Abs(z), hn::Set(d, max_height)));
   if (HWY_UNLIKELY(!hn::AllTrue(d, in_range))) {

@@ -24,12 +24,16 @@ using patchwork::BinGroups;
 using patchwork::BinLabels;
 using patchwork::ConcentricZones;
 using patchwork::GroundLikelihood;
+using patchwork::LabelCounts;
 using patchwork::PlaneFit;
 using patchwork::Ring;
 using patchwork::ScanPoints;
 using patchwork::StageClock;
 
 namespace {
+
+/// Points by label, as Segmentation::finish takes them.
+using LabelTotals = std::array<std::size_t, label_count>;
 
 PatchworkConfig checked(PatchworkConfig config) {
   config.check();
@@ -61,7 +65,7 @@ struct Patchwork::Pipeline {
     patch_bins.reserve(zones.bin_count());
   }
 
-  void segment(CloudView cloud, Segmentation& result, std::span<Label> labels) noexcept {
+  LabelTotals segment(CloudView cloud, Segmentation& result, std::span<Label> labels) noexcept {
     StageClock clock(stage_times);
 
     // Concentric Zone Model (III-B)
@@ -70,6 +74,7 @@ struct Patchwork::Pipeline {
     }
     clock.end(Stage::bin);
     groups.group(scan, cloud.size(), zones.group_count());
+    totals = {};
     label_binless(labels);
     list_patches(result.mutable_patches());
     clock.end(Stage::group);
@@ -79,13 +84,21 @@ struct Patchwork::Pipeline {
       next = fill_batch(patches, next, labels);
       segment_batch(patches, labels, clock);
     }
+    return totals;
   }
 
   /// Points that have no bin.
-  void label_binless(std::span<Label> labels) const noexcept {
-    BinLabels::fill(groups, zones.noise(), Label::noise, labels);
-    BinLabels::fill(groups, zones.out_of_range(), Label::out_of_range, labels);
-    BinLabels::fill(groups, zones.invalid(), Label::invalid, labels);
+  void label_binless(std::span<Label> labels) noexcept {
+    fill(zones.noise(), Label::noise, labels);
+    fill(zones.out_of_range(), Label::out_of_range, labels);
+    fill(zones.invalid(), Label::invalid, labels);
+  }
+
+  /// Gives all points of a bin one label.
+  std::uint32_t fill(std::uint32_t bin, Label label, std::span<Label> labels) noexcept {
+    const std::uint32_t count = BinLabels::fill(groups, bin, label, labels);
+    totals[static_cast<std::size_t>(label)] += count;
+    return count;
   }
 
   /// One patch for each bin that holds points.
@@ -116,8 +129,7 @@ struct Patchwork::Pipeline {
         batch_zones[batch.count()] = patch.zone;
         batch.add(bin, patch.point_count);
       } else if (config.few_points_are_ground) {
-        BinLabels::fill(groups, bin, Label::ground, labels);
-        patch.ground_count = patch.point_count;
+        patch.ground_count = fill(bin, Label::ground, labels);
       }
     }
     return next;
@@ -141,7 +153,10 @@ struct Patchwork::Pipeline {
     for (std::size_t i = 0; i < batch.count(); ++i) {
       Patch& patch = patches[batch_patches[i]];
       if (!patch.is_ground()) continue;
-      patch.ground_count = bin_labels.write(batch, i, fitted.sets[i], groups, labels);
+      const LabelCounts counts = bin_labels.write(batch, i, fitted.sets[i], groups, labels);
+      patch.ground_count = counts.ground;
+      totals[static_cast<std::size_t>(Label::ground)] += counts.ground;
+      totals[static_cast<std::size_t>(Label::noise)] += counts.noise;
     }
     clock.end(Stage::label);
   }
@@ -171,6 +186,7 @@ struct Patchwork::Pipeline {
   Buffer<PatchBin> patch_bins;  ///< of each patch
   PlaneFit fit;
   GroundLikelihood likelihood;
+  LabelTotals totals{};
   StageTimes* stage_times = nullptr;
 
   BinBatch batch;
@@ -193,7 +209,7 @@ void Patchwork::time_stages(StageTimes* times) noexcept { pipeline_->stage_times
 Status Patchwork::segment(CloudView cloud, Segmentation& result) noexcept {
   return segment_scan(cloud, result, [&](std::span<Label> labels) {
     pipeline_->reserve(cloud.size(), result);
-    pipeline_->segment(cloud, result, labels);
+    return pipeline_->segment(cloud, result, labels);
   });
 }
 

@@ -53,8 +53,7 @@ class RunWriter {
     const IntVector before = hn::IfThenElse(hn::FirstN(di, 1), previous_, rotated);
     const auto starts = hn::Ne(bins, before);
     const IntVector words = hn::Add(bins, places_);
-    hn::StoreU(hn::Compress(words, starts), di, reinterpret_cast<std::int32_t*>(end_));
-    end_ += hn::CountTrue(di, starts);
+    end_ += compress_store(words, starts, reinterpret_cast<std::int32_t*>(end_));
     previous_ = rotated;
     places_ = hn::Add(places_, hn::Set(di, static_cast<std::int32_t>(hn::Lanes(di)) << bin_bits));
   }

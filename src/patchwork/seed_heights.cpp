@@ -3,6 +3,7 @@
 #include "patchwork/seed_heights.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -21,6 +22,27 @@ inline constexpr std::size_t most_candidates = 32;
 /// Row r holds the candidate r of each bin, metres; infinity where there is none.
 struct alignas(64) Candidates : std::array<std::array<float, batch_size>, most_candidates> {};
 
+/// Batcher's odd-even merge sort: pairs of rows to compare, and exchange if the first is greater.
+struct Comparison {
+  std::uint8_t low, high;
+};
+inline constexpr auto sorting_network = [] {
+  std::array<Comparison, 191> network{};
+  std::size_t next = 0;
+  constexpr std::size_t n = most_candidates;
+  for (std::size_t p = 1; p < n; p *= 2) {
+    for (std::size_t k = p; k >= 1; k /= 2) {
+      for (std::size_t j = k % p; j + k < n; j += 2 * k) {
+        for (std::size_t i = j; i < std::min(j + k, n - k); ++i) {
+          if (i / (2 * p) != (i + k) / (2 * p)) continue;
+          network.at(next++) = {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i + k)};
+        }
+      }
+    }
+  }
+  return network;
+}();
+
 }  // namespace flagstone::patchwork
 #endif
 
@@ -31,26 +53,18 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// Sorts every column by Batcher's odd-even merge sort.
+/// Sorts every column.
 void sort_columns(Candidates& rows) {
   const FloatTag d;
-  const auto compare_exchange = [&](std::size_t low, std::size_t high) HWY_ATTR {
-    for (std::size_t lane = 0; lane < batch_size; lane += hn::Lanes(d)) {
-      const FloatVector a = hn::Load(d, rows[low].data() + lane);
-      const FloatVector b = hn::Load(d, rows[high].data() + lane);
-      hn::Store(hn::Min(a, b), d, rows[low].data() + lane);
-      hn::Store(hn::Max(a, b), d, rows[high].data() + lane);
-    }
-  };
-  constexpr std::size_t n = most_candidates;
-  for (std::size_t p = 1; p < n; p *= 2) {
-    for (std::size_t k = p; k >= 1; k /= 2) {
-      for (std::size_t j = k % p; j + k < n; j += 2 * k) {
-        for (std::size_t i = 0; i < std::min(k, n - j - k); ++i) {
-          if ((i + j) / (2 * p) == (i + j + k) / (2 * p)) compare_exchange(i + j, i + j + k);
-        }
-      }
-    }
+  for (std::size_t lane = 0; lane < batch_size; lane += hn::Lanes(d)) {
+    float* columns = rows.front().data() + lane;
+    const auto compare_exchange = [&](std::size_t low, std::size_t high) HWY_ATTR {
+      const FloatVector a = hn::Load(d, columns + low * batch_size);
+      const FloatVector b = hn::Load(d, columns + high * batch_size);
+      hn::Store(hn::Min(a, b), d, columns + low * batch_size);
+      hn::Store(hn::Max(a, b), d, columns + high * batch_size);
+    };
+    for (const auto& [low, high] : sorting_network) compare_exchange(low, high);
   }
 }
 
@@ -78,14 +92,15 @@ void lowest_of_lanes(const float* HWY_RESTRICT z, std::size_t places, float floo
 std::size_t copy_between(const float* HWY_RESTRICT z, std::size_t places, float floor,
                          float ceiling, float* HWY_RESTRICT heights) {
   const FloatTag d;
+  const IntTag di;
   const FloatVector bottom = hn::Set(d, floor);
   const FloatVector top = hn::Set(d, ceiling);
   std::size_t count = 0;
   for (std::size_t i = 0; i < places; i += hn::Lanes(d)) {
     const FloatVector height = hn::Load(d, z + i);
     const auto inside = hn::And(hn::Ge(height, bottom), hn::Le(height, top));
-    hn::StoreU(hn::Compress(height, inside), d, heights + count);
-    count += hn::CountTrue(d, inside);
+    count += compress_store(hn::BitCast(di, height), hn::RebindMask(di, inside),
+                            reinterpret_cast<std::int32_t*>(heights + count));
   }
   return count;
 }

@@ -10,6 +10,8 @@
 #include <numbers>
 #include <vector>
 
+#include "flagstone/cloud_view.hpp"
+
 namespace flagstone::patchwork {
 namespace {
 

@@ -20,6 +20,7 @@
 
 #include <hwy/highway.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -62,6 +63,68 @@ HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index
   return hn::TableLookupLanes(hn::Load(d, table), hn::IndicesFromVec(d, index));
 #else
   return lookup_16(table, index);
+#endif
+}
+
+/// v + 1 where the mask says so.
+HWY_INLINE IntVector increment_if(hn::Mask<IntTag> mask, IntVector v) {
+  const IntTag di;
+#if HWY_TARGET == HWY_AVX3
+  return hn::IfThenElse(mask, hn::Add(v, hn::Set(di, 1)), v);
+#else
+  return hn::Sub(v, hn::VecFromMask(di, mask));  // a set mask is -1
+#endif
+}
+
+#if HWY_TARGET == HWY_AVX2
+/// For each mask of eight lanes the lanes it picks, four bits each, lowest first.
+inline constexpr auto picked_lanes = [] {
+  std::array<std::uint32_t, 256> picked{};
+  for (std::uint32_t mask = 0; mask < 256; ++mask) {
+    int shift = 0;
+    for (std::uint32_t lane = 0; lane < 8; ++lane) {
+      if ((mask >> lane & 1U) == 0) continue;
+      picked[mask] |= lane << shift;
+      shift += 4;
+    }
+  }
+  return picked;
+}();
+#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+/// For each mask of four lanes the bytes it picks.
+inline constexpr auto picked_bytes = [] {
+  std::array<std::array<std::uint8_t, 16>, 16> picked{};
+  for (std::size_t mask = 0; mask < 16; ++mask) {
+    std::size_t to = 0;
+    for (std::uint8_t byte = 0; byte < 16; ++byte) {
+      if ((mask >> (byte / 4U) & 1U) != 0) picked[mask][to++] = byte;
+    }
+  }
+  return picked;
+}();
+#endif
+
+/// Stores the lanes that the mask picks one after another, meaningless ones behind them; returns how
+/// many they are. hn::Compress copies its table to the stack in every call with GCC.
+HWY_INLINE std::size_t compress_store(IntVector v, hn::Mask<IntTag> mask, std::int32_t* to) {
+  const IntTag di;
+#if HWY_TARGET == HWY_AVX2
+  const auto bits = static_cast<unsigned>(
+      _mm256_movemask_ps(_mm256_castsi256_ps(hn::VecFromMask(di, mask).raw)));
+  const __m256i packed = _mm256_set1_epi32(static_cast<int>(picked_lanes[bits]));
+  const __m256i picked = _mm256_srlv_epi32(packed, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
+  hn::StoreU(IntVector{_mm256_permutevar8x32_epi32(v.raw, picked)}, di, to);
+  return hwy::PopCount(bits);
+#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+  const auto bits = static_cast<unsigned>(
+      _mm_movemask_ps(_mm_castsi128_ps(hn::VecFromMask(di, mask).raw)));
+  const __m128i picked =
+      _mm_loadu_si128(reinterpret_cast<const __m128i*>(picked_bytes[bits].data()));
+  hn::StoreU(IntVector{_mm_shuffle_epi8(v.raw, picked)}, di, to);
+  return hwy::PopCount(bits);
+#else
+  hn::StoreU(hn::Compress(v, mask), di, to);
+  return hn::CountTrue(di, mask);
 #endif
 }
 

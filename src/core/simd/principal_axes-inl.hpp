@@ -98,7 +98,7 @@ struct Axes {
 };
 
 /// See principal_axes.hpp. `trace` is what the shares are of; where it is not positive and finite
-/// all eigenvalues are 0.
+/// all of them are 0.
 HWY_INLINE Axes principal_axes(const Symmetrics& c, DoubleVector trace) {
   // Gap between eigenvalues, as a share of their sum, under which they count as equal. Wide enough
   // that rounding (1e-16 of a determinant, divided by lambda_2) decides nothing.
@@ -133,13 +133,15 @@ HWY_INLINE Axes principal_axes(const Symmetrics& c, DoubleVector trace) {
   const Vectors3 r2 = {xz, yz, sub(zz, l3)};
   const Vectors3 across = unit_upward(longer(longer(cross(r0, r1), cross(r0, r2)), cross(r1, r2)));
 
-  const DoubleMask has_plane = hn::Gt(sub(l2, l3), equal_share);
-  const DoubleMask has_line = hn::Gt(sub(l1, l3), equal_share);
+  const DoubleMask has_spread = hn::And(hn::Gt(trace, number(0)), hn::Lt(trace, number(1e300)));
+  const DoubleMask has_plane = hn::And(has_spread, hn::Gt(sub(l2, l3), equal_share));
+  const DoubleMask has_line = hn::And(has_spread, hn::Gt(sub(l1, l3), equal_share));
   Vectors3 normal = {number(0), number(0), number(1)};
   if (!hn::AllTrue(DoubleTag(), has_plane)) {
     normal = select(has_line, most_upright_normal_of_line(longer(longer(r0, r1), r2)), normal);
   }
-  return {l1, l2, l3, select(has_plane, across, normal)};
+  return {hn::IfThenElseZero(has_spread, l1), hn::IfThenElseZero(has_spread, l2),
+          hn::IfThenElseZero(has_spread, l3), select(has_plane, across, normal)};
 }
 
 }  // namespace
