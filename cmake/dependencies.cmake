@@ -37,6 +37,7 @@ set(HWY_ENABLE_INSTALL OFF)
 flagstone_dependency(
   hwy https://github.com/google/highway/archive/refs/tags/1.0.3.tar.gz
   566fc77315878473d9a6bd815f7de78c73734acdcb745c3dde8579560ac5440e 1.0.3)
+find_package(Threads REQUIRED)
 add_library(flagstone_highway INTERFACE)
 if(NOT TARGET hwy)
   target_link_libraries(flagstone_highway INTERFACE hwy::hwy)
@@ -56,7 +57,6 @@ if(needs_command OR FLAGSTONE_BUILD_FUZZERS)
 endif()
 
 if(needs_command)
-  find_package(Threads REQUIRED)
   flagstone_dependency(
     CLI11 https://github.com/CLIUtils/CLI11/archive/v2.1.2.tar.gz
     26291377e892ba0e5b4972cdfd4a2ab3bf53af8dac1f4ea8fe0d1376b625c8cb 2.1)

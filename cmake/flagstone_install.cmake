@@ -7,16 +7,19 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/flagstone)
-# A static library leaves it to its users to link the system's Highway.
-set(find_highway "")
+# A static library leaves it to its users to link what it stands on: threads and the system's Highway.
+set(find_dependencies "")
 set(highway_of_pkgconfig "")
-if(NOT TARGET hwy AND NOT BUILD_SHARED_LIBS)
-  set(find_highway "include(CMakeFindDependencyMacro)\nfind_dependency(hwy)\n")
-  set(highway_of_pkgconfig "Requires: libhwy")
+if(NOT BUILD_SHARED_LIBS)
+  string(APPEND find_dependencies "include(CMakeFindDependencyMacro)\nfind_dependency(Threads)\n")
+  if(NOT TARGET hwy)
+    string(APPEND find_dependencies "find_dependency(hwy)\n")
+    set(highway_of_pkgconfig "Requires: libhwy")
+  endif()
 endif()
 file(
   WRITE ${PROJECT_BINARY_DIR}/flagstoneConfig.cmake
-  "${find_highway}include(\${CMAKE_CURRENT_LIST_DIR}/flagstoneTargets.cmake)\n")
+  "${find_dependencies}include(\${CMAKE_CURRENT_LIST_DIR}/flagstoneTargets.cmake)\n")
 write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/flagstoneConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 
@@ -33,7 +36,7 @@ Description: @PROJECT_DESCRIPTION@
 Version: @PROJECT_VERSION@
 @highway_of_pkgconfig@
 Cflags: -I${prefix}/@CMAKE_INSTALL_INCLUDEDIR@
-Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -lflagstone
+Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -lflagstone -pthread
 ]])
 
 install(TARGETS libflagstone libflagstone_baselines EXPORT flagstone)

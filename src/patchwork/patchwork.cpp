@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "core/crew.hpp"
 #include "core/segment_scan.hpp"
 #include "patchwork/bin_batch.hpp"
 #include "patchwork/bin_groups.hpp"
@@ -40,49 +44,80 @@ PatchworkConfig checked(PatchworkConfig config) {
   return config;
 }
 
+unsigned checked(unsigned threads) {
+  if (threads >= 1 && threads <= 1024) return threads;
+  throw std::invalid_argument("patchwork: threads is " + std::to_string(threads) +
+                              ", allowed are 1 to 1024");
+}
+
 std::array<float, 3> to_floats(const Vector3& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
 }  // namespace
 
+/// What one thread needs to fit bins.
+struct Fitter {
+  explicit Fitter(const PatchworkConfig& config) : fit(config) {}
+
+  void reserve(std::size_t point_count) {
+    batch.reserve(point_count);
+    fit.reserve(point_count);
+    bin_labels.reserve(point_count);
+  }
+
+  BinBatch batch;
+  std::array<std::uint16_t, batch_size> zones{};  ///< of the bins in the batch
+  PlaneFit fit;
+  PlaneFit::Result fitted;
+  BinLabels bin_labels;
+  LabelTotals totals{};
+};
+
 /// Patchwork, top to bottom: points into bins, a plane for each bin, a verdict for each plane,
 /// labels.
 struct Patchwork::Pipeline {
-  explicit Pipeline(PatchworkConfig settings)
+  Pipeline(PatchworkConfig settings, unsigned threads)
       : config(checked(std::move(settings))),
         zones(config),
-        fit(config),
-        likelihood(config, zones.rings()) {}
+        likelihood(config, zones.rings()),
+        crew(checked(threads)) {
+    for (std::size_t i = 0; i < crew.size(); ++i) fitters.emplace_back(config);
+  }
 
   void reserve(std::size_t point_count, Segmentation& result) {
     scan.reserve(point_count);
     groups.reserve(point_count, zones.group_count());
-    batch.reserve(point_count);
-    fit.reserve(point_count);
-    bin_labels.reserve(point_count);
+    for (Fitter& fitter : fitters) fitter.reserve(point_count);
     result.mutable_patches().reserve(zones.bin_count());
-    patch_bins.reserve(zones.bin_count());
+    fitted_bins.reserve(zones.bin_count());
   }
 
   LabelTotals segment(CloudView cloud, Segmentation& result, std::span<Label> labels) noexcept {
     StageClock clock(stage_times);
 
     // Concentric Zone Model (III-B)
-    for (std::size_t chunk = 0; chunk < ScanPoints::chunk_count(cloud.size()); ++chunk) {
+    crew.run(ScanPoints::chunk_count(cloud.size()), [&](std::size_t, std::size_t chunk) {
       scan.read(cloud, chunk, zones);
-    }
+    });
     clock.end(Stage::bin);
     groups.group(scan, cloud.size(), zones.group_count());
-    totals = {};
+    for (Fitter& fitter : fitters) fitter.totals = {};
     label_binless(labels);
-    list_patches(result.mutable_patches());
+    list_patches(result.mutable_patches(), labels);
     clock.end(Stage::group);
 
+    // Planes and verdicts (III-C, III-D), sixteen bins at a time
     const std::span<Patch> patches = result.mutable_patches();
-    for (std::size_t next = 0; next < patches.size();) {
-      next = fill_batch(patches, next, labels);
-      segment_batch(patches, labels, clock);
+    const std::size_t batches = (fitted_count + batch_size - 1) / batch_size;
+    crew.run(batches, [&](std::size_t worker, std::size_t batch) {
+      StageClock no_clock(nullptr);
+      segment_batch(batch, patches, labels, fitters[worker], worker == 0 ? clock : no_clock);
+    });
+
+    LabelTotals totals{};
+    for (const Fitter& fitter : fitters) {
+      for (std::size_t i = 0; i < label_count; ++i) totals[i] += fitter.totals[i];
     }
     return totals;
   }
@@ -97,71 +132,71 @@ struct Patchwork::Pipeline {
   /// Gives all points of a bin one label.
   std::uint32_t fill(std::uint32_t bin, Label label, std::span<Label> labels) noexcept {
     const std::uint32_t count = BinLabels::fill(groups, bin, label, labels);
-    totals[static_cast<std::size_t>(label)] += count;
+    fitters.front().totals[static_cast<std::size_t>(label)] += count;
     return count;
   }
 
-  /// One patch for each bin that holds points.
-  void list_patches(std::vector<Patch>& patches) noexcept {
+  /// One patch for each bin that holds points; those with enough points are to be fitted.
+  void list_patches(std::vector<Patch>& patches, std::span<Label> labels) noexcept {
+    fitted_count = 0;
     for (std::size_t r = 0; r < zones.rings().size(); ++r) {
       const Ring& ring = zones.rings()[r];
       for (std::uint16_t sector = 0; sector < ring.sectors; ++sector) {
-        const std::uint32_t points = groups.size(ring.first_bin + sector);
-        if (points == 0) continue;
-        patch_bins.data()[patches.size()] = {.bin = ring.first_bin + sector,
-                                             .ring = static_cast<std::uint32_t>(r)};
+        const std::uint32_t bin = ring.first_bin + sector;
+        if (groups.size(bin) == 0) continue;
         Patch patch{.zone = ring.zone, .ring = ring.ring, .sector = sector};
-        patch.point_count = points;
+        patch.point_count = groups.size(bin);
+        if (patch.point_count >= static_cast<std::uint32_t>(config.min_points)) {
+          fitted_bins.data()[fitted_count++] = {.bin = bin,
+                                                .patch = static_cast<std::uint32_t>(patches.size()),
+                                                .ring = static_cast<std::uint32_t>(r)};
+        } else if (config.few_points_are_ground) {
+          patch.ground_count = fill(bin, Label::ground, labels);
+        }
         patches.push_back(patch);  // within what was reserved
       }
     }
   }
 
-  /// Takes the next bins to fit, from patch `next` on; returns where to go on.
-  std::size_t fill_batch(std::span<Patch> patches, std::size_t next,
-                         std::span<Label> labels) noexcept {
-    batch.clear();
-    for (; next < patches.size() && batch.count() < batch_size; ++next) {
-      Patch& patch = patches[next];
-      const std::uint32_t bin = patch_bins.data()[next].bin;
-      if (patch.point_count >= static_cast<std::uint32_t>(config.min_points)) {
-        batch_patches[batch.count()] = next;
-        batch_zones[batch.count()] = patch.zone;
-        batch.add(bin, patch.point_count);
-      } else if (config.few_points_are_ground) {
-        patch.ground_count = fill(bin, Label::ground, labels);
-      }
+  void segment_batch(std::size_t index, std::span<Patch> patches, std::span<Label> labels,
+                     Fitter& fitter, StageClock& clock) noexcept {
+    const std::size_t first = index * batch_size;
+    const std::span<const FittedBin> bins(fitted_bins.data() + first,
+                                          std::min(batch_size, fitted_count - first));
+    fitter.batch.clear();
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      const Patch& patch = patches[bins[i].patch];
+      fitter.zones[i] = patch.zone;
+      fitter.batch.add(bins[i].bin, patch.point_count);
     }
-    return next;
-  }
 
-  void segment_batch(std::span<Patch> patches, std::span<Label> labels,
-                     StageClock& clock) noexcept {
     // Region-wise Ground Plane Fitting (III-C)
-    batch.gather(scan, groups);
+    fitter.batch.gather(scan, groups);
     clock.end(Stage::gather);
-    fit.fit(batch, batch_zones, clock, fitted);
+    fitter.fit.fit(fitter.batch, fitter.zones, clock, fitter.fitted);
 
     // Ground Likelihood Estimation (III-D)
-    for (std::size_t i = 0; i < batch.count(); ++i) {
-      judge(i, patches[batch_patches[i]], patch_bins.data()[batch_patches[i]].ring);
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      judge(fitter.fitted, i, bins[i].ring, patches[bins[i].patch]);
     }
     clock.end(Stage::solve);
 
     // The final ground set, eq. (6) of the last plane, less the noise below it. All other points
     // stay nonground.
-    for (std::size_t i = 0; i < batch.count(); ++i) {
-      Patch& patch = patches[batch_patches[i]];
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      Patch& patch = patches[bins[i].patch];
       if (!patch.is_ground()) continue;
-      const LabelCounts counts = bin_labels.write(batch, i, fitted.sets[i], groups, labels);
+      const LabelCounts counts =
+          fitter.bin_labels.write(fitter.batch, i, fitter.fitted.sets[i], groups, labels);
       patch.ground_count = counts.ground;
-      totals[static_cast<std::size_t>(Label::ground)] += counts.ground;
-      totals[static_cast<std::size_t>(Label::noise)] += counts.noise;
+      fitter.totals[static_cast<std::size_t>(Label::ground)] += counts.ground;
+      fitter.totals[static_cast<std::size_t>(Label::noise)] += counts.noise;
     }
     clock.end(Stage::label);
   }
 
-  void judge(std::size_t i, Patch& patch, std::size_t ring) const noexcept {
+  void judge(const PlaneFit::Result& fitted, std::size_t i, std::size_t ring,
+             Patch& patch) const noexcept {
     if ((fitted.exists >> i & 1U) == 0) {
       patch.verdict = Verdict::no_plane;
       return;
@@ -174,30 +209,26 @@ struct Patchwork::Pipeline {
     likelihood.judge(plane, ring, patch);
   }
 
-  struct PatchBin {
+  struct FittedBin {
     std::uint32_t bin;
-    std::uint32_t ring;  ///< counted over all zones
+    std::uint32_t patch;  ///< its index
+    std::uint32_t ring;   ///< counted over all zones
   };
 
   PatchworkConfig config;
   ConcentricZones zones;
+  GroundLikelihood likelihood;
   ScanPoints scan;
   BinGroups groups;
-  Buffer<PatchBin> patch_bins;  ///< of each patch
-  PlaneFit fit;
-  GroundLikelihood likelihood;
-  LabelTotals totals{};
+  Buffer<FittedBin> fitted_bins;
+  std::size_t fitted_count = 0;
   StageTimes* stage_times = nullptr;
-
-  BinBatch batch;
-  std::array<std::size_t, batch_size> batch_patches{};
-  std::array<std::uint16_t, batch_size> batch_zones{};
-  PlaneFit::Result fitted;
-  BinLabels bin_labels;
+  std::vector<Fitter> fitters;  ///< one for each of the crew
+  Crew crew;
 };
 
-Patchwork::Patchwork(PatchworkConfig config, unsigned /*threads*/)
-    : pipeline_(std::make_unique<Pipeline>(std::move(config))) {}
+Patchwork::Patchwork(PatchworkConfig config, unsigned threads)
+    : pipeline_(std::make_unique<Pipeline>(std::move(config), threads)) {}
 Patchwork::~Patchwork() = default;
 Patchwork::Patchwork(Patchwork&&) noexcept = default;
 Patchwork& Patchwork::operator=(Patchwork&&) noexcept = default;
