@@ -19,7 +19,11 @@ std::string name_of(std::int64_t target) {
   return name;
 }
 
-std::int64_t supported() { return hwy::SupportedTargets() & HWY_TARGETS; }
+/// What this build and this machine have, whatever is forced.
+std::int64_t supported() {
+  static const std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
+  return targets;
+}
 
 /// Has the dispatcher choose among `targets` from now on; 0: among all.
 void choose_among(std::int64_t targets) {
@@ -39,13 +43,12 @@ std::vector<std::string> simd_targets() {
 }
 
 std::string simd_target() {
-  const std::int64_t targets = supported();
+  const std::int64_t targets = hwy::SupportedTargets() & supported();
   return name_of(targets & -targets);
 }
 
 void use_simd_target(std::string_view name) {
-  choose_among(0);
-  if (name.empty()) return;
+  if (name.empty()) return choose_among(0);
   std::string known;
   for (std::int64_t rest = supported(); rest != 0; rest &= rest - 1) {
     const std::int64_t target = rest & -rest;

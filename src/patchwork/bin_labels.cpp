@@ -5,17 +5,62 @@
 #include <algorithm>
 #include <cstring>
 
-namespace flagstone::patchwork {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "patchwork/bin_labels.cpp"
+#include <hwy/foreach_target.h>
+// The above includes this file once for each instruction set.
+#include "patchwork/ground_set-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::patchwork::HWY_NAMESPACE {
 namespace {
 
+/// Labels of the points of a bin in their packed order, one byte for each place.
+LabelCounts label_bin(const BinBatch& batch, std::size_t bin, const GroundSet& set,
+                        std::uint8_t* HWY_RESTRICT labels) {
+  const FloatTag d;
+  const IntTag di;
+  const hn::Rebind<std::uint8_t, FloatTag> d8;
+  const std::size_t places = batch.places(bin);
+  std::size_t ground = 0;
+  std::size_t ground_or_noise = 0;
+  for (std::size_t i = 0; i < places; i += hn::Lanes(d)) {
+    const FloatVector h = height(d, hn::Load(d, batch.x(bin) + i), hn::Load(d, batch.y(bin) + i),
+                                 hn::Load(d, batch.z(bin) + i), set);
+    const auto below_top = hn::Lt(h, hn::Set(d, set.top));
+    const auto in_set = hn::And(below_top, hn::Ge(h, hn::Set(d, set.bottom)));
+    ground += hn::CountTrue(d, in_set);
+    ground_or_noise += hn::CountTrue(d, below_top);
+    const IntVector below = hn::IfThenElse(hn::RebindMask(di, in_set), hn::Set(di, 1),
+                                           hn::Set(di, 2));  // ground, noise
+    const IntVector label = hn::IfThenElseZero(hn::RebindMask(di, below_top), below);
+    hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
+  }
+  return {.ground = static_cast<std::uint32_t>(ground),
+          .noise = static_cast<std::uint32_t>(ground_or_noise - ground)};
+}
+
+#if HWY_TARGET == HWY_AVX3
+
+/// Copies a run's labels, up to 64 at once. No byte outside of it is touched: a neighbour may belong
+/// to another thread.
+HWY_INLINE void copy_run(const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
+  const hn::ScalableTag<std::uint8_t> d;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    hn::BlendedStore(hn::LoadU(d, from + i), hn::FirstN(d, count - i), d, to + i);
+  }
+}
+
+#else
+
 template <std::size_t size>
-void copy_ends(const std::uint8_t* from, std::size_t count, Label* to) noexcept {
+HWY_INLINE void copy_ends(const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
   std::memcpy(to, from, size);
   std::memcpy(to + count - size, from + count - size, size);
 }
 
-/// Copies `count` labels. Most runs are short, and memcpy of an unknown size costs more than they.
-void copy(const std::uint8_t* from, std::size_t count, Label* to) noexcept {
+/// Copies a run's labels. Most are few, and memcpy of an unknown size costs more than they.
+HWY_INLINE void copy_run(const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
   if (count >= 16) {
     for (std::size_t i = 0; i + 16 <= count; i += 16) std::memcpy(to + i, from + i, 16);
     std::memcpy(to + count - 16, from + count - 16, 16);
@@ -24,31 +69,47 @@ void copy(const std::uint8_t* from, std::size_t count, Label* to) noexcept {
   } else if (count >= 4) {
     copy_ends<4>(from, count, to);
   } else {
-    for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<Label>(from[i]);
+    for (std::size_t i = 0; i < count; ++i) to[i] = from[i];
+  }
+}
+
+#endif
+
+void copy_runs(const std::uint8_t* from, std::span<const Run> runs, std::uint8_t* labels) {
+  for (const Run& run : runs) {
+    copy_run(from, run.length, labels + run.begin);
+    from += run.length;
   }
 }
 
 }  // namespace
+}  // namespace flagstone::patchwork::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace flagstone::patchwork {
+namespace {
+HWY_EXPORT(label_bin);
+HWY_EXPORT(copy_runs);
+}  // namespace
 
 LabelCounts BinLabels::write(const BinBatch& batch, std::size_t i, const GroundSet& set,
-                               const BinGroups& groups, std::span<Label> labels) noexcept {
-  const LabelCounts counts = label_points(batch, i, set, packed_.data());
-  const std::uint8_t* next = packed_.data();
+                             const BinGroups& groups, std::span<Label> labels) noexcept {
+  std::uint8_t* packed = packed_.data();
+  const LabelCounts counts = HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, packed);
   if (groups.scattered()) {
     for (const std::uint32_t point : groups.points(batch.bin(i))) {
-      labels[point] = static_cast<Label>(*next++);
+      labels[point] = static_cast<Label>(*packed++);
     }
   } else {
-    for (const Run& run : groups.runs(batch.bin(i))) {
-      copy(next, run.length, labels.data() + run.begin);
-      next += run.length;
-    }
+    HWY_DYNAMIC_DISPATCH(copy_runs)
+    (packed, groups.runs(batch.bin(i)), reinterpret_cast<std::uint8_t*>(labels.data()));
   }
   return counts;
 }
 
 std::uint32_t BinLabels::fill(const BinGroups& groups, std::uint32_t bin, Label label,
-                     std::span<Label> labels) noexcept {
+                              std::span<Label> labels) noexcept {
   if (groups.scattered()) {
     for (const std::uint32_t point : groups.points(bin)) labels[point] = label;
   } else {
@@ -60,3 +121,4 @@ std::uint32_t BinLabels::fill(const BinGroups& groups, std::uint32_t bin, Label 
 }
 
 }  // namespace flagstone::patchwork
+#endif

@@ -14,11 +14,17 @@
 
 namespace flagstone::patchwork {
 
-/// Brings the labels of a bin's points to where the points stand in the cloud.
+/// How many points of a bin got these labels.
+struct LabelCounts {
+  std::uint32_t ground = 0;
+  std::uint32_t noise = 0;
+};
+
+/// Labels the points of bins where they stand in the cloud.
 class BinLabels {
  public:
   /// Makes room for bins of `points` points; may throw std::bad_alloc.
-  void reserve(std::size_t points) { packed_.reserve(points + 64); }
+  void reserve(std::size_t points) { packed_.reserve(points + 2 * 64); }
 
   /// Labels the points of bin `i` of the batch: ground if in the set, noise below it, nonground
   /// above.

@@ -10,8 +10,6 @@
 namespace flagstone::patchwork {
 namespace {
 
-constexpr float bin_0 = 8388608;  // 2^23, see locate-inl.hpp
-
 float squared(float radius) {
   return static_cast<float>(static_cast<double>(radius) * static_cast<double>(radius));
 }
@@ -25,6 +23,8 @@ ConcentricZones::ConcentricZones(const PatchworkConfig& config) {
       add_ring(config, zone, ring);
     }
   }
+  least_squared_range_ =
+      std::max(squared_radii_.front(), std::numeric_limits<float>::denorm_min());
   const std::size_t table_size = std::max(rings_.size(), RingTree::few);
   for (std::vector<float>* table : {&sectors_, &first_bins_, &noise_heights_}) {
     table->resize(table_size);
@@ -42,7 +42,7 @@ void ConcentricZones::add_ring(const PatchworkConfig& config, std::size_t zone, 
                     .first_bin = bin_count_,
                     .center_radius = (inner + outer) / 2});
   sectors_.push_back(static_cast<float>(sectors));
-  first_bins_.push_back(bin_0 + static_cast<float>(bin_count_));
+  first_bins_.push_back(std::bit_cast<float>(bin_count_));
   noise_heights_.push_back(-config.sensor_height - config.noise_depth - config.noise_slope * outer);
   bin_count_ += static_cast<std::uint32_t>(sectors);
   squared_radii_.push_back(squared(outer));

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "flagstone/patchwork_config.hpp"
@@ -62,9 +60,7 @@ class ConcentricZones {
   /// L_min^2 and L_max^2.
   [[nodiscard]] float min_squared_range() const noexcept { return squared_radii_.front(); }
   /// L_min^2, or the least above 0.
-  [[nodiscard]] float least_squared_range() const noexcept {
-    return std::max(min_squared_range(), std::numeric_limits<float>::denorm_min());
-  }
+  [[nodiscard]] float least_squared_range() const noexcept { return least_squared_range_; }
   [[nodiscard]] float max_squared_range() const noexcept { return squared_radii_.back(); }
 
   [[nodiscard]] const RingTree& tree() const noexcept { return tree_; }
@@ -73,6 +69,7 @@ class ConcentricZones {
   /// At least 16 entries each.
   /// @{
   [[nodiscard]] const float* sectors() const noexcept { return sectors_.data(); }
+  /// The bits of integers.
   [[nodiscard]] const float* first_bins() const noexcept { return first_bins_.data(); }
   /// Lower points are noise, metres.
   [[nodiscard]] const float* noise_heights() const noexcept { return noise_heights_.data(); }
@@ -84,6 +81,7 @@ class ConcentricZones {
 
   std::vector<Ring> rings_;
   std::vector<float> squared_radii_;  ///< L_min^2 and each ring's outer radius squared, m^2
+  float least_squared_range_ = 0;
   std::vector<float> sectors_;
   std::vector<float> first_bins_;
   std::vector<float> noise_heights_;

@@ -9,6 +9,7 @@
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
 #include "core/simd/lanes-inl.hpp"
+#include "patchwork/ground_set-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace flagstone::patchwork::HWY_NAMESPACE {
@@ -20,18 +21,37 @@ using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespac
 /// Sums x, y, z, xx, xy, xz, yy, yz, zz, in the order of Moments.
 inline constexpr std::size_t sum_count = 9;
 
-/// n . p for points of any vector length.
-template <class D>
-HWY_INLINE hn::Vec<D> height(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> z, const GroundSet& set) {
-  return hn::Add(hn::Add(hn::Mul(hn::Set(d, set.normal_x), x), hn::Mul(hn::Set(d, set.normal_y), y)),
-                 hn::Mul(hn::Set(d, set.normal_z), z));
+// A point outside of the set adds nothing: its coordinates count as 0, or, where an addition can
+// have a mask for free, it is not added. Both give the same sums.
+
+template <class M, class V>
+HWY_INLINE DoubleVector widen_if(DoubleTag d, M inside, V v) {
+  return hn::PromoteTo(d, hn::IfThenElseZero(inside, v));
+}
+template <class M>
+HWY_INLINE DoubleVector add_if(DoubleTag /*d*/, M /*inside*/, DoubleVector sum, DoubleVector v) {
+  return hn::Add(sum, v);
 }
 
-HWY_INLINE FloatVector widen(FloatTag /*d*/, FloatVector v) { return v; }
-template <class V>
-HWY_INLINE DoubleVector widen(DoubleTag d, V v) {
-  return hn::PromoteTo(d, v);
+#if HWY_TARGET == HWY_AVX3
+template <class M>
+HWY_INLINE FloatVector widen_if(FloatTag /*d*/, M /*inside*/, FloatVector v) {
+  return v;
 }
+template <class M>
+HWY_INLINE FloatVector add_if(FloatTag /*d*/, M inside, FloatVector sum, FloatVector v) {
+  return hn::IfThenElse(inside, hn::Add(sum, v), sum);
+}
+#else
+template <class M>
+HWY_INLINE FloatVector widen_if(FloatTag /*d*/, M inside, FloatVector v) {
+  return hn::IfThenElseZero(inside, v);
+}
+template <class M>
+HWY_INLINE FloatVector add_if(FloatTag /*d*/, M /*inside*/, FloatVector sum, FloatVector v) {
+  return hn::Add(sum, v);
+}
+#endif
 
 /// Sums over the set's points among `places` places, in vectors of `SumTag`, into 16 lanes each;
 /// returns how many points they are.
@@ -43,8 +63,6 @@ HWY_INLINE std::size_t sum_lanes(const float* HWY_RESTRICT xs, const float* HWY_
   const SumTag ds;
   const hn::Rebind<float, SumTag> d;
   using Sum = hn::Vec<SumTag>;
-  const auto bottom = hn::Set(d, set.bottom);
-  const auto top = hn::Set(d, set.top);
   std::size_t count = 0;
   for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(ds)) {
     Sum sx = hn::Zero(ds);
@@ -60,21 +78,20 @@ HWY_INLINE std::size_t sum_lanes(const float* HWY_RESTRICT xs, const float* HWY_
       const auto px = hn::Load(d, xs + i);
       const auto py = hn::Load(d, ys + i);
       const auto pz = hn::Load(d, zs + i);
-      const auto h = height(d, px, py, pz, set);
-      const auto inside = hn::And(hn::Lt(h, top), hn::Ge(h, bottom));
+      const auto inside = in_set(d, px, py, pz, set);
       count += hn::CountTrue(d, inside);
-      const Sum x = widen(ds, hn::IfThenElseZero(inside, px));
-      const Sum y = widen(ds, hn::IfThenElseZero(inside, py));
-      const Sum z = widen(ds, hn::IfThenElseZero(inside, pz));
-      sx = hn::Add(sx, x);
-      sy = hn::Add(sy, y);
-      sz = hn::Add(sz, z);
-      sxx = hn::Add(sxx, hn::Mul(x, x));
-      sxy = hn::Add(sxy, hn::Mul(x, y));
-      sxz = hn::Add(sxz, hn::Mul(x, z));
-      syy = hn::Add(syy, hn::Mul(y, y));
-      syz = hn::Add(syz, hn::Mul(y, z));
-      szz = hn::Add(szz, hn::Mul(z, z));
+      const Sum x = widen_if(ds, inside, px);
+      const Sum y = widen_if(ds, inside, py);
+      const Sum z = widen_if(ds, inside, pz);
+      sx = add_if(ds, inside, sx, x);
+      sy = add_if(ds, inside, sy, y);
+      sz = add_if(ds, inside, sz, z);
+      sxx = add_if(ds, inside, sxx, hn::Mul(x, x));
+      sxy = add_if(ds, inside, sxy, hn::Mul(x, y));
+      sxz = add_if(ds, inside, sxz, hn::Mul(x, z));
+      syy = add_if(ds, inside, syy, hn::Mul(y, y));
+      syz = add_if(ds, inside, syz, hn::Mul(y, z));
+      szz = add_if(ds, inside, szz, hn::Mul(z, z));
     }
     hn::StoreU(sx, ds, sums[0] + lane);
     hn::StoreU(sy, ds, sums[1] + lane);
@@ -137,30 +154,6 @@ void shift(float* heights, std::size_t places, float origin) {
   }
 }
 
-LabelCounts label_bin(const BinBatch& batch, std::size_t bin, const GroundSet& set,
-                        std::uint8_t* HWY_RESTRICT labels) {
-  const FloatTag d;
-  const IntTag di;
-  const hn::Rebind<std::uint8_t, FloatTag> d8;
-  const std::size_t places = batch.places(bin);
-  std::size_t ground = 0;
-  std::size_t ground_or_noise = 0;
-  for (std::size_t i = 0; i < places; i += hn::Lanes(d)) {
-    const FloatVector h = height(d, hn::Load(d, batch.x(bin) + i), hn::Load(d, batch.y(bin) + i),
-                                 hn::Load(d, batch.z(bin) + i), set);
-    const auto below_top = hn::Lt(h, hn::Set(d, set.top));
-    const auto in_set = hn::And(below_top, hn::Ge(h, hn::Set(d, set.bottom)));
-    ground += hn::CountTrue(d, in_set);
-    ground_or_noise += hn::CountTrue(d, below_top);
-    const IntVector below = hn::IfThenElse(hn::RebindMask(di, in_set), hn::Set(di, 1),
-                                           hn::Set(di, 2));  // ground, noise
-    const IntVector label = hn::IfThenElseZero(hn::RebindMask(di, below_top), below);
-    hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
-  }
-  return {.ground = static_cast<std::uint32_t>(ground),
-          .noise = static_cast<std::uint32_t>(ground_or_noise - ground)};
-}
-
 }  // namespace
 }  // namespace flagstone::patchwork::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -170,7 +163,6 @@ namespace flagstone::patchwork {
 namespace {
 HWY_EXPORT(sum_bins);
 HWY_EXPORT(shift);
-HWY_EXPORT(label_bin);
 }  // namespace
 
 void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
@@ -182,11 +174,6 @@ void shift_heights(BinBatch& batch, const std::array<float, batch_size>& origins
   for (std::size_t i = 0; i < batch.count(); ++i) {
     HWY_DYNAMIC_DISPATCH(shift)(batch.z(i), batch.places(i), origins[i]);
   }
-}
-
-LabelCounts label_points(const BinBatch& batch, std::size_t i, const GroundSet& set,
-                           std::uint8_t* labels) noexcept {
-  return HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, labels);
 }
 
 }  // namespace flagstone::patchwork

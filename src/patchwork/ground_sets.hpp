@@ -39,15 +39,4 @@ void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
 /// Moves the origin of z to `origins[i]` metres in each bin of the batch.
 void shift_heights(BinBatch& batch, const std::array<float, batch_size>& origins) noexcept;
 
-/// How many points of a bin got these labels.
-struct LabelCounts {
-  std::uint32_t ground = 0;
-  std::uint32_t noise = 0;
-};
-
-/// Labels the points of bin `i`: ground if in the set, noise below it, nonground above; one byte
-/// for each place of the bin.
-LabelCounts label_points(const BinBatch& batch, std::size_t i, const GroundSet& set,
-                           std::uint8_t* labels) noexcept;
-
 }  // namespace flagstone::patchwork

@@ -23,18 +23,18 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// theta of eq. (2) as a share of a full turn, counted from -pi: 0 to 1, within 6e-8; exact on the
+/// theta of eq. (2) as a share of a full turn, counted from -pi: 0 to 1, within 1e-7; exact on the
 /// axes, NaN at the origin. By + - * / alone, so that every instruction set has the same bits.
 HWY_INLINE FloatVector turn_of(FloatVector x, FloatVector y) {
   const FloatTag d;
   const FloatVector ax = hn::Abs(x);
   const FloatVector ay = hn::Abs(y);
-  // arctan(t) / 2 pi on [0, 1]: odd polynomial of least greatest error, 6e-9 before rounding.
+  // arctan(t) / 2 pi on [0, 1]: odd polynomial of least greatest error, 4e-8 before rounding.
   const FloatVector t = hn::Div(hn::Min(ax, ay), hn::Max(ax, ay));
   const FloatVector t2 = hn::Mul(t, t);
-  FloatVector p = hn::Set(d, -0.000645303f);
-  for (const float coefficient : {0.003479593f, -0.008898717f, 0.01534603f, -0.02213627f,
-                                  0.031745944f, -0.053046122f, 0.15915483f}) {
+  FloatVector p = hn::Set(d, 0.001084128f);
+  for (const float coefficient : {-0.005348271f, 0.012672494f, -0.021061514f, 0.031525116f,
+                                  -0.053026237f, 0.15915433f}) {
     p = hn::Add(hn::Mul(p, t2), hn::Set(d, coefficient));
   }
   const FloatVector eighth = hn::Mul(p, t);
@@ -75,12 +75,8 @@ HWY_INLINE FloatVector of_ring(const float* table, IntVector ring) {
   }
 }
 
-/// Bins travel as floats of 2^23 + bin: adding them needs no conversion, and their low bits are the
-/// bin.
-inline constexpr std::int32_t bits_of_bin_0 = 0x4B000000;
-
-HWY_INLINE IntVector bin_bits_of(std::uint32_t bin) {
-  return hn::Set(IntTag(), bits_of_bin_0 + static_cast<std::int32_t>(bin));
+HWY_INLINE IntVector all_lanes(std::uint32_t bin) {
+  return hn::Set(IntTag(), static_cast<std::int32_t>(bin));
 }
 
 /// The bins of points some of which may have none: these are out_of_range() or invalid().
@@ -99,13 +95,12 @@ HWY_INLINE IntVector with_binless(IntVector bins, FloatVector squared_range, Flo
                       hn::Lt(squared_range, hn::Set(d, zones.max_squared_range()))),
               hn::Le(hn::Abs(z), hn::Set(d, max_height)));
   const IntVector binless =
-      hn::IfThenElse(hn::RebindMask(di, valid), bin_bits_of(zones.out_of_range()),
-                     bin_bits_of(zones.invalid()));
+      hn::IfThenElse(hn::RebindMask(di, valid), all_lanes(zones.out_of_range()),
+                     all_lanes(zones.invalid()));
   return hn::IfThenElse(hn::RebindMask(di, hn::And(in_range, valid)), bins, binless);
 }
 
-/// The bins of points, each a bin, noise(), out_of_range() or invalid(), as bits_of_bin_0 + bin.
-/// Takes any bit pattern.
+/// The bins of points, each a bin, noise(), out_of_range() or invalid(). Takes any bit pattern.
 template <bool few>
 HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z,
                             const ConcentricZones& zones) {
@@ -117,11 +112,12 @@ HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z,
   // Sector j of eq. (2); theta = pi itself counts as -pi.
   const FloatVector sectors = of_ring<few>(zones.sectors(), ring);
   const FloatVector turns = hn::Mul(turn_of(x, y), sectors);
-  const FloatVector sector = hn::Trunc(hn::IfThenElseZero(hn::Lt(turns, sectors), turns));
-  IntVector bins = hn::BitCast(di, hn::Add(of_ring<few>(zones.first_bins(), ring), sector));
+  const IntVector sector = whole_part(hn::IfThenElseZero(hn::Lt(turns, sectors), turns));
+  const FloatVector first_bin = of_ring<few>(zones.first_bins(), ring);
+  IntVector bins = hn::Add(hn::BitCast(di, first_bin), sector);
 
   const auto noise = hn::Lt(z, of_ring<few>(zones.noise_heights(), ring));
-  bins = hn::IfThenElse(hn::RebindMask(di, noise), bin_bits_of(zones.noise()), bins);
+  bins = hn::IfThenElse(hn::RebindMask(di, noise), all_lanes(zones.noise()), bins);
 
   // Points straight above or below the sensor are looked at closely, too.
   const auto in_range =

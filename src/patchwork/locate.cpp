@@ -23,7 +23,7 @@ void locate_all(const ConcentricZones& zones, const float* x, const float* y, co
   const auto locate_vector = [&](const float* vx, const float* vy, const float* vz,
                                  std::uint32_t* out) HWY_ATTR {
     const IntVector found = locate<few>(hn::LoadU(d, vx), hn::LoadU(d, vy), hn::LoadU(d, vz), zones);
-    hn::StoreU(hn::Sub(found, hn::Set(di, bits_of_bin_0)), di, reinterpret_cast<std::int32_t*>(out));
+    hn::StoreU(found, di, reinterpret_cast<std::int32_t*>(out));
   };
   std::size_t i = 0;
   for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) locate_vector(x + i, y + i, z + i, bins + i);

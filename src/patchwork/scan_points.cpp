@@ -33,28 +33,17 @@ HWY_BEFORE_NAMESPACE();
 namespace flagstone::patchwork::HWY_NAMESPACE {
 namespace {
 
-/// Of each lane the one before it; of the first the last.
-constexpr std::array<std::int32_t, lanes> rotation() {
-  constexpr std::size_t n = hn::MaxLanes(IntTag());
-  std::array<std::int32_t, lanes> indices{};
-  for (std::size_t i = 0; i < n; ++i) indices[i] = static_cast<std::int32_t>((i + n - 1) % n);
-  return indices;
-}
-
 /// Writes down where the bin changes from one point to the next.
 class RunWriter {
  public:
   RunWriter(RunStart* starts) : begin_(starts), end_(starts) {}
 
-  /// The bins of the next vector of points, each as bits_of_bin_0 + bin.
+  /// The bins of the next vector of points.
   HWY_INLINE void add(IntVector bins) {
     const IntTag di;
-    const IntVector rotated = rotate(bins);
-    const IntVector before = hn::IfThenElse(hn::FirstN(di, 1), previous_, rotated);
-    const auto starts = hn::Ne(bins, before);
-    const IntVector words = hn::Add(bins, places_);
-    end_ += compress_store(words, starts, reinterpret_cast<std::int32_t*>(end_));
-    previous_ = rotated;
+    const auto starts = hn::Ne(bins, move_up(bins, previous_));
+    end_ += compress_store(hn::Or(bins, places_), starts, reinterpret_cast<std::int32_t*>(end_));
+    previous_ = bins;
     places_ = hn::Add(places_, hn::Set(di, static_cast<std::int32_t>(hn::Lanes(di)) << bin_bits));
   }
 
@@ -66,23 +55,11 @@ class RunWriter {
   }
 
  private:
-  /// The last lane comes first.
-  static HWY_INLINE IntVector rotate(IntVector bins) {
-    const IntTag di;
-    if constexpr (hn::MaxLanes(di) == 1) {
-      return bins;
-    } else {
-      HWY_ALIGN constexpr std::array<std::int32_t, lanes> by_lanes = rotation();
-      return hn::TableLookupLanes(bins, hn::SetTableIndices(di, by_lanes.data()));
-    }
-  }
-
   RunStart* begin_;
   RunStart* end_;
-  IntVector previous_ = hn::Zero(IntTag());  // no point's bin
-  /// What makes run starts of bins: the points' indices << bin_bits, less bits_of_bin_0.
-  IntVector places_ = hn::Sub(hn::ShiftLeft<bin_bits>(hn::Iota(IntTag(), 0)),
-                              hn::Set(IntTag(), bits_of_bin_0));
+  IntVector previous_ = hn::Set(IntTag(), -1);  // no point's bin
+  /// Indices of the points << bin_bits.
+  IntVector places_ = hn::ShiftLeft<bin_bits>(hn::Iota(IntTag(), 0));
 };
 
 /// Reads sixteen points of `floats` floats each and finds their bins.

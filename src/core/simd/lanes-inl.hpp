@@ -66,6 +66,37 @@ HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index
 #endif
 }
 
+/// Whole part of numbers from 0 to 2^31, without hn::ConvertTo's care for all others.
+HWY_INLINE IntVector whole_part(FloatVector v) {
+#if HWY_TARGET == HWY_AVX3
+  return IntVector{_mm512_cvttps_epi32(v.raw)};
+#elif HWY_TARGET == HWY_AVX2
+  return IntVector{_mm256_cvttps_epi32(v.raw)};
+#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+  return IntVector{_mm_cvttps_epi32(v.raw)};
+#else
+  return hn::ConvertTo(IntTag(), v);
+#endif
+}
+
+/// Every lane moved one up, the last lane of `before` being the new first.
+HWY_INLINE IntVector move_up(IntVector v, IntVector before) {
+#if HWY_TARGET == HWY_AVX3
+  return IntVector{_mm512_alignr_epi32(v.raw, before.raw, 15)};
+#elif HWY_TARGET == HWY_AVX2
+  return IntVector{_mm256_alignr_epi8(
+      v.raw, _mm256_permute2x128_si256(before.raw, v.raw, 0x21), 12)};
+#elif HWY_MAX_BYTES == 16
+  return hn::CombineShiftRightBytes<12>(IntTag(), v, before);
+#else
+  const IntTag di;
+  HWY_ALIGN std::array<std::int32_t, 2 * lanes> both{};
+  hn::StoreU(before, di, both.data());
+  hn::StoreU(v, di, both.data() + hn::Lanes(di));
+  return hn::LoadU(di, both.data() + hn::Lanes(di) - 1);
+#endif
+}
+
 /// v + 1 where the mask says so.
 HWY_INLINE IntVector increment_if(hn::Mask<IntTag> mask, IntVector v) {
   const IntTag di;
