@@ -28,7 +28,8 @@ def separate_answers():
 
 
 def serve(peer, answers, requests):
-    from peers import np, usable_points
+    import numpy as np
+    from peers import usable_points
 
     ground = peer.prepare()
     scans = []

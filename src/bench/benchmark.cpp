@@ -72,13 +72,14 @@ class Benchmark {
       results_.core = pinned_->core();
     }
     enter_ours();
-    if (settings.peers) enter_peers();
+    if (settings.peers) enter_peers(*settings.peers);
   }
 
   Results run() {
     const std::size_t rounds = warm_up();
     for (std::size_t round = 0; round < rounds && !watch_.stop(); ++round) {
-      watch_.progress(round, rounds);
+      // Between rounds of peers it would not be known how long the rest takes.
+      if (has_peers(round)) watch_.progress(round, rounds);
       results_.rounds = round + 1;
       run_round(round);
     }
@@ -88,23 +89,24 @@ class Benchmark {
  private:
   void enter_ours() {
     auto segment = segmenter(results_.target, TimedSegment::Stages::not_timed);
-    const TimedSegment& segmenter_of_counts = *segment;
-    enter(std::move(segment), [&](std::size_t round, std::size_t scan, const Visit& visit) {
-      add(results_.segment, round, scan, visit);
-      if (results_.allocations) {
-        results_.allocations = std::max(*results_.allocations, segmenter_of_counts.allocations());
-      }
-    });
+    const TimedSegment* const timed = segment.get();
+    enter(
+        std::move(segment), [this, timed](std::size_t round, std::size_t scan, const Visit& visit) {
+          add(results_.segment, round, scan, visit);
+          if (results_.allocations) {
+            results_.allocations = std::max(results_.allocations.value_or(0), timed->allocations());
+          }
+        });
     enter(std::make_unique<TimedBarePass>(views_, results_.target),
-          [&](auto round, auto scan, const Visit& visit) {
+          [this](auto round, auto scan, const Visit& visit) {
             add(results_.floor, round, scan, visit);
           });
     enter(segmenter("scalar", TimedSegment::Stages::not_timed),
-          [&](auto round, auto scan, const Visit& visit) {
+          [this](auto round, auto scan, const Visit& visit) {
             add(results_.scalar, round, scan, visit);
           });
     enter(segmenter(results_.target, TimedSegment::Stages::timed),
-          [&](std::size_t round, std::size_t scan, const Visit& visit) {
+          [this](std::size_t round, std::size_t scan, const Visit& visit) {
             for (std::size_t stage = 0; stage < stage_count; ++stage) {
               results_.stages[stage].add(round, scan, 1000 * visit.stages[stage]);
             }
@@ -125,8 +127,8 @@ class Benchmark {
     return made;
   }
 
-  void enter_peers() {
-    const auto known = known_peers(*settings_.peers, settings_.config.sensor_height);
+  void enter_peers(const PeerPlaces& places) {
+    const auto known = known_peers(places, settings_.config.sensor_height);
     results_.peers.reserve(known.size());  // they are pointed to
     for (const PeerCommand& command : known) {
       results_.peers.push_back({command.name, Measured(scans_.size()), command.missing});
@@ -135,7 +137,7 @@ class Benchmark {
       try {
         auto peer = std::make_unique<Peer>(command);
         peer->take(scans_);
-        enter(std::move(peer), [&](auto round, auto scan, const Visit& visit) {
+        enter(std::move(peer), [&result](auto round, auto scan, const Visit& visit) {
           add(result.measured, round, scan, visit);
         });
         entrants_.back().peer = &result;
@@ -174,8 +176,13 @@ class Benchmark {
         std::clamp(seconds_by_default / each, fewest_rounds, most_rounds));
   }
 
+  /// Do peers take part in this round? Without any, every round is as good as one of theirs.
+  [[nodiscard]] bool has_peers(std::size_t round) const {
+    return round % rounds_per_peer_round_ == 0;
+  }
+
   void run_round(std::size_t round) {
-    const bool with_peers = round % rounds_per_peer_round_ == 0;
+    const bool with_peers = has_peers(round);
     const std::size_t turn = with_peers ? round / rounds_per_peer_round_ : round;
     for (const std::size_t i : order_of_round(with_peers ? entrants_.size() : ours_, turn)) {
       visit_all(entrants_[i], round);

@@ -26,6 +26,7 @@ struct BenchmarkSettings {
 
 /// Who wants to know how far it is, and who may stop it.
 struct BenchmarkWatch {
+  /// Called now and then, before the first round at the latest.
   std::function<void(std::size_t rounds_done, std::size_t rounds)> progress;
   std::function<bool()> stop;
 };

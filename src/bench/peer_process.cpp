@@ -8,6 +8,7 @@
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -15,8 +16,6 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
-
-extern char** environ;
 
 namespace flagstone::bench {
 namespace {

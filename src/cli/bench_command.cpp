@@ -80,10 +80,13 @@ int bench(const BenchOptions& options) {
                             .stop = interrupted});
   progress.reset();
 
+  if (results.rounds == 0) {
+    print_error("interrupted before the first round, nothing is measured");
+    return 1;
+  }
   if (interrupted()) {
     print_error(fmt::format("interrupted, {} of {} rounds were begun", results.rounds, all_rounds));
   }
-  if (results.rounds == 0) return 1;
   fmt::print("{}", options.json ? bench::to_json(results).dump(2) + "\n" : bench::to_text(results));
   return interrupted() || clouds.size() < inputs.size() ? 1 : 0;
 }
