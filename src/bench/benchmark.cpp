@@ -183,7 +183,9 @@ class Benchmark {
 
   void run_round(std::size_t round) {
     const bool with_peers = has_peers(round);
-    const std::size_t turn = with_peers ? round / rounds_per_peer_round_ : round;
+    // Rounds with peers and those without are counted apart, so that each kind sees every order.
+    const std::size_t peer_rounds = round / rounds_per_peer_round_;
+    const std::size_t turn = with_peers ? peer_rounds : round - peer_rounds - 1;
     for (const std::size_t i : order_of_round(with_peers ? entrants_.size() : ours_, turn)) {
       visit_all(entrants_[i], round);
     }
@@ -230,8 +232,10 @@ double ground_share(const Results& results, const Measured& measured) {
   std::size_t points = 0;
   std::size_t ground = 0;
   for (std::size_t scan = 0; scan < results.points.size(); ++scan) {
+    const std::optional<std::size_t>& found = measured.ground[scan];
+    if (!found) continue;
     points += results.points[scan];
-    ground += measured.ground[scan];
+    ground += *found;
   }
   return static_cast<double>(ground) / static_cast<double>(points);
 }

@@ -18,7 +18,8 @@ struct Measured {
   explicit Measured(std::size_t scans) : times(scans), ground(scans) {}
 
   SampleTimes times;
-  std::vector<std::size_t> ground;  ///< points of each scan that it found ground
+  /// Points of each scan that it found ground; none of those it did not come to.
+  std::vector<std::optional<std::size_t>> ground;
 };
 
 /// A program of other people's.
@@ -51,7 +52,8 @@ struct Results {
   std::optional<std::size_t> bytes_held;   ///< by segmenter and result, once warm
 };
 
-/// Share of all points that were found ground, 0 to 1.
+/// Share of the points that were found ground, 0 to 1, over all scans it came to; not a number
+/// where there is none.
 [[nodiscard]] double ground_share(const Results& results, const Measured& measured);
 
 }  // namespace flagstone::bench

@@ -33,7 +33,7 @@ double mean_points(const Results& results) {
 
 std::string heading(const Results& results) {
   const std::string place =
-      results.core ? fmt::format("core {} alone", *results.core) : "free to change cores";
+      results.core ? fmt::format("pinned to core {}", *results.core) : "not pinned to a core";
   return fmt::format(
       "Patchwork with {}, {}; {} of {:.0f} points (mean) in rotation, {} after warm-up\n"
       "{}, {}; {}\n",

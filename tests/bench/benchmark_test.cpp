@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -49,7 +50,7 @@ TEST(Benchmark, TimesEveryContestantOnEveryScanOfEveryRound) {
 TEST(Benchmark, FindsTheGroundThatPatchworkFindsWithAnyInstructionSet) {
   const std::vector<io::Cloud> scans = {cloud_of(4000, 1), cloud_of(3000, 2)};
   Segmentation expected;
-  std::vector<std::size_t> ground;
+  std::vector<std::optional<std::size_t>> ground;
   for (const io::Cloud& scan : scans) {
     ASSERT_TRUE(Patchwork().segment(scan.view(), expected).ok());
     ground.push_back(expected.count(Label::ground));

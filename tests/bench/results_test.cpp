@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "bench/results_json.hpp"
@@ -33,7 +34,7 @@ Results example() {
   }
   Measured peer(2);
   peer.times.add(0, 0, 8);
-  peer.ground = {400, 0};
+  peer.ground = {400, std::nullopt};
   results.peers.push_back({"there", peer, ""});
   results.peers.push_back({"gone", Measured(2), "No module named 'gone'"});
   return results;
@@ -53,7 +54,7 @@ TEST(Results, JsonHoldsTimesRatiosAndWhyAPeerIsLeftOut) {
   EXPECT_EQ(json["stages"]["gather"]["median_ms"], 0.05);
   EXPECT_EQ(json["stages"]["gather"]["ratio"], 0.5);
   EXPECT_EQ(json["peers"]["there"]["ratio"], 20);
-  EXPECT_EQ(json["peers"]["there"]["ground"], 0.1);
+  EXPECT_EQ(json["peers"]["there"]["ground"], 0.4);
   EXPECT_EQ(json["peers"]["gone"]["left_out"], "No module named 'gone'");
   EXPECT_EQ(json["target"], "avx2");
   EXPECT_EQ(json["allocations"], 2);
@@ -79,11 +80,11 @@ TEST(Results, TextHasARowForEveryContestantAndStage) {
 
   EXPECT_THAT(
       text, HasSubstr("avx2, 1 thread; 2 scans of 2000 points (mean) in rotation, 1 round after"));
-  EXPECT_THAT(text, HasSubstr("core 3 alone"));
+  EXPECT_THAT(text, HasSubstr("pinned to core 3"));
   EXPECT_THAT(text, ContainsRegex("segment +0.400 +0.400 +5.0 +4.00 +1.000 +25.00 +2\n"));
   EXPECT_THAT(text,
               ContainsRegex("bare pass \\(floor\\) +0.100 +0.100 +20.0 +1.00 +0.250 +- +2\n"));
-  EXPECT_THAT(text, ContainsRegex("there +8.000 +8.000 +0.1 +80.00 +20.000 +10.00 +1\n"));
+  EXPECT_THAT(text, ContainsRegex("there +8.000 +8.000 +0.1 +80.00 +20.000 +40.00 +1\n"));
   for (std::size_t stage = 0; stage < stage_count; ++stage) {
     EXPECT_THAT(text, ContainsRegex(std::string("\n") + to_string(static_cast<Stage>(stage)) +
                                     " +50.0 +50.0 +25.000 +0.50 +14.3\n"));
