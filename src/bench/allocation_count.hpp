@@ -12,10 +12,10 @@ struct AllocationCount {
   std::size_t bytes = 0;  ///< handed out and not given back
 };
 
-/// The count up to now. It moves only in programs that have counting_new.cpp in them.
+/// The count up to now. It moves only in programs that link flagstone_counting_new.
 [[nodiscard]] AllocationCount allocation_count() noexcept;
 
-/// Has this program counting_new.cpp in it? Found by trying.
+/// Does this program link it? Found by trying.
 [[nodiscard]] bool allocations_are_counted();
 
 /// @name For counting_new.cpp
