@@ -8,7 +8,8 @@
 The last line printed is the command that scores them beside our methods. Packages that are not installed are
 left out, and said so. Datasets are those of `flagstone eval`: a tree of sequences/NN/velodyne, a folder with
 velodyne/, or NAME.pcd.bin files. Every peer runs with its own defaults on one core, after one scan to warm up;
-its labels are uint32, 1 for ground, in the order of the scan.
+its labels are uint32, 1 for ground, in the order of the scan. Timed is the peer alone, from points in its own
+form to the indices of ground points.
 """
 
 import argparse
@@ -19,10 +20,18 @@ import pathlib
 import shlex
 import sys
 import time
+import typing
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before any of the packages is loaded
 
 import numpy as np
+
+
+class Peer(typing.NamedTuple):
+    """A program to compare with."""
+
+    convert: typing.Callable  # points (N, 4), float32: x, y, z, intensity -> the same as the peer holds them
+    prepare: typing.Callable  # () -> a function of what convert() returns that finds indices of ground points
 
 
 def pypatchworkpp_peer(method, sensor_height):
@@ -45,22 +54,24 @@ def pypatchworkpp_peer(method, sensor_height):
 
         return ground
 
-    return prepare
+    return Peer(np.asfortranarray, prepare)  # it keeps points by columns
 
 
 def open3d_ransac(_sensor_height):
     """The largest plane: threshold 0.2 m, like flagstone's own RANSAC, and 1,000 trials."""
     open3d = importlib.import_module("open3d")
 
-    def ground(points):
-        open3d.utility.random.seed(0)
-        cloud = open3d.geometry.PointCloud(
+    def cloud_of(points):
+        return open3d.geometry.PointCloud(
             open3d.utility.Vector3dVector(points[:, :3].astype(np.float64))
         )
+
+    def ground(cloud):
+        open3d.utility.random.seed(0)
         _, inliers = cloud.segment_plane(distance_threshold=0.2, ransac_n=3, num_iterations=1000)
         return inliers
 
-    return lambda: ground
+    return Peer(cloud_of, lambda: ground)
 
 
 def cloth_simulation(_sensor_height):
@@ -77,7 +88,7 @@ def cloth_simulation(_sensor_height):
         csf.do_filtering(found, others, False)
         return np.array(found, int)
 
-    return lambda: ground
+    return Peer(lambda points: points, lambda: ground)
 
 
 PEERS = {
@@ -122,12 +133,17 @@ def silence():
         os.close(nowhere)
 
 
-def segment(prepare, points):
-    """One code a point, and the seconds it took. Points without a place are not shown to the peer."""
-    usable = np.flatnonzero(np.isfinite(points[:, :3]).all(axis=1) & (points[:, :3] != 0).any(axis=1))
-    shown = np.ascontiguousarray(points[usable])
+def usable_points(points):
+    """Which points have a place; no others are shown to a peer."""
+    return np.flatnonzero(np.isfinite(points[:, :3]).all(axis=1) & (points[:, :3] != 0).any(axis=1))
+
+
+def segment(peer, points):
+    """One code a point, and the seconds it took."""
+    usable = usable_points(points)
+    shown = peer.convert(points[usable])
     with silence():
-        ground = prepare()
+        ground = peer.prepare()
         start = time.perf_counter()
         found = ground(shown)
         seconds = time.perf_counter() - start
@@ -136,11 +152,11 @@ def segment(prepare, points):
     return codes, seconds
 
 
-def run(name, prepare, scans, folder):
-    segment(prepare, read(scans[0][1]))  # warm-up
+def run(name, peer, scans, folder):
+    segment(peer, read(scans[0][1]))  # warm-up
     times = []
     for i, (scan, file) in enumerate(scans):
-        codes, seconds = segment(prepare, read(file))
+        codes, seconds = segment(peer, read(file))
         times.append(seconds)
         out = folder / f"{scan}.label"
         out.parent.mkdir(parents=True, exist_ok=True)
@@ -179,11 +195,11 @@ def main():
         if name not in PEERS:
             sys.exit(f"--peers {name}: allowed: {', '.join(PEERS)}")
         try:
-            prepare = PEERS[name](options.sensor_height)
+            peer = PEERS[name](options.sensor_height)
         except ImportError as error:
             print(f"{name:<26} left out: {error}")
             continue
-        run(name, prepare, scans, options.output / name)
+        run(name, peer, scans, options.output / name)
         labels += ["--labels", f"{name}={options.output / name}"]
     command = ["flagstone", "eval", str(options.dataset)]
     command += ["--sequences", options.sequences] if options.sequences else []

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "cli/bench_command.hpp"
 #include "cli/config_command.hpp"
 #include "cli/demo_command.hpp"
 #include "cli/eval_command.hpp"
@@ -48,6 +49,7 @@ int run(int argc, char** argv) {
   flagstone::cli::add_simulate_command(app, exit_code);
   flagstone::cli::add_eval_command(app, exit_code);
   flagstone::cli::add_sweep_command(app, exit_code);
+  flagstone::cli::add_bench_command(app, exit_code);
   flagstone::cli::add_demo_command(app, exit_code);
   flagstone::cli::add_info_command(app, exit_code);
   flagstone::cli::add_config_command(app, exit_code);

@@ -23,6 +23,10 @@ void MethodOptions::add_to(CLI::App& command) {
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())).description(""))
       ->capture_default_str()
       ->type_name("NAME");
+  add_settings_to(command);
+}
+
+void MethodOptions::add_settings_to(CLI::App& command) {
   add_preset_option(command, preset);
   command
       .add_option("--config", config_file, "TOML file of settings, as 'flagstone config' prints")

@@ -22,6 +22,9 @@ struct MethodOptions {
   /// Adds the options to a command.
   void add_to(CLI::App& command);
 
+  /// Adds all but --method: to a command that runs Patchwork and nothing else.
+  void add_settings_to(CLI::App& command);
+
   /// Do the method's settings start from a preset of Patchwork?
   [[nodiscard]] bool starts_from_preset() const;
 

@@ -49,7 +49,7 @@ fs::path without_scan_extension(const fs::path& file) {
   return stem;
 }
 
-std::vector<ScanInput> list_scans(const std::vector<std::string>& paths) {
+std::vector<ScanInput> find_scans(const std::vector<std::string>& paths) {
   std::vector<ScanInput> scans;
   for (const std::string& path : paths) {
     std::error_code error;
@@ -59,7 +59,11 @@ std::vector<ScanInput> list_scans(const std::vector<std::string>& paths) {
       scans.push_back({path, without_scan_extension(fs::path(path).filename())});
     }
   }
+  return scans;
+}
 
+std::vector<ScanInput> list_scans(const std::vector<std::string>& paths) {
+  std::vector<ScanInput> scans = find_scans(paths);
   std::map<fs::path, fs::path> taken;
   for (const ScanInput& scan : scans) {
     const auto [other, is_new] = taken.emplace(scan.output_stem, scan.file);

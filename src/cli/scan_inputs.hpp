@@ -17,8 +17,11 @@ struct ScanInput {
 };
 
 /// Files as named, folders walked for every scan below them, in alphabetical order.
-/// Throws std::invalid_argument for a folder without scans, and where two scans would write to the
-/// same outputs.
+/// Throws std::invalid_argument for a folder without scans.
+std::vector<ScanInput> find_scans(const std::vector<std::string>& paths);
+
+/// The same for a command that writes outputs: throws std::invalid_argument also where two scans
+/// would write to the same ones.
 std::vector<ScanInput> list_scans(const std::vector<std::string>& paths);
 
 /// File name without the extensions of scans: "scene-k00" for "scene-k00.pcd.bin".

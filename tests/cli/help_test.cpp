@@ -16,7 +16,7 @@ using testing::StartsWith;
 
 TEST(Help, OfEveryCommandStartsWithAnExample) {
   for (const std::string command :
-       {"segment", "simulate", "eval", "sweep", "demo", "info", "config"}) {
+       {"segment", "simulate", "eval", "sweep", "bench", "demo", "info", "config"}) {
     const Outcome outcome = run({command, "--help"});
 
     EXPECT_EQ(outcome.exit_code, 0);
@@ -32,8 +32,8 @@ TEST(Help, OfTheWholeStartsWithAnExampleAndNamesTheCommands) {
   EXPECT_EQ(outcome.exit_code, 0);
   ASSERT_GE(lines_of(outcome.out).size(), 3U);
   EXPECT_THAT(lines_of(outcome.out)[2], StartsWith("Example:  flagstone segment"));
-  for (const char* command :
-       {"  segment ", "  simulate ", "  eval ", "  sweep ", "  demo ", "  info ", "  config "}) {
+  for (const char* command : {"  segment ", "  simulate ", "  eval ", "  sweep ", "  bench ",
+                              "  demo ", "  info ", "  config "}) {
     EXPECT_THAT(outcome.out, testing::HasSubstr(command));
   }
 }

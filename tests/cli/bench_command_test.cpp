@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/command_process.hpp"
+#include "cli/files.hpp"
+#include "cli/line_matchers.hpp"
+#include "io/file_contents.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+using nlohmann::json;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+const std::vector<std::string> stages = {"bin",     "group", "gather", "seed",
+                                         "moments", "solve", "label"};
+
+/// A worker as bench/peer_worker.py that is ready for pypatchworkpp's patchwork only, whose scans
+/// all take 5 ms and have `ground` ground points; `before_answer` is done before each answer.
+void put_fake_worker(const std::filesystem::path& file, const std::string& ground,
+                     const std::string& before_answer = ":") {
+  io::put_file(file, R"([ "$1" = pypatchworkpp-patchwork ] || { echo "ImportError: no $1"; exit 1; }
+echo ready
+runs=0
+while read -r word number; do
+  case $word in
+    scan) dd bs=16 count="$number" iflag=fullblock of=/dev/null 2> /dev/null ;;
+    run) runs=$((runs + 1)); )" +
+                         before_answer + "; echo 5000000 " + ground + R"( ;;
+  esac
+done
+)");
+}
+
+/// `flagstone bench --json` with a fake worker.
+std::vector<std::string> with_worker(const std::filesystem::path& scans,
+                                     const std::filesystem::path& worker) {
+  return {"bench",    scans.string(), "--json",        "--peers",
+          "--python", "sh",           "--peer-worker", worker.string()};
+}
+
+TEST(Bench, JsonHasTheTimesOfSegmentFloorAndEveryStage) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scans/1.bin", small_scan(1000, 1));
+  put_scan(folder / "scans/2.bin", small_scan(3000, 2));
+
+  const Outcome outcome =
+      run({"bench", (folder / "scans").string(), "--rounds", "3", "--json", "--target", "scalar"});
+
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  const json bench = json::parse(outcome.out);
+  for (const char* what : {"segment", "floor"}) {
+    EXPECT_GT(bench[what]["median_ms"].get<double>(), 0);
+    EXPECT_GE(bench[what]["p99_ms"].get<double>(), bench[what]["median_ms"].get<double>());
+  }
+  EXPECT_GT(bench["ratio_to_floor"].get<double>(), 1);
+  EXPECT_EQ(bench["stages"].size(), stages.size());
+  for (const std::string& stage : stages) {
+    for (const char* figure : {"median_ms", "p99_ms", "ratio"}) {
+      EXPECT_TRUE(bench["stages"][stage][figure].is_number()) << stage << " " << figure;
+    }
+  }
+  EXPECT_EQ(bench["peers"], json::object());
+  EXPECT_EQ(bench["target"], "scalar");
+  EXPECT_EQ(bench["allocations"], 0);
+  EXPECT_GT(bench["bytes_held"].get<double>(), 3000);
+  EXPECT_EQ(bench["points"], json::array({1000, 3000}));
+  EXPECT_EQ(bench["rounds"], 3);
+}
+
+TEST(Bench, WithoutJsonPrintsATableOfContestantsAndOneOfStages) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.bin");
+
+  const Outcome outcome = run({"bench", (folder / "scan.bin").string(), "--rounds", "2"});
+
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("1 scan of 4000 points (mean) in rotation, 2 rounds"));
+  for (const char* row : {"segment ", "bare pass", "segment, scalar build"}) {
+    EXPECT_THAT(outcome.out, ContainsRegex(std::string("\n") + row));
+  }
+  for (const std::string& stage : stages) {
+    EXPECT_THAT(outcome.out, ContainsRegex("\n" + stage + " "));
+  }
+}
+
+TEST(Bench, AScanThatCannotBeTimedCostsOneLine) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "good.bin");
+  io::put_file(folder / "cut.bin", "12345");
+  io::put_file(folder / "empty.bin", "");
+
+  const Outcome outcome =
+      run({"bench", (folder / "cut.bin").string(), (folder / "empty.bin").string(),
+           (folder / "good.bin").string(), "--rounds", "1", "--json"});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  ASSERT_EQ(lines_of(outcome.err).size(), 2U);
+  EXPECT_THAT(lines_of(outcome.err)[0], HasSubstr("cut.bin: byte"));
+  EXPECT_THAT(lines_of(outcome.err)[1], HasSubstr("empty.bin: no point in it"));
+  EXPECT_EQ(json::parse(outcome.out)["points"], json::array({4000}));
+}
+
+TEST(Bench, WithoutAnyScanToTimePrintsNothing) {
+  const io::TemporaryFolder folder;
+
+  const Outcome outcome = run({"bench", (folder / "missing.bin").string(), "--json"});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, is_one_line_with("missing.bin"));
+}
+
+TEST(Bench, APeerIsMeasuredByItsOwnClockAndAMissingOneIsLeftOutByName) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scans/1.bin", small_scan(1000, 1));
+  put_scan(folder / "scans/2.bin", small_scan(3000, 2));
+  put_fake_worker(folder / "worker.sh", "500");
+  std::vector<std::string> arguments = with_worker(folder / "scans", folder / "worker.sh");
+  arguments.insert(arguments.end(), {"--rounds", "1"});
+
+  const Outcome outcome = run(arguments);
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json peers = json::parse(outcome.out)["peers"];
+  const json& peer = peers["pypatchworkpp-patchwork"];
+  EXPECT_EQ(peer["median_ms"], 5);
+  EXPECT_EQ(peer["p99_ms"], 5);
+  EXPECT_EQ(peer["ground"], 0.25);
+  EXPECT_EQ(peer["samples"], 2);
+  EXPECT_GT(peer["ratio"].get<double>(), 0);
+  EXPECT_EQ(peers["open3d-ransac"], json({{"left_out", "ImportError: no open3d-ransac"}}));
+  EXPECT_TRUE(peers.contains("pypatchworkpp-patchworkpp"));
+  EXPECT_TRUE(peers.contains("pcl-ransac"));
+}
+
+TEST(Bench, APeerThatFailsIsLeftOutAndTheOthersGoOn) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.bin");
+  put_fake_worker(folder / "worker.sh", "1", "[ $runs -lt 3 ] || exit");
+  std::vector<std::string> arguments = with_worker(folder / "scan.bin", folder / "worker.sh");
+  arguments.insert(arguments.end(), {"--rounds", "300"});
+
+  const Outcome outcome = run(arguments);
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json bench = json::parse(outcome.out);
+  EXPECT_EQ(bench["rounds"], 300);
+  EXPECT_EQ(bench["peers"]["pypatchworkpp-patchwork"]["left_out"], "its worker ended too early");
+  EXPECT_EQ(bench["peers"]["pypatchworkpp-patchwork"]["samples"], 1);
+}
+
+TEST(Bench, WithoutWorkerOrPythonPeersAreLeftOut) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.bin");
+  const std::string scan = (folder / "scan.bin").string();
+  put_fake_worker(folder / "worker.sh", "1");
+
+  const Outcome no_worker = run({"bench", scan, "--rounds", "1", "--json", "--peers",
+                                 "--peer-worker", (folder / "none.py").string()});
+  const Outcome no_python =
+      run({"bench", scan, "--rounds", "1", "--json", "--peers", "--python", "no-such-python",
+           "--peer-worker", (folder / "worker.sh").string()});
+
+  EXPECT_THAT(json::parse(no_worker.out)["peers"]["open3d-ransac"]["left_out"].get<std::string>(),
+              HasSubstr("none.py: no such file"));
+  EXPECT_THAT(json::parse(no_python.out)["peers"]["open3d-ransac"]["left_out"].get<std::string>(),
+              HasSubstr("no-such-python cannot be started"));
+}
+
+TEST(Bench, InterruptedItPrintsWhatWasMeasured) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.bin");
+  // The second answer is that of the first round; the first one was to warm up.
+  put_fake_worker(folder / "worker.sh", "1", "[ $runs -lt 2 ] || kill -INT $PPID");
+
+  std::vector<std::string> arguments = with_worker(folder / "scan.bin", folder / "worker.sh");
+  arguments.insert(arguments.end(), {"--rounds", "1000000"});
+
+  const Outcome outcome = run(arguments);
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, is_one_line_with("interrupted, 1 of 1000000 rounds were begun"));
+  const json bench = json::parse(outcome.out);
+  EXPECT_EQ(bench["rounds"], 1);
+  EXPECT_GT(bench["segment"]["median_ms"].get<double>(), 0);
+}
+
+}  // namespace
+}  // namespace flagstone::cli
