@@ -10,9 +10,9 @@
 
 namespace flagstone {
 
-/// 1 / n! for n from 0 to 13.
+/// 1 / n! for n from 0 to 15.
 inline constexpr auto inverse_factorials = [] {
-  std::array<double, 14> inverse{};
+  std::array<double, 16> inverse{};
   double factorial = 1;
   for (std::size_t n = 0; n < inverse.size(); ++n) {
     factorial *= n > 0 ? static_cast<double>(n) : 1.0;
@@ -30,10 +30,14 @@ inline double exponential(double x) noexcept {
   const auto k = static_cast<std::int64_t>(turns < 0 ? turns - 0.5 : turns + 0.5);
   const auto steps = static_cast<double>(k);
   const double rest = (x - steps * 0.693147180369123816490) - steps * 1.90821492927058770002e-10;
-  double sum = inverse_factorials.back();  // Taylor's series
-  for (auto term = inverse_factorials.rbegin() + 1; term != inverse_factorials.rend(); ++term) {
-    sum = sum * rest + *term;
-  }
+  // Taylor's series, in pairs of pairs, so that the terms need not wait for each other.
+  const auto& c = inverse_factorials;
+  const double rest2 = rest * rest;
+  const double rest4 = rest2 * rest2;
+  const auto four = [&](std::size_t n) {
+    return (c[n] + c[n + 1] * rest) + (c[n + 2] + c[n + 3] * rest) * rest2;
+  };
+  const double sum = (four(0) + four(4) * rest4) + (four(8) + four(12) * rest4) * (rest4 * rest4);
   return sum * std::bit_cast<double>((k + 1023) << 52);
 }
 

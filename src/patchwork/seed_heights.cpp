@@ -95,13 +95,14 @@ std::size_t copy_between(const float* HWY_RESTRICT z, std::size_t places, float 
   const IntTag di;
   const FloatVector bottom = hn::Set(d, floor);
   const FloatVector top = hn::Set(d, ceiling);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < places; i += hn::Lanes(d)) {
+  auto* to = reinterpret_cast<std::int32_t*>(heights);
+  const auto pick = [&](std::size_t i, std::int32_t* behind) HWY_ATTR {
     const FloatVector height = hn::Load(d, z + i);
     const auto inside = hn::And(hn::Ge(height, bottom), hn::Le(height, top));
-    count += compress_store(hn::BitCast(di, height), hn::RebindMask(di, inside),
-                            reinterpret_cast<std::int32_t*>(heights + count));
-  }
+    return compress_store(hn::BitCast(di, height), hn::RebindMask(di, inside), behind);
+  };
+  for (std::size_t i = 0; i < places; i += hn::Lanes(d)) to += pick(i, to);
+  const auto count = static_cast<std::size_t>(to - reinterpret_cast<std::int32_t*>(heights));
   return count;
 }
 
