@@ -518,7 +518,8 @@ TEST_F(LabelsMadeElsewhere, MayBeNumPyArrays) {
       labels.push_back(static_cast<Label>(code));
     }
     fs::create_directories(folder_ / "arrays");
-    ASSERT_TRUE(io::write_label_npy(folder_ / ("arrays/" + name + ".npy"), labels).ok());
+    ASSERT_TRUE(
+        io::LabelWriter().write_label_npy(folder_ / ("arrays/" + name + ".npy"), labels).ok());
   }
 
   const json found = both("kitti", "arrays");

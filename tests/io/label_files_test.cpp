@@ -56,7 +56,7 @@ RC_GTEST_PROP(LabelFile, ReadsBackInBothFormats, ()) {
   std::vector<Label> from_npy;
 
   RC_ASSERT(write_label_file(folder / "a.label", labels, LabelMap::flagstone).ok());
-  RC_ASSERT(write_label_npy(folder / "a.npy", labels).ok());
+  RC_ASSERT(LabelWriter().write_label_npy(folder / "a.npy", labels).ok());
 
   RC_ASSERT(read_labels(folder / "a.label", labels.size(), from_label).ok());
   RC_ASSERT(read_labels(folder / "a.npy", labels.size(), from_npy).ok());
