@@ -12,6 +12,7 @@
 
 #include "core/stopwatch.hpp"
 #include "eval/protocol.hpp"
+#include "io/load_bytes.hpp"
 #include "io/write_cloud.hpp"
 #include "render/birds_eye.hpp"
 
@@ -78,11 +79,11 @@ fs::path reference_file(const fs::path& reference, const ScanInput& input) {
   return candidates.front();
 }
 
-ScanReport ScanWorker::run(const ScanInput& input) noexcept {
+ScanReport ScanWorker::run(const ScanInput& input, const ScanInput* later) noexcept {
   ScanReport report;
   report.file = input.file;
   try {
-    const Status status = work(input, report);
+    const Status status = work(input, later, report);
     if (!status.ok()) report.error = status.message();
   } catch (const std::exception& error) {
     report.error = fmt::format("{}: {}", input.file.string(), error.what());
@@ -90,8 +91,9 @@ ScanReport ScanWorker::run(const ScanInput& input) noexcept {
   return report;
 }
 
-Status ScanWorker::work(const ScanInput& input, ScanReport& report) {
+Status ScanWorker::work(const ScanInput& input, const ScanInput* later, ScanReport& report) {
   Stopwatch watch;
+  if (later != nullptr) io::read_ahead(later->file);
   if (Status status = reader_.read(input.file); !status.ok()) return status;
   report.read_ms = watch.lap();
   report.file_size = reader_.file_size();

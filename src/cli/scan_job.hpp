@@ -46,11 +46,12 @@ class ScanWorker {
         runner_(job.method, job.config),
         label_writer_(job.label_map) {}
 
-  /// Never throws: what goes wrong with this scan is in the report.
-  ScanReport run(const ScanInput& input) noexcept;
+  /// Never throws: what goes wrong with this scan is in the report. The file of `later`, a scan
+  /// whose turn comes soon, is fetched meanwhile; null for none.
+  ScanReport run(const ScanInput& input, const ScanInput* later = nullptr) noexcept;
 
  private:
-  Status work(const ScanInput& input, ScanReport& report);
+  Status work(const ScanInput& input, const ScanInput* later, ScanReport& report);
   Status write(const ScanInput& input, ScanReport& report);
   Status write_split(const ScanInput& input, ScanReport& report);
   Status score_and_draw(const ScanInput& input, ScanReport& report);

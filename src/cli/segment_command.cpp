@@ -26,7 +26,6 @@
 #include "cli/scan_job.hpp"
 #include "cli/throughput.hpp"
 #include "core/stopwatch.hpp"
-#include "io/load_bytes.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -122,13 +121,13 @@ int segment(const SegmentOptions& options) {
 
   catch_interrupts();
   Reporter reporter(scans.size(), options.json);
-  const std::size_t next_of_worker = thread_count(options.threads);
+  const std::size_t ahead = thread_count(options.threads);  // a scan for each worker
   Stopwatch watch;
   const std::size_t workers = run_crew(scans.size(), options.threads, [&] {
     return [&, worker = std::make_shared<ScanWorker>(job)](std::size_t index) {
-      const std::size_t next = index + next_of_worker;
-      if (next < scans.size()) io::read_ahead(scans[next].file);
-      reporter.add(index, worker->run(scans[index]));
+      const std::size_t later = index + ahead;
+      reporter.add(index,
+                   worker->run(scans[index], later < scans.size() ? &scans[later] : nullptr));
     };
   });
   const CrewTime time{.seconds = watch.lap() / 1000, .workers = workers};

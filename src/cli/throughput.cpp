@@ -32,7 +32,7 @@ std::string throughput_text(std::span<const ScanReport> reports, const CrewTime&
                                                          : "segmenting binds";
   return fmt::format(
       "{:.1f} scans a second, {:.1f} MB/s read; time of {} {}: {:.0f} % reading, {:.0f} % "
-      "segmenting, {:.0f} % writing, {:.0f} % other; {}: {:.2f} ms of files, {:.2f} ms of "
+      "segmenting, {:.0f} % writing, {:.0f} % other; {}: {:.3f} ms of files, {:.3f} ms of "
       "segmenting a scan\n",
       scans / time.seconds, bytes / 1e6 / time.seconds, time.workers,
       time.workers == 1 ? "worker" : "workers", 100 * read_ms / all_ms, 100 * segment_ms / all_ms,

@@ -214,10 +214,10 @@ Status LabelWriter::write_label_file(const std::filesystem::path& path,
 Status LabelWriter::write_label_npy(const std::filesystem::path& path,
                                     std::span<const Label> labels) {
   Status status = within_memory([&] {
-    npy_.assign(npy_header(FieldType::uint8, labels.size()));  // keeps its memory
-    const std::size_t begin = npy_.size();
-    npy_.resize(begin + labels.size());
-    number(labels, map_, npy_.data() + begin);
+    const std::string header = npy_header(FieldType::uint8, labels.size());
+    npy_.assign(header);  // by copy: a moved one would bring its own memory
+    npy_.resize(header.size() + labels.size());
+    number(labels, map_, npy_.data() + header.size());
     return Status();
   });
   if (!status.ok()) return with_path(path, std::move(status));

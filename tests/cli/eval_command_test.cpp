@@ -542,13 +542,16 @@ TEST_F(LabelsMadeElsewhere, MayLieAsSemanticKittisPredictionsDo) {
 TEST_F(LabelsMadeElsewhere, MayBeWhatSegmentMakesOfTheWholeDataset) {
   put_labelled(folder_ / "tree/sequences/08", "000000", scan("a"));
   for (const std::string dataset : {"kitti", "tree"}) {
-    const Outcome outcome =
-        run({"segment", path(dataset), "--output", path("of-" + dataset), "--method", "gpf"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const std::string format : {"label", "u8"}) {
+      const std::string output = format + "-of-" + dataset;
+      const Outcome outcome = run({"segment", path(dataset), "--output", path(output), "--method",
+                                   "gpf", "--format", format});
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
 
-    const json found = both(dataset, "of-" + dataset);
+      const json found = both(dataset, output);
 
-    EXPECT_EQ(figures_of(found, 0), figures_of(found, 1)) << dataset;
+      EXPECT_EQ(figures_of(found, 0), figures_of(found, 1)) << output;
+    }
   }
 }
 

@@ -95,5 +95,40 @@ TEST(LoadBytes, RefusesAFileBeyondTheLimitBeforeAllocating) {
               fails(StatusCode::bad_file, HasSubstr("at most 8589934592")));
 }
 
+TEST(LoadBytes, UsesTheMemoryThatItIsHanded) {
+  const TemporaryFolder folder;
+  put_file(folder / "long", std::string(5000, 'a'));
+  put_file(folder / "short", "bcd");
+  Bytes bytes;
+  ASSERT_THAT(load_bytes(folder / "long", bytes), is_ok());
+  const std::byte* const place = bytes.data();
+
+  ASSERT_THAT(load_bytes(folder / "short", bytes), is_ok());
+
+  EXPECT_EQ(as_text(bytes), "bcd");
+  EXPECT_EQ(bytes.data(), place);
+}
+
+TEST(LoadBytes, LeavesNothingOfAnEarlierFileWhereItFails) {
+  const TemporaryFolder folder;
+  Bytes bytes(100);
+  EXPECT_FALSE(load_bytes(folder / "none", bytes).ok());
+  EXPECT_TRUE(bytes.empty());
+}
+
+TEST(ReadAhead, LeavesFilesReadableAndDoesNotWaitForPipes) {
+  const TemporaryFolder folder;
+  put_file(folder / "a", "x");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+
+  read_ahead(folder / "none");
+  read_ahead(folder / "pipe");
+  read_ahead(folder / "a");
+
+  Bytes bytes;
+  EXPECT_THAT(load_bytes(folder / "a", bytes), is_ok());
+  EXPECT_EQ(as_text(bytes), "x");
+}
+
 }  // namespace
 }  // namespace flagstone::io
