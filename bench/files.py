@@ -23,6 +23,21 @@ import statistics
 import subprocess
 import sys
 import time
+import typing
+
+
+class Round(typing.NamedTuple):
+    """What one round measured: means over its scans in milliseconds, and scans a second."""
+
+    read_ms: float
+    segment_ms: float
+    write_ms: float
+    one: float
+    many: float
+
+    @property
+    def bound(self):
+        return 1000 / (self.read_ms + self.segment_ms + self.write_ms)
 
 
 def run_command(command, scans, output, threads, options):
@@ -121,7 +136,7 @@ def main():
     if len(label_sizes) != len(inputs):
         sys.exit(f"{len(label_sizes)} files for {len(inputs)} scans; one a scan is measured")
 
-    rows = []
+    rounds = []
     for number in range(asked.rounds):
         if sys.stderr.isatty():
             print(f"\rround {number + 1} of {asked.rounds}", end="", file=sys.stderr)
@@ -130,40 +145,36 @@ def main():
         many, _, binds = run_command(
             asked.command, asked.scans, labels, asked.threads, asked.segment
         )
-        bound = 1000 / (read_ms + segment_ms + write_ms)
-        rows.append((read_ms, segment_ms, write_ms, bound, one, many))
+        rounds.append(Round(read_ms, segment_ms, write_ms, one, many))
     if sys.stderr.isatty():
         print("\r\x1b[K", end="", file=sys.stderr)
     shutil.rmtree(output)
 
     def median(value):
-        return statistics.median(value(*row) for row in rows)
+        return statistics.median(map(value, rounds))
 
     threads = asked.threads
-    megabytes = statistics.mean(path.stat().st_size for path in inputs) / 1e6
     print(f"{datetime.date.today()}, {machine()}, {file_system(asked.scans)}, {asked.rounds} rounds")
     print(
-        f"{len(inputs)} scans of {megabytes:.2f} MB, labels of "
-        f"{statistics.mean(label_sizes) / 1e6:.2f} MB"
+        f"{len(inputs)} scans of {statistics.mean(p.stat().st_size for p in inputs) / 1e6:.2f} MB, "
+        f"labels of {statistics.mean(label_sizes) / 1e6:.2f} MB"
     )
     print(
-        f"at the least, ms a scan: read {median(lambda r, s, w, b, o, m: r):.3f}, "
-        f"segment {median(lambda r, s, w, b, o, m: s):.3f}, "
-        f"write {median(lambda r, s, w, b, o, m: w):.3f}"
+        f"at the least, ms a scan: read {median(lambda r: r.read_ms):.3f}, "
+        f"segment {median(lambda r: r.segment_ms):.3f}, write {median(lambda r: r.write_ms):.3f}"
     )
-    print(f"{'':12}{'scans/s':>9}{'bound':>9}{'share':>8}")
+    print(f"{'':12}{'scans/s':>9}{'bound':>9}{'share':>9}")
     print(
-        f"{'1 thread':12}{median(lambda r, s, w, b, o, m: o):9.0f}"
-        f"{median(lambda r, s, w, b, o, m: b):9.0f}"
-        f"{median(lambda r, s, w, b, o, m: o / b):8.1%}"
+        f"{'1 thread':12}{median(lambda r: r.one):9.0f}{median(lambda r: r.bound):9.0f}"
+        f"{median(lambda r: 100 * r.one / r.bound):7.1f} %"
     )
     print(
-        f"{f'{threads} threads':12}{median(lambda r, s, w, b, o, m: m):9.0f}"
-        f"{median(lambda r, s, w, b, o, m: threads * b):9.0f}"
-        f"{median(lambda r, s, w, b, o, m: m / (threads * b)):8.1%}"
+        f"{f'{threads} threads':12}{median(lambda r: r.many):9.0f}"
+        f"{median(lambda r: threads * r.bound):9.0f}"
+        f"{median(lambda r: 100 * r.many / (threads * r.bound)):7.1f} %"
     )
-    print(f"{threads} threads to 1: {median(lambda r, s, w, b, o, m: m / o):.2f} times as many")
-    print(f"with {threads} threads: {binds}")
+    print(f"{threads} threads to 1: {median(lambda r: r.many / r.one):.2f} times as many scans")
+    print(f"the last of {threads} threads said: {binds}")
 
 
 if __name__ == "__main__":
