@@ -57,7 +57,11 @@ class Reporter {
     reports_[index] = {std::move(report), std::move(line)};
     ++done_;
     if (next_ < reports_.size() && reports_[next_]) progress_.clear();
-    for (; next_ < reports_.size() && reports_[next_]; ++next_) print(*reports_[next_]);
+    for (; next_ < reports_.size(); ++next_) {
+      std::optional<Entry>& next = reports_[next_];
+      if (!next) break;
+      print(*next);
+    }
     std::fflush(stdout);
     progress_.show(done_);
   }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -543,7 +544,7 @@ TEST_F(LabelsMadeElsewhere, MayBeWhatSegmentMakesOfTheWholeDataset) {
   put_labelled(folder_ / "tree/sequences/08", "000000", scan("a"));
   for (const std::string dataset : {"kitti", "tree"}) {
     for (const std::string format : {"label", "u8"}) {
-      const std::string output = format + "-of-" + dataset;
+      const std::string output = fmt::format("{}-of-{}", format, dataset);
       const Outcome outcome = run({"segment", path(dataset), "--output", path(output), "--method",
                                    "gpf", "--format", format});
       ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
