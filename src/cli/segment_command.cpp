@@ -7,6 +7,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -44,7 +45,9 @@ struct SegmentOptions {
   bool json = false;
 };
 
-/// Collects what workers report and prints it in the order of the scans.
+/// Collects what workers report and prints it in the order of the scans: at once where a scan takes
+/// long, ten times a second where thousands are done in it, since waking who reads the lines takes
+/// longer than making one.
 class Reporter {
  public:
   Reporter(std::size_t scans, bool json) : reports_(scans), progress_(scans), json_(json) {
@@ -56,14 +59,10 @@ class Reporter {
     const std::scoped_lock lock(mutex_);
     reports_[index] = {std::move(report), std::move(line)};
     ++done_;
-    if (next_ < reports_.size() && reports_[next_]) progress_.clear();
-    for (; next_ < reports_.size(); ++next_) {
-      std::optional<Entry>& next = reports_[next_];
-      if (!next) break;
-      print(*next);
-    }
-    std::fflush(stdout);
-    progress_.show(done_);
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_print_) return;
+    next_print_ = now + pause;
+    print_ready();
   }
 
   /// Takes the progress bar away, prints what is left to print; returns what was reported.
@@ -85,6 +84,19 @@ class Reporter {
     std::string line;  // empty where there is nothing to print, or not any more
   };
 
+  static constexpr std::chrono::milliseconds pause{100};
+
+  void print_ready() {
+    if (next_ < reports_.size() && reports_[next_]) progress_.clear();
+    for (; next_ < reports_.size(); ++next_) {
+      std::optional<Entry>& next = reports_[next_];
+      if (!next) break;
+      print(*next);
+    }
+    std::fflush(stdout);
+    progress_.show(done_);
+  }
+
   std::string line_of(const ScanReport& report) const {
     if (json_) return json_line(report) + '\n';
     return report.error ? std::string() : text_line(report) + '\n';
@@ -99,6 +111,7 @@ class Reporter {
   std::vector<std::optional<Entry>> reports_;
   std::size_t next_ = 0;  // first one not printed
   std::size_t done_ = 0;
+  std::chrono::steady_clock::time_point next_print_;
   Progress progress_;
   bool json_;
 };
