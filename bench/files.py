@@ -42,7 +42,7 @@ class Round(typing.NamedTuple):
 
 
 def run_command(command, scans, output, threads, options):
-    """Scans a second of the whole command; the mean milliseconds it says it segmented one, and all it says."""
+    """Scans a second of the whole command, the mean milliseconds it segmented one in, and its last line."""
     shutil.rmtree(output, ignore_errors=True)
     arguments = [command, "segment", scans, "--output", output, "--threads", str(threads), *options]
     start = time.perf_counter()

@@ -24,10 +24,11 @@ ScanReport report_of(double read_ms, double segment_ms, double write_ms) {
 TEST(Throughput, IsOfTheWholeCrewAndItsSharesAddUp) {
   const std::vector reports(100, report_of(4, 12, 2));
 
-  EXPECT_EQ(throughput_text(reports, {.seconds = 1, .workers = 2}),
-            "100.0 scans a second, 200.0 MB/s read; time of 2 workers: 20 % reading, 60 % "
-            "segmenting, 10 % writing, 10 % other; segmenting binds: 6.000 ms of files, 12.000 ms of "
-            "segmenting a scan\n");
+  EXPECT_EQ(
+      throughput_text(reports, {.seconds = 1, .workers = 2}),
+      "100.0 scans a second, 200.0 MB/s read; time of 2 workers: 20 % reading, 60 % "
+      "segmenting, 10 % writing, 10 % other; segmenting binds: 6.000 ms of files, 12.000 ms of "
+      "segmenting a scan\n");
 }
 
 TEST(Throughput, SaysThatFilesBindWhereReadingAndWritingTogetherTakeLonger) {
