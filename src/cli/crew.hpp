@@ -23,9 +23,10 @@ inline unsigned thread_count(unsigned asked) {
 /// Gives the jobs 0 to `count` - 1 out, in that order, to `threads` threads (0: all cores; fewer
 /// where the system has no more) until all are done or somebody asks to stop. `make_worker()` is
 /// called once in each thread, and what it returns with the number of each job. Once one of them
-/// throws, no more jobs are given out and the first exception is thrown from here.
+/// throws, no more jobs are given out and the first exception is thrown from here. Returns how many
+/// threads there were.
 template <class MakeWorker>
-void run_crew(std::size_t count, unsigned threads, const MakeWorker& make_worker) {
+std::size_t run_crew(std::size_t count, unsigned threads, const MakeWorker& make_worker) {
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   std::exception_ptr failure;
@@ -43,6 +44,7 @@ void run_crew(std::size_t count, unsigned threads, const MakeWorker& make_worker
       if (!failure) failure = std::current_exception();
     }
   };
+  std::size_t members = 1;
   {
     const std::size_t size = std::min<std::size_t>(thread_count(threads), count);
     std::vector<std::jthread> others;
@@ -51,6 +53,7 @@ void run_crew(std::size_t count, unsigned threads, const MakeWorker& make_worker
     while (there_are_more && others.size() + 1 < size) {
       try {
         others.emplace_back(work);
+        ++members;
       } catch (const std::system_error&) {
         there_are_more = false;
       }
@@ -58,6 +61,7 @@ void run_crew(std::size_t count, unsigned threads, const MakeWorker& make_worker
     work();
   }
   if (failure) std::rethrow_exception(failure);
+  return members;
 }
 
 }  // namespace flagstone::cli

@@ -97,10 +97,9 @@ void EvalMethods::add_to(CLI::App& command) {
       ->allow_extra_args(false);
   add_sensor_height_option(command, sensor_height);
   command
-      .add_option(
-          "--labels", labels,
-          "Labels that another program made, scored like a method: NAME.label or NAME.npy of "
-          "each scan, one code a point, 1 for ground; may repeat")
+      .add_option("--labels", labels,
+                  "Labels that another program made, scored like a method: NAME.label, NAME.npy or "
+                  "NAME.label.npy of each scan, one code a point, 1 for ground; may repeat")
       ->type_name("NAME=DIR")
       ->allow_extra_args(false);
   const std::map<std::string, io::LabelMap> maps = {

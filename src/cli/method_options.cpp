@@ -7,10 +7,10 @@
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "cli/config_toml.hpp"
 #include "io/load_bytes.hpp"
@@ -73,11 +73,10 @@ CLI::Option* add_sensor_height_option(CLI::App& command, std::optional<float>& h
 }
 
 void apply_file(const std::string& file, MethodConfig& config) {
-  io::FileBytes bytes;
+  std::vector<std::byte> bytes;
   const Status status = io::load_bytes(file, bytes);
   if (!status.ok()) throw std::invalid_argument(status.message());
-  const std::span<const std::byte> span = std::as_const(bytes).span();
-  apply_toml({reinterpret_cast<const char*>(span.data()), span.size()}, file, config);
+  apply_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, config);
 }
 
 }  // namespace flagstone::cli

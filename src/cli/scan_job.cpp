@@ -12,6 +12,7 @@
 
 #include "core/stopwatch.hpp"
 #include "eval/protocol.hpp"
+#include "io/load_bytes.hpp"
 #include "io/write_cloud.hpp"
 #include "render/birds_eye.hpp"
 
@@ -69,6 +70,8 @@ fs::path reference_file(const fs::path& reference, const ScanInput& input) {
       with_suffix(reference / input.output_stem, ".label"),
       with_suffix(reference / name, ".label"),
       with_suffix(reference / name, "_lidarseg.bin"),
+      with_suffix(reference / input.output_stem, ".label.npy"),
+      with_suffix(reference / name, ".label.npy"),
   };
   for (const fs::path& candidate : candidates) {
     if (fs::exists(candidate, error)) return candidate;
@@ -76,11 +79,11 @@ fs::path reference_file(const fs::path& reference, const ScanInput& input) {
   return candidates.front();
 }
 
-ScanReport ScanWorker::run(const ScanInput& input) noexcept {
+ScanReport ScanWorker::run(const ScanInput& input, const ScanInput* later) noexcept {
   ScanReport report;
   report.file = input.file;
   try {
-    const Status status = work(input, report);
+    const Status status = work(input, later, report);
     if (!status.ok()) report.error = status.message();
   } catch (const std::exception& error) {
     report.error = fmt::format("{}: {}", input.file.string(), error.what());
@@ -88,19 +91,22 @@ ScanReport ScanWorker::run(const ScanInput& input) noexcept {
   return report;
 }
 
-Status ScanWorker::work(const ScanInput& input, ScanReport& report) {
+Status ScanWorker::work(const ScanInput& input, const ScanInput* later, ScanReport& report) {
   Stopwatch watch;
-  if (Status status = io::read_cloud(input.file, job_.read, cloud_); !status.ok()) return status;
+  if (later != nullptr) io::read_ahead(later->file);
+  if (Status status = reader_.read(input.file); !status.ok()) return status;
   report.read_ms = watch.lap();
+  report.file_size = reader_.file_size();
 
-  runner_.prepare(cloud_);
+  const io::Cloud& cloud = reader_.cloud();
+  runner_.prepare(cloud);
   watch.lap();
-  Status status = runner_.segment(cloud_, result_);
+  Status status = runner_.segment(cloud, result_);
   report.segment_ms = watch.lap();
   if (!status.ok()) {
     return Status(status.code(), fmt::format("{}: {}", input.file.string(), status.message()));
   }
-  report.points = cloud_.size();
+  report.points = cloud.size();
   report.patches = result_.patches().size();
   for (std::size_t code = 0; code < label_count; ++code) {
     report.counts[code] = result_.count(static_cast<Label>(code));
@@ -127,6 +133,7 @@ Status ScanWorker::write(const ScanInput& input, ScanReport& report) {
 
   if (job_.format == OutputFormat::split) return write_split(input, report);
   const char* extension = job_.format == OutputFormat::label ? ".label"
+                          : job_.format == OutputFormat::u8  ? ".label.npy"
                           : job_.format == OutputFormat::npy ? ".npy"
                           : job_.format == OutputFormat::pcd ? ".pcd"
                                                              : ".ply";
@@ -136,21 +143,24 @@ Status ScanWorker::write(const ScanInput& input, ScanReport& report) {
   }
   report.outputs = {file};
   if (job_.format == OutputFormat::label) {
-    return io::write_label_file(file, result_.labels(), job_.label_map);
+    return label_writer_.write_label_file(file, result_.labels());
+  }
+  if (job_.format == OutputFormat::u8) {
+    return label_writer_.write_label_npy(file, result_.labels());
   }
   io::Cloud labelled;
-  const Status status = io::with_labels(cloud_, result_.labels(), labelled);
+  const Status status = io::with_labels(reader_.cloud(), result_.labels(), labelled);
   return status.ok() ? io::write_cloud(file, labelled) : status;
 }
 
 Status ScanWorker::write_split(const ScanInput& input, ScanReport& report) {
   for (const bool ground : {true, false}) {
-    std::vector<std::uint8_t> mask(cloud_.size());
+    std::vector<std::uint8_t> mask(reader_.cloud().size());
     for (std::size_t i = 0; i < mask.size(); ++i) {
       mask[i] = (result_.labels()[i] == Label::ground) == ground;
     }
     io::Cloud part;
-    if (Status status = io::select_where(cloud_, mask, part); !status.ok()) return status;
+    if (Status status = io::select_where(reader_.cloud(), mask, part); !status.ok()) return status;
     const fs::path file =
         with_suffix(job_.output / input.output_stem,
                     (ground ? ".ground" : ".nonground") + scan_extension(input.file));
@@ -165,10 +175,10 @@ Status ScanWorker::score_and_draw(const ScanInput& input, ScanReport& report) {
   if (!job_.reference.empty()) {
     const fs::path labels = reference_file(job_.reference, input);
     std::vector<std::uint32_t> classes;
-    Status status = io::read_reference(labels, cloud_.size(), classes);
+    Status status = io::read_reference(labels, reader_.cloud().size(), classes);
     if (!status.ok()) return status;
     for (const eval::Protocol* protocol : protocols_for(labels)) {
-      std::vector<Truth> under = eval::truth_of(*protocol, cloud_.view(), classes);
+      std::vector<Truth> under = eval::truth_of(*protocol, reader_.cloud().view(), classes);
       report.scores.push_back({protocol->name, eval::compare(result_.labels(), under)});
       if (truth.empty()) truth = std::move(under);
     }
@@ -183,7 +193,7 @@ Status ScanWorker::score_and_draw(const ScanInput& input, ScanReport& report) {
   options.tint_patches = job_.tint_patches;
   options.reference = truth;
   const fs::path picture = with_suffix(job_.output / input.output_stem, ".png");
-  Status status = render::draw_birds_eye(picture, cloud_.view(), result_, options);
+  Status status = render::draw_birds_eye(picture, reader_.cloud().view(), result_, options);
   report.picture_ms = watch.lap();
   if (status.ok()) report.outputs.push_back(picture);
   return status;

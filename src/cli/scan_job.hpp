@@ -8,7 +8,7 @@
 #include "cli/scan_inputs.hpp"
 #include "cli/scan_report.hpp"
 #include "eval/method_runner.hpp"
-#include "io/cloud.hpp"
+#include "io/cloud_reader.hpp"
 #include "io/label_files.hpp"
 #include "io/read_cloud.hpp"
 
@@ -17,6 +17,7 @@ namespace flagstone::cli {
 /// What is written for a scan.
 enum class OutputFormat {
   label,  ///< STEM.label, one uint32 per point
+  u8,     ///< STEM.label.npy, one uint8 per point
   npy,    ///< STEM.npy, the cloud with a field `label`
   pcd,    ///< STEM.pcd, likewise
   ply,    ///< STEM.ply, likewise
@@ -39,25 +40,31 @@ struct ScanJob {
 /// Reads, segments and writes one scan after another, reusing its memory. One per thread.
 class ScanWorker {
  public:
-  explicit ScanWorker(const ScanJob& job) : job_(job), runner_(job.method, job.config) {}
+  explicit ScanWorker(const ScanJob& job)
+      : job_(job),
+        reader_(job.read),
+        runner_(job.method, job.config),
+        label_writer_(job.label_map) {}
 
-  /// Never throws: what goes wrong with this scan is in the report.
-  ScanReport run(const ScanInput& input) noexcept;
+  /// Never throws: what goes wrong with this scan is in the report. The file of `later`, a scan
+  /// whose turn comes soon, is fetched meanwhile; null for none.
+  ScanReport run(const ScanInput& input, const ScanInput* later = nullptr) noexcept;
 
  private:
-  Status work(const ScanInput& input, ScanReport& report);
+  Status work(const ScanInput& input, const ScanInput* later, ScanReport& report);
   Status write(const ScanInput& input, ScanReport& report);
   Status write_split(const ScanInput& input, ScanReport& report);
   Status score_and_draw(const ScanInput& input, ScanReport& report);
 
   const ScanJob& job_;
+  io::CloudReader reader_;
   eval::MethodRunner runner_;
   Segmentation result_;
-  io::Cloud cloud_;
+  io::LabelWriter label_writer_;
 };
 
-/// The label file of a scan: `reference` itself, or in that folder the scan's stem with .label or
-/// _lidarseg.bin. Where there is none, the first name that was tried.
+/// The label file of a scan: `reference` itself, or in that folder the scan's stem with .label,
+/// _lidarseg.bin or .label.npy. Where there is none, the first name that was tried.
 std::filesystem::path reference_file(const std::filesystem::path& reference,
                                      const ScanInput& input);
 

@@ -72,7 +72,7 @@ double ScanReport::ground_share() const noexcept {
 
 std::string text_line(const ScanReport& report) {
   std::string line = fmt::format(
-      "{}: {} points, {:.1f} % ground, {} patches; read {:.1f} ms, segment {:.2f} ms, write {:.1f} "
+      "{}: {} points, {:.1f} % ground, {} patches; read {:.2f} ms, segment {:.2f} ms, write {:.2f} "
       "ms",
       report.file.string(), report.points, 100 * report.ground_share(), report.patches,
       report.read_ms, report.segment_ms, report.write_ms);

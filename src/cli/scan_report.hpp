@@ -29,6 +29,7 @@ struct ScanReport {
   std::size_t points = 0;
   std::array<std::size_t, label_count> counts{};
   std::size_t patches = 0;
+  std::size_t file_size = 0;  ///< bytes read
   double read_ms = 0;
   double segment_ms = 0;
   double write_ms = 0;    ///< labels or clouds, without the picture

@@ -7,6 +7,7 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -23,6 +25,8 @@
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
 #include "cli/scan_job.hpp"
+#include "cli/throughput.hpp"
+#include "core/stopwatch.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -41,7 +45,9 @@ struct SegmentOptions {
   bool json = false;
 };
 
-/// Collects what workers report and prints it in the order of the scans.
+/// Collects what workers report and prints it in the order of the scans: at once where a scan takes
+/// long, ten times a second where thousands are done in it, since waking who reads the lines takes
+/// longer than making one.
 class Reporter {
  public:
   Reporter(std::size_t scans, bool json) : reports_(scans), progress_(scans), json_(json) {
@@ -49,16 +55,14 @@ class Reporter {
   }
 
   void add(std::size_t index, ScanReport report) {
+    std::string line = line_of(report);  // before the lock, for which other workers wait
     const std::scoped_lock lock(mutex_);
-    reports_[index] = std::move(report);
+    reports_[index] = {std::move(report), std::move(line)};
     ++done_;
-    if (next_ < reports_.size() && reports_[next_]) progress_.clear();
-    for (; next_ < reports_.size(); ++next_) {
-      const std::optional<ScanReport>& next = reports_[next_];
-      if (!next) break;
-      print(*next);
-    }
-    progress_.show(done_);
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_print_) return;
+    next_print_ = now + pause;
+    print_ready();
   }
 
   /// Takes the progress bar away, prints what is left to print; returns what was reported.
@@ -66,29 +70,48 @@ class Reporter {
     progress_.clear();
     std::vector<ScanReport> finished;
     for (std::size_t i = 0; i < reports_.size(); ++i) {
-      std::optional<ScanReport>& report = reports_[i];
-      if (!report) continue;
-      if (i >= next_) print(*report);
-      finished.push_back(std::move(*report));
+      std::optional<Entry>& entry = reports_[i];
+      if (!entry) continue;
+      if (i >= next_) print(*entry);
+      finished.push_back(std::move(entry->report));
     }
     return finished;
   }
 
  private:
-  void print(const ScanReport& report) const {
-    if (report.error) print_error(*report.error);
-    if (json_) {
-      fmt::print("{}\n", json_line(report));
-    } else if (!report.error) {
-      fmt::print("{}\n", text_line(report));
+  struct Entry {
+    ScanReport report;
+    std::string line;  // empty where there is nothing to print, or not any more
+  };
+
+  static constexpr std::chrono::milliseconds pause{100};
+
+  void print_ready() {
+    if (next_ < reports_.size() && reports_[next_]) progress_.clear();
+    for (; next_ < reports_.size(); ++next_) {
+      std::optional<Entry>& next = reports_[next_];
+      if (!next) break;
+      print(*next);
     }
     std::fflush(stdout);
+    progress_.show(done_);
+  }
+
+  std::string line_of(const ScanReport& report) const {
+    if (json_) return json_line(report) + '\n';
+    return report.error ? std::string() : text_line(report) + '\n';
+  }
+
+  static void print(Entry& entry) {
+    if (entry.report.error) print_error(*entry.report.error);
+    fmt::print("{}", std::exchange(entry.line, {}));
   }
 
   std::mutex mutex_;
-  std::vector<std::optional<ScanReport>> reports_;
+  std::vector<std::optional<Entry>> reports_;
   std::size_t next_ = 0;  // first one not printed
   std::size_t done_ = 0;
+  std::chrono::steady_clock::time_point next_print_;
   Progress progress_;
   bool json_;
 };
@@ -115,14 +138,21 @@ int segment(const SegmentOptions& options) {
 
   catch_interrupts();
   Reporter reporter(scans.size(), options.json);
-  run_crew(scans.size(), options.threads, [&] {
+  const std::size_t ahead = thread_count(options.threads);  // a scan for each worker
+  Stopwatch watch;
+  const std::size_t workers = run_crew(scans.size(), options.threads, [&] {
     return [&, worker = std::make_shared<ScanWorker>(job)](std::size_t index) {
-      reporter.add(index, worker->run(scans[index]));
+      const std::size_t later = index + ahead;
+      reporter.add(index,
+                   worker->run(scans[index], later < scans.size() ? &scans[later] : nullptr));
     };
   });
+  const CrewTime time{.seconds = watch.lap() / 1000, .workers = workers};
   const std::vector<ScanReport> reports = reporter.finish();
 
-  if (!options.json && scans.size() > 1) fmt::print("{}", summary_text(reports));
+  if (!options.json && scans.size() > 1) {
+    fmt::print("{}{}", summary_text(reports), throughput_text(reports, time));
+  }
   const bool failed =
       std::ranges::any_of(reports, [](const auto& r) { return r.error.has_value(); });
   if (reports.size() < scans.size()) {
@@ -149,23 +179,22 @@ void add_segment_command(CLI::App& app, int& exit_code) {
       ->required()
       ->type_name("DIR");
   options->method.add_to(*command);
-  const std::map<std::string, OutputFormat> formats = {{"label", OutputFormat::label},
-                                                       {"npy", OutputFormat::npy},
-                                                       {"pcd", OutputFormat::pcd},
-                                                       {"ply", OutputFormat::ply},
-                                                       {"split", OutputFormat::split}};
+  const std::map<std::string, OutputFormat> formats = {
+      {"label", OutputFormat::label}, {"u8", OutputFormat::u8},   {"npy", OutputFormat::npy},
+      {"pcd", OutputFormat::pcd},     {"ply", OutputFormat::ply}, {"split", OutputFormat::split}};
   command
       ->add_option(
           "--format", options->format,
-          "label: labels alone, uint32 each; npy, pcd, ply: the cloud with a field 'label'; "
-          "split: ground and nonground clouds. Default: label")
+          "label: labels alone, uint32 each; u8: labels alone, uint8 each in a NumPy file; npy, "
+          "pcd, ply: the cloud with a field 'label'; split: ground and nonground clouds. Default: "
+          "label")
       ->transform(CLI::Transformer(formats).description(""))
       ->transform(CLI::IsMember(formats));  // looked at first: names only, no numbers
   const std::map<std::string, io::LabelMap> maps = {
       {"flagstone", io::LabelMap::flagstone}, {"semantic-kitti", io::LabelMap::semantic_kitti}};
   command
       ->add_option("--label-map", options->label_map,
-                   "Codes in .label files: flagstone (0..4), or semantic-kitti (40 ground, 0 else)")
+                   "Codes in label files: flagstone (0..4), or semantic-kitti (40 ground, 0 else)")
       ->transform(CLI::Transformer(maps).description(""))
       ->transform(CLI::IsMember(maps));
   command
@@ -176,7 +205,8 @@ void add_segment_command(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--reference", options->reference,
-          "True labels to compare with: a file, or a folder of STEM.label or STEM_lidarseg.bin")
+          "True labels to compare with: a file, or a folder of STEM.label, STEM_lidarseg.bin "
+          "or STEM.label.npy")
       ->type_name("LABELS");
   CLI::Option* const picture =
       command->add_flag("--picture", options->picture, "Draw each scan from above, as PNG");

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "cli/result_files.hpp"
 #include "flagstone/version.hpp"
@@ -78,10 +79,10 @@ void SimulatedSequence::refuse_others(const SequenceOrigin& origin) const {
     throw std::invalid_argument(
         fmt::format("{}: is there and is no simulated sequence: {}", folder_.string(), elsewhere));
   }
-  io::FileBytes bytes;
+  std::vector<std::byte> bytes;
   must(io::load_bytes(file, bytes));
-  const auto* text = reinterpret_cast<const char*>(bytes.span().data());
-  const Json there = Json::parse(text, text + bytes.span().size(), nullptr, false);
+  const auto* text = reinterpret_cast<const char*>(bytes.data());
+  const Json there = Json::parse(text, text + bytes.size(), nullptr, false);
   const auto says = [&](const char* key, const Json& value) {
     return there.is_object() && there.contains(key) && there[key] == value;
   };

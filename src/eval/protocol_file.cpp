@@ -166,11 +166,10 @@ Status read_protocol(const std::filesystem::path& path, Protocol& out) {
   if (!is_toml && path.extension() != ".json") {
     return io::refuse(path, "a protocol's file ends in .toml or .json");
   }
-  io::FileBytes bytes;
+  std::vector<std::byte> bytes;
   if (Status status = io::load_bytes(path, bytes); !status.ok()) return status;
-  const std::span<const std::byte> span = std::as_const(bytes).span();
   try {
-    const std::string_view text(reinterpret_cast<const char*>(span.data()), span.size());
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     out = protocol_of(parse(text, is_toml), path.stem().string());
   } catch (const std::invalid_argument& error) {
     return io::with_path(path, Status(StatusCode::bad_file, io::printable(error.what())));

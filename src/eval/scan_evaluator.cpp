@@ -27,8 +27,9 @@ constexpr std::size_t most_kept = 32;
 
 /// Where labels of scan "05/000120" are in a tree laid out as its dataset is:
 /// sequences/05/PLACE/000120.label. Of several datasets, each has a folder of its name.
-fs::path in_tree(const fs::path& folder, const fs::path& name, const char* place) {
-  const fs::path file = fs::path(place) / (name.filename().string() + ".label");
+fs::path in_tree(const fs::path& folder, const fs::path& name, const char* place,
+                 const char* ending = ".label") {
+  const fs::path file = fs::path(place) / (name.filename().string() + ending);
   const fs::path sequence = name.parent_path();
   if (sequence.empty()) return folder / file;
   return folder / sequence.parent_path() / "sequences" / sequence.filename() / file;
@@ -36,9 +37,12 @@ fs::path in_tree(const fs::path& folder, const fs::path& name, const char* place
 
 /// The file that holds a method's labels of a scan; the first that was looked for if there is none.
 fs::path label_file(const fs::path& folder, const std::string& name) {
-  const std::array candidates = {folder / (name + ".label"), folder / (name + ".npy"),
+  const std::array candidates = {folder / (name + ".label"),
+                                 folder / (name + ".npy"),
+                                 folder / (name + ".label.npy"),        // of --format u8
                                  in_tree(folder, name, "predictions"),  // SemanticKITTI's place
-                                 in_tree(folder, name, "velodyne")};    // 'flagstone segment TREE'
+                                 in_tree(folder, name, "velodyne"),     // 'flagstone segment TREE'
+                                 in_tree(folder, name, "velodyne", ".label.npy")};
   std::error_code error;
   const auto* const found =
       std::ranges::find_if(candidates, [&](const auto& path) { return fs::exists(path, error); });

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "io/field_type.hpp"
 #include "io/message.hpp"
@@ -86,6 +87,12 @@ Status Cloud::from_floats(std::span<const float> values, std::size_t floats_per_
     return from_rows(unnamed_fields(floats_per_point, FieldType::float32),
                      {bytes.begin(), bytes.end()}, out);
   });
+}
+
+std::vector<std::byte> Cloud::release_rows() noexcept {
+  std::vector<std::byte> rows = std::move(rows_);
+  *this = Cloud();
+  return rows;
 }
 
 const Field* Cloud::find(std::string_view name) const noexcept {

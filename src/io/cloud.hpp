@@ -80,6 +80,10 @@ class Cloud {
   static Status from_floats(std::span<const float> values, std::size_t floats_per_point,
                             Cloud& out);
 
+  /// Gives away the memory of the rows, so that it can hold those of another cloud. This one has
+  /// no points and no fields then.
+  [[nodiscard]] std::vector<std::byte> release_rows() noexcept;
+
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "io/atomic_file.hpp"
 #include "io/field_type.hpp"
@@ -22,8 +23,20 @@
 namespace flagstone::io {
 namespace {
 
-constexpr std::uint32_t kitti_road = 40;
+constexpr std::uint8_t kitti_road = 40;
 constexpr std::uint32_t kitti_class_bits = 0xffff;
+
+/// The numbers that stand for labels; loops that the compiler can make of many numbers at once.
+template <class T>
+void number(std::span<const Label> labels, LabelMap map, T* to) {
+  if (map == LabelMap::flagstone) {
+    for (std::size_t i = 0; i < labels.size(); ++i) to[i] = static_cast<T>(labels[i]);
+  } else {
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      to[i] = labels[i] == Label::ground ? T{kitti_road} : T{0};
+    }
+  }
+}
 
 /// bad_file where `labels` of `item` bytes, which begin at `begin`, are not one a point.
 Status check_count(std::size_t begin, std::size_t labels, std::size_t item,
@@ -156,10 +169,10 @@ Status read_reference(const std::filesystem::path& path, std::size_t expected_po
   if (!format) {
     return refuse(path, "no label format has this ending (allowed: .label, .bin, .npy)");
   }
-  FileBytes file;
+  std::vector<std::byte> file;
   Status status = load_bytes(path, file);
   if (!status.ok()) return status;
-  return with_path(path, parse_reference(file.span(), *format, expected_points, classes));
+  return with_path(path, parse_reference(file, *format, expected_points, classes));
 }
 
 Status read_labels(const std::filesystem::path& path, std::size_t expected_points,
@@ -187,32 +200,33 @@ Status write_class_file(const std::filesystem::path& path, std::span<const std::
   return write_file(path, std::as_bytes(classes));
 }
 
-Status write_label_file(const std::filesystem::path& path, std::span<const Label> labels,
-                        LabelMap map) {
-  std::vector<std::uint32_t> classes;
+Status LabelWriter::write_label_file(const std::filesystem::path& path,
+                                     std::span<const Label> labels) {
   Status status = within_memory([&] {
-    classes.reserve(labels.size());
-    for (const Label label : labels) {
-      classes.push_back(map == LabelMap::flagstone ? static_cast<std::uint32_t>(label)
-                        : label == Label::ground   ? kitti_road
-                                                   : 0);
-    }
+    numbers_.resize(labels.size());
+    number(labels, map_, numbers_.data());
     return Status();
   });
   if (!status.ok()) return with_path(path, std::move(status));
-  return write_class_file(path, classes);
+  return write_class_file(path, numbers_);
 }
 
-Status write_label_npy(const std::filesystem::path& path, std::span<const Label> labels) {
-  std::string file;
+Status LabelWriter::write_label_npy(const std::filesystem::path& path,
+                                    std::span<const Label> labels) {
   Status status = within_memory([&] {
-    file = npy_header(FieldType::uint8, labels.size());
-    file.reserve(file.size() + labels.size());
-    for (const Label label : labels) file += static_cast<char>(label);
+    const std::string header = npy_header(FieldType::uint8, labels.size());
+    npy_.assign(header);  // by copy: a moved one would bring its own memory
+    npy_.resize(header.size() + labels.size());
+    number(labels, map_, npy_.data() + header.size());
     return Status();
   });
   if (!status.ok()) return with_path(path, std::move(status));
-  return write_file(path, file);
+  return write_file(path, npy_);
+}
+
+Status write_label_file(const std::filesystem::path& path, std::span<const Label> labels,
+                        LabelMap map) {
+  return LabelWriter(map).write_label_file(path, labels);
 }
 
 }  // namespace flagstone::io

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "flagstone/label.hpp"
@@ -19,16 +20,30 @@ enum class LabelMap {
   semantic_kitti,  ///< 40 (road) for ground, 0 (unlabelled) for all else
 };
 
-/// Writes SemanticKITTI's layout: one little-endian uint32 a point. The file is there whole or not
-/// at all. unwritable, out_of_memory. Never throws.
+/// Writes the labels of one scan after another, with memory it keeps. One per thread.
+class LabelWriter {
+ public:
+  explicit LabelWriter(LabelMap map = LabelMap::flagstone) : map_(map) {}
+
+  /// Writes SemanticKITTI's layout: one little-endian uint32 a point. The file is there whole or
+  /// not at all. unwritable, out_of_memory. Never throws.
+  Status write_label_file(const std::filesystem::path& path, std::span<const Label> labels);
+
+  /// The same numbers as a NumPy array, N x uint8: a quarter of the bytes. Errors likewise.
+  Status write_label_npy(const std::filesystem::path& path, std::span<const Label> labels);
+
+ private:
+  LabelMap map_;
+  std::vector<std::uint32_t> numbers_;
+  std::string npy_;
+};
+
+/// Writes one .label file; as LabelWriter.
 Status write_label_file(const std::filesystem::path& path, std::span<const Label> labels,
                         LabelMap map);
 
 /// The same for classes of any numbering, e.g. the truth of a simulated scan.
 Status write_class_file(const std::filesystem::path& path, std::span<const std::uint32_t> classes);
-
-/// Writes the codes as a NumPy array, N x uint8. unwritable, out_of_memory. Never throws.
-Status write_label_npy(const std::filesystem::path& path, std::span<const Label> labels);
 
 /// How a file of one class a point is laid out.
 enum class ClassFormat {

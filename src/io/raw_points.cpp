@@ -4,27 +4,44 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "io/message.hpp"
 #include "io/row_layout.hpp"
 
 namespace flagstone::io {
 
+namespace {
+
+/// Are these whole points?
+Status check_size(std::size_t size, std::size_t floats_per_point) {
+  if (floats_per_point < 3 || floats_per_point > max_fields) {
+    return invalid("{} floats a point (allowed: 3 to {}; set it with --columns)", floats_per_point,
+                   max_fields);
+  }
+  const std::size_t stride = floats_per_point * sizeof(float);
+  const std::size_t rest = size % stride;
+  if (rest == 0) return {};
+  return bad_byte(size - rest,
+                  "{} bytes are not a whole number of points of {} floats, {} bytes each (say "
+                  "how many floats a point has with --columns, or the file is cut off)",
+                  size, floats_per_point, stride);
+}
+
+}  // namespace
+
 Status read_raw_points(std::span<const std::byte> bytes, std::size_t floats_per_point, Cloud& out) {
   return within_memory([&] {
-    if (floats_per_point < 3 || floats_per_point > max_fields) {
-      return invalid("{} floats a point (allowed: 3 to {}; set it with --columns)",
-                     floats_per_point, max_fields);
-    }
-    const std::size_t stride = floats_per_point * sizeof(float);
-    if (const std::size_t rest = bytes.size() % stride; rest != 0) {
-      return bad_byte(bytes.size() - rest,
-                      "{} bytes are not a whole number of points of {} floats, {} bytes each (say "
-                      "how many floats a point has with --columns, or the file is cut off)",
-                      bytes.size(), floats_per_point, stride);
-    }
-    return Cloud::from_rows(unnamed_fields(floats_per_point, FieldType::float32),
-                            {bytes.begin(), bytes.end()}, out);
+    if (Status status = check_size(bytes.size(), floats_per_point); !status.ok()) return status;
+    return adopt_raw_points({bytes.begin(), bytes.end()}, floats_per_point, out);
+  });
+}
+
+Status adopt_raw_points(std::vector<std::byte> bytes, std::size_t floats_per_point, Cloud& out) {
+  return within_memory([&] {
+    if (Status status = check_size(bytes.size(), floats_per_point); !status.ok()) return status;
+    return Cloud::from_rows(unnamed_fields(floats_per_point, FieldType::float32), std::move(bytes),
+                            out);
   });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -518,7 +519,8 @@ TEST_F(LabelsMadeElsewhere, MayBeNumPyArrays) {
       labels.push_back(static_cast<Label>(code));
     }
     fs::create_directories(folder_ / "arrays");
-    ASSERT_TRUE(io::write_label_npy(folder_ / ("arrays/" + name + ".npy"), labels).ok());
+    ASSERT_TRUE(
+        io::LabelWriter().write_label_npy(folder_ / ("arrays/" + name + ".npy"), labels).ok());
   }
 
   const json found = both("kitti", "arrays");
@@ -541,13 +543,16 @@ TEST_F(LabelsMadeElsewhere, MayLieAsSemanticKittisPredictionsDo) {
 TEST_F(LabelsMadeElsewhere, MayBeWhatSegmentMakesOfTheWholeDataset) {
   put_labelled(folder_ / "tree/sequences/08", "000000", scan("a"));
   for (const std::string dataset : {"kitti", "tree"}) {
-    const Outcome outcome =
-        run({"segment", path(dataset), "--output", path("of-" + dataset), "--method", "gpf"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const std::string format : {"label", "u8"}) {
+      const std::string output = fmt::format("{}-of-{}", format, dataset);
+      const Outcome outcome = run({"segment", path(dataset), "--output", path(output), "--method",
+                                   "gpf", "--format", format});
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
 
-    const json found = both(dataset, "of-" + dataset);
+      const json found = both(dataset, output);
 
-    EXPECT_EQ(figures_of(found, 0), figures_of(found, 1)) << dataset;
+      EXPECT_EQ(figures_of(found, 0), figures_of(found, 1)) << output;
+    }
   }
 }
 

@@ -42,6 +42,13 @@ TEST(ReferenceFile, InAFolderTheLidarsegFileIsFound) {
   EXPECT_EQ(reference_file(folder.path(), scan), folder / "000007_lidarseg.bin");
 }
 
+TEST(ReferenceFile, InAFolderTheLabelArrayIsFound) {
+  const io::TemporaryFolder folder;
+  io::put_file(folder / "000007.label.npy", "");
+
+  EXPECT_EQ(reference_file(folder.path(), scan), folder / "000007.label.npy");
+}
+
 TEST(ReferenceFile, WhereThereIsNoneTheFirstNameIsGivenForTheErrorToName) {
   const io::TemporaryFolder folder;
 

@@ -75,8 +75,8 @@ TEST(ScanReport, JsonHasTheTimeOfAPictureWhereThereIsOne) {
 
 TEST(ScanReport, TheLineForPeopleNamesFilePointsShareAndTimes) {
   EXPECT_EQ(text_line(report_of("a.bin")),
-            "a.bin: 40 points, 25.0 % ground, 5 patches; read 1.5 ms, segment 2.25 ms, "
-            "write 3.5 ms");
+            "a.bin: 40 points, 25.0 % ground, 5 patches; read 1.50 ms, segment 2.25 ms, "
+            "write 3.50 ms");
 }
 
 TEST(ScanReport, TheLineForPeopleHasF1OfEveryProtocol) {

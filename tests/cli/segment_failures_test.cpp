@@ -50,7 +50,7 @@ TEST_F(AmongGoodScans, ABadFileIsOneLineWithFileAndByteAndTheOthersAreDone) {
               is_one_line_with("flagstone: " + (folder_ / "scans/b.bin").string() + ": byte 32: "));
   EXPECT_THAT(lines_of(outcome.out),
               ElementsAre(HasSubstr("a.bin: 4000 points"), HasSubstr("c.bin: 4000 points"),
-                          HasSubstr("2 of 3 scans segmented")));
+                          HasSubstr("2 of 3 scans segmented"), HasSubstr(" scans a second")));
   EXPECT_THAT(names_below(folder_ / "out"), ElementsAre("a.label", "c.label"));
 }
 

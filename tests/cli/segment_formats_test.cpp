@@ -13,6 +13,7 @@
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "io/file_contents.hpp"
+#include "io/label_files.hpp"
 #include "io/temporary_folder.hpp"
 
 namespace flagstone::cli {
@@ -47,6 +48,35 @@ TEST_P(SegmentFormat, KeepsEveryFieldAndAddsTheLabel) {
 
 INSTANTIATE_TEST_SUITE_P(All, SegmentFormat, testing::Values("npy", "pcd", "ply"),
                          [](const auto& format) { return format.param; });
+
+TEST(SegmentU8, IsOneByteAPointInANumPyArray) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.bin");
+
+  const Outcome outcome = run({"segment", (folder / "scan.bin").string(), "--output",
+                               (folder / "out").string(), "--format", "u8"});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(names_below(folder / "out"), ElementsAre("scan.label.npy"));
+  EXPECT_LT(std::filesystem::file_size(folder / "out/scan.label.npy"), 4000 + 200U);
+  std::vector<Label> labels;
+  ASSERT_TRUE(io::read_labels(folder / "out/scan.label.npy", 4000, labels).ok());
+  EXPECT_EQ(labels, labels_of(small_scan()));
+}
+
+TEST(SegmentU8, IsFoundAsAReference) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.bin");
+  const std::string scan = (folder / "scan.bin").string();
+  const std::string truth = (folder / "truth").string();
+  run({"segment", scan, "--output", truth, "--format", "u8", "--label-map", "semantic-kitti"});
+
+  const Outcome outcome =
+      run({"segment", scan, "--output", (folder / "out").string(), "--reference", truth});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::HasSubstr("F1 100.00 % (patchwork)"));
+}
 
 /// The points of `scan` whose label is, or is not, ground.
 io::Cloud part_of(const io::Cloud& scan, bool ground) {

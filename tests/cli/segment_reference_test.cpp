@@ -71,7 +71,8 @@ TEST_F(WithReference, F1IsPrintedPerScanAndProtocolAndAsAMean) {
                               testing::ContainsRegex("F1 [0-9.]+ % \\(patchwork\\+\\+\\)"));
   EXPECT_THAT(lines_of(outcome.out),
               ElementsAre(has_both, has_both, HasSubstr("protocol patchwork "),
-                          HasSubstr("protocol patchwork++ "), HasSubstr("2 of 2 scans")));
+                          HasSubstr("protocol patchwork++ "), HasSubstr("2 of 2 scans"),
+                          HasSubstr(" scans a second")));
 }
 
 TEST_F(WithReference, ScoresAreThoseOfTheEvaluationLibrary) {

@@ -145,15 +145,18 @@ TEST(Segment, AnyNumberOfThreadsWritesTheSameBytes) {
   EXPECT_EQ(files_below(folder / "5"), files_below(folder / "1"));
 }
 
-TEST(Segment, ManyScansEndInASummary) {
+TEST(Segment, ManyScansEndInASummaryAndInWhatBinds) {
   const io::TemporaryFolder folder;
   put_scans(folder / "scans", 3);
 
-  const Outcome outcome =
-      run({"segment", (folder / "scans").string(), "--output", (folder / "out").string()});
+  const Outcome outcome = run({"segment", (folder / "scans").string(), "--output",
+                               (folder / "out").string(), "--threads", "2"});
 
-  EXPECT_THAT(lines_of(outcome.out).back(),
-              StartsWith("3 of 3 scans segmented, 300 points, median "));
+  const std::vector<std::string> lines = lines_of(outcome.out);
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_THAT(lines[3], StartsWith("3 of 3 scans segmented, 300 points, median "));
+  EXPECT_THAT(lines[4], testing::ContainsRegex("^[0-9.]+ scans a second, [0-9.]+ MB/s read; time "
+                                               "of 2 workers: .* binds?: .* segmenting a scan$"));
 }
 
 TEST(Segment, APictureIsAPngBesideTheLabels) {

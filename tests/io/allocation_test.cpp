@@ -9,13 +9,16 @@
 #include <string>
 
 #include "io/bytes.hpp"
+#include "io/cloud_reader.hpp"
 #include "io/compress_lzf.hpp"
 #include "io/counted_allocation.hpp"
+#include "io/file_contents.hpp"
 #include "io/label_files.hpp"
 #include "io/npy.hpp"
 #include "io/pcd.hpp"
 #include "io/ply.hpp"
 #include "io/raw_points.hpp"
+#include "io/temporary_folder.hpp"
 
 namespace flagstone::io {
 namespace {
@@ -70,6 +73,32 @@ TEST(Allocation, IsTheFilesSizeForRawPoints) {
   Cloud cloud;
   EXPECT_LT(allocated_by([&] { EXPECT_TRUE(read_raw_points(file, 4, cloud).ok()); }),
             file.size() + any_file);
+}
+
+TEST(Allocation, IsSmallForRawFilesNoLargerThanOneReadBefore) {
+  const TemporaryFolder folder;
+  put_file(folder / "a.bin", std::string(1600000, '\0'));
+  put_file(folder / "b.bin", std::string(1599984, '\0'));
+  CloudReader reader;
+  EXPECT_LT(allocated_by([&] { EXPECT_TRUE(reader.read(folder / "a.bin").ok()); }),
+            1600000 + any_file);
+
+  EXPECT_LT(allocated_by([&] { EXPECT_TRUE(reader.read(folder / "b.bin").ok()); }), any_file);
+  EXPECT_LT(allocated_by([&] { EXPECT_TRUE(reader.read(folder / "a.bin").ok()); }), any_file);
+}
+
+TEST(Allocation, IsSmallForLabelFilesNoLongerThanOneWrittenBefore) {
+  const TemporaryFolder folder;
+  const std::vector<Label> labels(100000);
+  LabelWriter writer;
+  EXPECT_TRUE(writer.write_label_file(folder / "a.label", labels).ok());
+  EXPECT_TRUE(writer.write_label_npy(folder / "a.npy", labels).ok());
+
+  EXPECT_LT(allocated_by([&] {
+              EXPECT_TRUE(writer.write_label_file(folder / "b.label", labels).ok());
+              EXPECT_TRUE(writer.write_label_npy(folder / "b.npy", labels).ok());
+            }),
+            any_file);
 }
 
 TEST(Allocation, IsTheFilesSizeForBinaryPcd) {

@@ -29,6 +29,21 @@ Cloud two_points() {
   return cloud;
 }
 
+TEST(Cloud, GivesItsRowsMemoryAwayAndIsEmptyThen) {
+  Cloud cloud;
+  ASSERT_THAT(Cloud::from_rows({{"x"}, {"y"}, {"z"}}, Bytes(36), cloud), is_ok());
+  const std::byte* const place = cloud.bytes().data();
+
+  const Bytes rows = cloud.release_rows();
+
+  EXPECT_EQ(rows.data(), place);
+  EXPECT_EQ(rows.size(), 36U);
+  EXPECT_TRUE(cloud.empty());
+  EXPECT_TRUE(cloud.fields().empty());
+  EXPECT_TRUE(cloud.bytes().empty());
+  EXPECT_TRUE(cloud.view().empty());
+}
+
 TEST(Cloud, PacksFieldsInTheirOrder) {
   Cloud cloud;
   const std::vector<Field> fields{{"t", float64}, {"x"}, {"y"}, {"z"}, {"n", int16, 3}};

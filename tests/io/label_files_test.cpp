@@ -43,6 +43,39 @@ TEST(LabelFile, HoldsRoadForGroundInSemanticKittisTerms) {
   EXPECT_EQ(contents_of(folder / "a.label"), as_text(expected));
 }
 
+TEST(LabelFile, HoldsTheSameNumbersAsANumPyArray) {
+  const TemporaryFolder folder;
+
+  ASSERT_THAT(LabelWriter(LabelMap::flagstone).write_label_npy(folder / "a.npy", all_labels),
+              is_ok());
+  ASSERT_THAT(LabelWriter(LabelMap::semantic_kitti).write_label_npy(folder / "b.npy", all_labels),
+              is_ok());
+
+  std::vector<std::uint32_t> classes;
+  ASSERT_THAT(read_reference(folder / "a.npy", 5, classes), is_ok());
+  EXPECT_THAT(classes, ElementsAre(0, 1, 2, 3, 4));
+  ASSERT_THAT(read_reference(folder / "b.npy", 5, classes), is_ok());
+  EXPECT_THAT(classes, ElementsAre(0, 40, 0, 0, 0));
+  EXPECT_THAT(contents_of(folder / "b.npy"), ::testing::EndsWith(std::string("\0\x28\0\0\0", 5)));
+}
+
+TEST(LabelFile, HoldsNothingOfTheScanBefore) {
+  const TemporaryFolder folder;
+  LabelWriter writer;
+  const std::vector<Label> more(1000, Label::ground);
+  ASSERT_THAT(writer.write_label_file(folder / "more.label", more), is_ok());
+  ASSERT_THAT(writer.write_label_npy(folder / "more.npy", more), is_ok());
+
+  ASSERT_THAT(writer.write_label_file(folder / "a.label", all_labels), is_ok());
+  ASSERT_THAT(writer.write_label_npy(folder / "a.npy", all_labels), is_ok());
+
+  for (const std::string name : {"a.label", "a.npy"}) {
+    std::vector<Label> labels;
+    ASSERT_THAT(read_labels(folder / name, all_labels.size(), labels), is_ok());
+    EXPECT_EQ(labels, all_labels) << name;
+  }
+}
+
 TEST(LabelFile, IsNotThereWhereItCannotBeWritten) {
   const TemporaryFolder folder;
   EXPECT_THAT(write_label_file(folder / "none" / "a.label", all_labels, LabelMap::flagstone),
@@ -56,7 +89,7 @@ RC_GTEST_PROP(LabelFile, ReadsBackInBothFormats, ()) {
   std::vector<Label> from_npy;
 
   RC_ASSERT(write_label_file(folder / "a.label", labels, LabelMap::flagstone).ok());
-  RC_ASSERT(write_label_npy(folder / "a.npy", labels).ok());
+  RC_ASSERT(LabelWriter().write_label_npy(folder / "a.npy", labels).ok());
 
   RC_ASSERT(read_labels(folder / "a.label", labels.size(), from_label).ok());
   RC_ASSERT(read_labels(folder / "a.npy", labels.size(), from_npy).ok());

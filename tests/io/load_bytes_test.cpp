@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "io/bytes.hpp"
 #include "io/file_contents.hpp"
 #include "io/status_matchers.hpp"
 #include "io/temporary_folder.hpp"
@@ -24,24 +25,24 @@ TEST(LoadBytes, ReadsAFileWhole) {
   const TemporaryFolder folder;
   const std::string contents = "a\n" + std::string(100000, '\0') + "b";
   put_file(folder / "a", contents);
-  FileBytes bytes;
+  Bytes bytes;
 
   ASSERT_THAT(load_bytes(folder / "a", bytes), is_ok());
 
-  EXPECT_EQ(as_text(bytes.span()), contents);
+  EXPECT_EQ(as_text(bytes), contents);
 }
 
 TEST(LoadBytes, ReadsAnEmptyFile) {
   const TemporaryFolder folder;
   put_file(folder / "a", "");
-  FileBytes bytes;
+  Bytes bytes;
   EXPECT_THAT(load_bytes(folder / "a", bytes), is_ok());
-  EXPECT_TRUE(bytes.span().empty());
+  EXPECT_TRUE(bytes.empty());
 }
 
 TEST(LoadBytes, SaysThatAFileIsMissing) {
   const TemporaryFolder folder;
-  FileBytes bytes;
+  Bytes bytes;
   const auto path = folder / "none";
   EXPECT_THAT(load_bytes(path, bytes),
               fails(StatusCode::not_found,
@@ -49,14 +50,14 @@ TEST(LoadBytes, SaysThatAFileIsMissing) {
 }
 
 TEST(LoadBytes, KeepsAMessageOnOneLineWhateverThePath) {
-  FileBytes bytes;
+  Bytes bytes;
   EXPECT_THAT(load_bytes("no\nsuch\nfile", bytes),
               fails(StatusCode::not_found, StartsWith(R"(no\x0asuch\x0afile: )")));
 }
 
 TEST(LoadBytes, RefusesAFolder) {
   const TemporaryFolder folder;
-  FileBytes bytes;
+  Bytes bytes;
   EXPECT_THAT(load_bytes(folder.path(), bytes),
               fails(StatusCode::unreadable, HasSubstr("is a folder")));
 }
@@ -64,13 +65,13 @@ TEST(LoadBytes, RefusesAFolder) {
 TEST(LoadBytes, RefusesAPipeWithoutWaitingForIt) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-  FileBytes bytes;
+  Bytes bytes;
   EXPECT_THAT(load_bytes(folder / "pipe", bytes),
               fails(StatusCode::unreadable, HasSubstr("is a pipe")));
 }
 
 TEST(LoadBytes, RefusesADevice) {
-  FileBytes bytes;
+  Bytes bytes;
   EXPECT_THAT(load_bytes("/dev/zero", bytes),
               fails(StatusCode::unreadable, HasSubstr("is a device")));
 }
@@ -79,7 +80,7 @@ TEST(LoadBytes, RefusesWhatItMayNotRead) {
   const TemporaryFolder folder;
   put_file(folder / "a", "x");
   std::filesystem::permissions(folder / "a", std::filesystem::perms::none);
-  FileBytes bytes;
+  Bytes bytes;
   const WithoutRoot nobody;
   EXPECT_THAT(load_bytes(folder / "a", bytes),
               fails(StatusCode::unreadable, HasSubstr("Permission denied")));
@@ -89,9 +90,44 @@ TEST(LoadBytes, RefusesAFileBeyondTheLimitBeforeAllocating) {
   const TemporaryFolder folder;
   put_file(folder / "a", "");
   std::filesystem::resize_file(folder / "a", max_file_size + 1);  // a hole, it takes no room
-  FileBytes bytes;
+  Bytes bytes;
   EXPECT_THAT(load_bytes(folder / "a", bytes),
               fails(StatusCode::bad_file, HasSubstr("at most 8589934592")));
+}
+
+TEST(LoadBytes, UsesTheMemoryThatItIsHanded) {
+  const TemporaryFolder folder;
+  put_file(folder / "long", std::string(5000, 'a'));
+  put_file(folder / "short", "bcd");
+  Bytes bytes;
+  ASSERT_THAT(load_bytes(folder / "long", bytes), is_ok());
+  const std::byte* const place = bytes.data();
+
+  ASSERT_THAT(load_bytes(folder / "short", bytes), is_ok());
+
+  EXPECT_EQ(as_text(bytes), "bcd");
+  EXPECT_EQ(bytes.data(), place);
+}
+
+TEST(LoadBytes, LeavesNothingOfAnEarlierFileWhereItFails) {
+  const TemporaryFolder folder;
+  Bytes bytes(100);
+  EXPECT_FALSE(load_bytes(folder / "none", bytes).ok());
+  EXPECT_TRUE(bytes.empty());
+}
+
+TEST(ReadAhead, LeavesFilesReadableAndDoesNotWaitForPipes) {
+  const TemporaryFolder folder;
+  put_file(folder / "a", "x");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+
+  read_ahead(folder / "none");
+  read_ahead(folder / "pipe");
+  read_ahead(folder / "a");
+
+  Bytes bytes;
+  EXPECT_THAT(load_bytes(folder / "a", bytes), is_ok());
+  EXPECT_EQ(as_text(bytes), "x");
 }
 
 }  // namespace

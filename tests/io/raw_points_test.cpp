@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "io/bytes.hpp"
 #include "io/status_matchers.hpp"
 
@@ -21,6 +23,24 @@ TEST(RawPoints, AreReadByRows) {
   EXPECT_EQ(cloud.size(), 2U);
   EXPECT_EQ(cloud.view()[1].z, 6.0F);
   EXPECT_EQ(cloud.value(1, *cloud.find("intensity")), 0.25);
+}
+
+TEST(RawPoints, AreAdoptedWhereTheyAre) {
+  Cloud cloud;
+  Bytes file = numbers({1.0F, 2.0F, 3.0F, 0.5F});
+  const std::byte* const place = file.data();
+
+  ASSERT_THAT(adopt_raw_points(std::move(file), 4, cloud), is_ok());
+
+  EXPECT_EQ(cloud.bytes().data(), place);
+  EXPECT_EQ(cloud.view()[0].z, 3.0F);
+}
+
+TEST(RawPoints, AreNotAdoptedInPart) {
+  Cloud cloud;
+  EXPECT_THAT(adopt_raw_points(Bytes(45), 4, cloud), is_bad_at(32, "45 bytes"));
+  EXPECT_THAT(adopt_raw_points(Bytes(45), 2, cloud),
+              fails(StatusCode::invalid_argument, HasSubstr("allowed: 3 to 1024")));
 }
 
 TEST(RawPoints, MayBeNone) {

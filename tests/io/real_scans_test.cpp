@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/bytes.hpp"
 #include "io/field_type.hpp"
 #include "io/label_files.hpp"
 #include "io/load_bytes.hpp"
@@ -95,15 +96,15 @@ TEST_F(RealScans, OfTheOusterHaveMixedFieldsAndZeroReturns) {
 }
 
 TEST_F(RealScans, CutOffAnywhereAreErrorsWithAnOffset) {
-  FileBytes file;
+  Bytes file;
   ASSERT_THAT(load_bytes(tests::real_scan_folder() / "airborne/samp31.pcd", file), is_ok());
   // The writer left room behind the compressed data, which says itself how long it is.
   const std::string_view last_line = "DATA binary_compressed\n";
-  const std::size_t data = as_text(file.span()).find(last_line) + last_line.size();
-  const std::size_t end = data + 8 + load<std::uint32_t>(file.span().data() + data);
+  const std::size_t data = as_text(file).find(last_line) + last_line.size();
+  const std::size_t end = data + 8 + load<std::uint32_t>(file.data() + data);
   for (std::size_t size = 0; size < end; size += 997) {
     Cloud cloud;
-    EXPECT_THAT(read_pcd(file.span().first(size), cloud),
+    EXPECT_THAT(read_pcd(std::span(file).first(size), cloud),
                 fails(StatusCode::bad_file, ::testing::StartsWith(fmt::format("byte {}: ", size))));
   }
 }
