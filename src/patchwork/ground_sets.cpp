@@ -53,86 +53,154 @@ HWY_INLINE FloatVector add_if(FloatTag /*d*/, M /*inside*/, FloatVector sum, Flo
 }
 #endif
 
-/// Sums over the set's points among `places` places, in vectors of `SumTag`, into 16 lanes each;
-/// returns how many points they are.
+/// Sums of one vector of lanes.
 template <class SumTag>
-HWY_INLINE std::size_t sum_lanes(const float* HWY_RESTRICT xs, const float* HWY_RESTRICT ys,
-                                 const float* HWY_RESTRICT zs, std::size_t places,
-                                 const GroundSet& set,
-                                 hn::TFromD<SumTag> (&HWY_RESTRICT sums)[sum_count][lanes]) {
+class LaneSums {
+ public:
+  HWY_INLINE LaneSums() : x_(hn::Zero(SumTag())) {
+    y_ = z_ = xx_ = xy_ = xz_ = yy_ = yz_ = zz_ = x_;
+  }
+
+  template <class M, class V>
+  HWY_INLINE void add(M inside, V px, V py, V pz) {
+    const SumTag ds;
+    const Sum x = widen_if(ds, inside, px);
+    const Sum y = widen_if(ds, inside, py);
+    const Sum z = widen_if(ds, inside, pz);
+    x_ = add_if(ds, inside, x_, x);
+    y_ = add_if(ds, inside, y_, y);
+    z_ = add_if(ds, inside, z_, z);
+    xx_ = add_if(ds, inside, xx_, hn::Mul(x, x));
+    xy_ = add_if(ds, inside, xy_, hn::Mul(x, y));
+    xz_ = add_if(ds, inside, xz_, hn::Mul(x, z));
+    yy_ = add_if(ds, inside, yy_, hn::Mul(y, y));
+    yz_ = add_if(ds, inside, yz_, hn::Mul(y, z));
+    zz_ = add_if(ds, inside, zz_, hn::Mul(z, z));
+  }
+
+  HWY_INLINE void store(hn::TFromD<SumTag> (&HWY_RESTRICT sums)[sum_count][lanes],
+                        std::size_t lane) const {
+    const SumTag ds;
+    hn::StoreU(x_, ds, sums[0] + lane);
+    hn::StoreU(y_, ds, sums[1] + lane);
+    hn::StoreU(z_, ds, sums[2] + lane);
+    hn::StoreU(xx_, ds, sums[3] + lane);
+    hn::StoreU(xy_, ds, sums[4] + lane);
+    hn::StoreU(xz_, ds, sums[5] + lane);
+    hn::StoreU(yy_, ds, sums[6] + lane);
+    hn::StoreU(yz_, ds, sums[7] + lane);
+    hn::StoreU(zz_, ds, sums[8] + lane);
+  }
+
+ private:
+  using Sum = hn::Vec<SumTag>;
+  Sum x_, y_, z_, xx_, xy_, xz_, yy_, yz_, zz_;
+};
+
+// The sum of sixteen lanes is always that of halves: l + (l + 8), then + 4, + 2, + 1.
+
+/// The quarters of sixteen lanes added up.
+template <class D>
+HWY_INLINE hn::Vec<D> sum_of_quarters(D d, const hn::TFromD<D>* sums) {
+  const auto quarter = [&](std::size_t k) HWY_ATTR { return hn::LoadU(d, sums + 4 * k); };
+  return hn::Add(hn::Add(quarter(0), quarter(2)), hn::Add(quarter(1), quarter(3)));
+}
+
+/// Adds the sums of the lanes to the totals.
+template <class T>
+HWY_INLINE void add_lanes(const T (&HWY_RESTRICT sums)[sum_count][lanes], double* totals) {
+  const hn::CappedTag<T, 4> d;
+  for (std::size_t k = 0; k < sum_count; ++k) {
+    T quarters[4];
+    for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
+      hn::StoreU(sum_of_quarters(d, sums[k] + lane), d, quarters + lane);
+    }
+    totals[k] += static_cast<double>((quarters[0] + quarters[2]) + (quarters[1] + quarters[3]));
+  }
+}
+
+#if HWY_TARGET != HWY_SCALAR
+
+/// The same, four sums at a time.
+HWY_INLINE void add_lanes(const float (&HWY_RESTRICT sums)[sum_count][lanes], double* totals) {
+  const hn::CappedTag<float, 4> d;
+  float sums_of_lanes[4 * 3];
+  for (std::size_t k = 0; k < sum_count; k += 4) {
+    const auto of = [&](std::size_t i)
+                        HWY_ATTR { return sum_of_quarters(d, sums[std::min(k + i, sum_count - 1)]); };
+    const auto halves = [&](std::size_t i) HWY_ATTR {  // lanes: of(i), of(i + 1), and again
+      const auto a = of(i);
+      const auto b = of(i + 1);
+      return hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
+    };
+    const auto low = halves(0);
+    const auto high = halves(2);
+    hn::StoreU(hn::Add(hn::ConcatLowerLower(d, high, low), hn::ConcatUpperUpper(d, high, low)), d,
+               sums_of_lanes + k);
+  }
+  for (std::size_t k = 0; k < sum_count; ++k) totals[k] += static_cast<double>(sums_of_lanes[k]);
+}
+
+#endif
+
+/// Moments of those points of a bin for which `inside(d, first place, x, y, z)` is set, in vectors of
+/// `SumTag`.
+template <class SumTag, class Inside>
+HWY_INLINE void sum_bin(const BinBatch& batch, std::size_t bin, MomentsBatch& moments,
+                        const Inside& inside) {
   const SumTag ds;
   const hn::Rebind<float, SumTag> d;
-  using Sum = hn::Vec<SumTag>;
-  std::size_t count = 0;
-  for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(ds)) {
-    Sum sx = hn::Zero(ds);
-    Sum sy = sx;
-    Sum sz = sx;
-    Sum sxx = sx;
-    Sum sxy = sx;
-    Sum sxz = sx;
-    Sum syy = sx;
-    Sum syz = sx;
-    Sum szz = sx;
-    for (std::size_t i = lane; i < places; i += lanes) {
-      const auto px = hn::Load(d, xs + i);
-      const auto py = hn::Load(d, ys + i);
-      const auto pz = hn::Load(d, zs + i);
-      const auto inside = in_set(d, px, py, pz, set);
-      count += hn::CountTrue(d, inside);
-      const Sum x = widen_if(ds, inside, px);
-      const Sum y = widen_if(ds, inside, py);
-      const Sum z = widen_if(ds, inside, pz);
-      sx = add_if(ds, inside, sx, x);
-      sy = add_if(ds, inside, sy, y);
-      sz = add_if(ds, inside, sz, z);
-      sxx = add_if(ds, inside, sxx, hn::Mul(x, x));
-      sxy = add_if(ds, inside, sxy, hn::Mul(x, y));
-      sxz = add_if(ds, inside, sxz, hn::Mul(x, z));
-      syy = add_if(ds, inside, syy, hn::Mul(y, y));
-      syz = add_if(ds, inside, syz, hn::Mul(y, z));
-      szz = add_if(ds, inside, szz, hn::Mul(z, z));
-    }
-    hn::StoreU(sx, ds, sums[0] + lane);
-    hn::StoreU(sy, ds, sums[1] + lane);
-    hn::StoreU(sz, ds, sums[2] + lane);
-    hn::StoreU(sxx, ds, sums[3] + lane);
-    hn::StoreU(sxy, ds, sums[4] + lane);
-    hn::StoreU(sxz, ds, sums[5] + lane);
-    hn::StoreU(syy, ds, sums[6] + lane);
-    hn::StoreU(syz, ds, sums[7] + lane);
-    hn::StoreU(szz, ds, sums[8] + lane);
-  }
-  return count;
-}
-
-/// The sum of sixteen lanes: always halves upon halves.
-template <class T>
-HWY_INLINE double sum_of_lanes(T (&HWY_RESTRICT sums)[lanes]) {
-  const hn::CappedTag<T, 4> d;
-  for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
-    const auto quarter = [&](std::size_t k) HWY_ATTR { return hn::LoadU(d, sums + 4 * k + lane); };
-    hn::StoreU(hn::Add(hn::Add(quarter(0), quarter(2)), hn::Add(quarter(1), quarter(3))), d,
-               sums + lane);
-  }
-  return static_cast<double>((sums[0] + sums[2]) + (sums[1] + sums[3]));
-}
-
-template <class SumTag>
-void sum_bin(const BinBatch& batch, std::size_t bin, const GroundSet& set, MomentsBatch& moments) {
+  const float* HWY_RESTRICT x = batch.x(bin);
+  const float* HWY_RESTRICT y = batch.y(bin);
+  const float* z = batch.z(bin);
   constexpr std::size_t most_places = 64 * lanes;  // of sums in single precision
+  const std::size_t places = batch.places(bin);
   std::size_t count = 0;
   double totals[sum_count] = {};
-  const std::size_t places = batch.places(bin);
   for (std::size_t begin = 0; begin < places; begin += most_places) {
+    const std::size_t end = std::min(begin + most_places, places);
     HWY_ALIGN hn::TFromD<SumTag> sums[sum_count][lanes];
-    count += sum_lanes<SumTag>(batch.x(bin) + begin, batch.y(bin) + begin, batch.z(bin) + begin,
-                               std::min(most_places, places - begin), set, sums);
-    for (std::size_t k = 0; k < sum_count; ++k) totals[k] += sum_of_lanes(sums[k]);
+    for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(ds)) {
+      LaneSums<SumTag> lane_sums;
+      for (std::size_t i = begin + lane; i < end; i += lanes) {
+        const auto px = hn::Load(d, x + i);
+        const auto py = hn::Load(d, y + i);
+        auto pz = hn::Load(d, z + i);
+        const auto mask = inside(d, i, px, py, pz);
+        count += hn::CountTrue(d, mask);
+        lane_sums.add(mask, px, py, pz);
+      }
+      lane_sums.store(sums, lane);
+    }
+    add_lanes(sums, totals);
   }
   moments.count[bin] = static_cast<double>(count);
   for (std::size_t k = 0; k < 3; ++k) moments.sum[k][bin] = totals[k];
   for (std::size_t k = 0; k < 6; ++k) moments.squares[k][bin] = totals[3 + k];
+}
+
+void sum_first_bins(BinBatch& batch, const std::array<FirstSet, batch_size>& sets,
+                    MomentsBatch& moments) {
+  for (std::size_t bin = 0; bin < batch.count(); ++bin) {
+    const FirstSet& set = sets[bin];
+    float* shifted = batch.z(bin);
+    sum_bin<FloatTag>(batch, bin, moments,
+                      [&](FloatTag d, std::size_t i, FloatVector, FloatVector, FloatVector& z)
+                          HWY_ATTR {
+                            z = hn::Sub(z, hn::Set(d, set.origin));
+                            hn::Store(z, d, shifted + i);
+                            return hn::And(hn::Lt(z, hn::Set(d, set.top)),
+                                           hn::Ge(z, hn::Set(d, set.bottom)));
+                          });
+  }
+}
+
+template <class SumTag>
+HWY_INLINE void sum_set(const BinBatch& batch, std::size_t bin, const GroundSet& set,
+                        MomentsBatch& moments) {
+  sum_bin<SumTag>(batch, bin, moments,
+                  [&](auto d, std::size_t, auto x, auto y, auto z)
+                      HWY_ATTR { return in_set(d, x, y, z, set); });
 }
 
 void sum_bins(const BinBatch& batch, const GroundSets& sets, BinMask wanted, Precision precision,
@@ -140,17 +208,10 @@ void sum_bins(const BinBatch& batch, const GroundSets& sets, BinMask wanted, Pre
   for (std::size_t bin = 0; bin < batch.count(); ++bin) {
     if ((wanted >> bin & 1U) == 0) continue;
     if (precision == Precision::single) {
-      sum_bin<FloatTag>(batch, bin, sets[bin], moments);
+      sum_set<FloatTag>(batch, bin, sets[bin], moments);
     } else {
-      sum_bin<DoubleTag>(batch, bin, sets[bin], moments);
+      sum_set<DoubleTag>(batch, bin, sets[bin], moments);
     }
-  }
-}
-
-void shift(float* heights, std::size_t places, float origin) {
-  const FloatTag d;
-  for (std::size_t i = 0; i < places; i += hn::Lanes(d)) {
-    hn::Store(hn::Sub(hn::Load(d, heights + i), hn::Set(d, origin)), d, heights + i);
   }
 }
 
@@ -162,7 +223,7 @@ HWY_AFTER_NAMESPACE();
 namespace flagstone::patchwork {
 namespace {
 HWY_EXPORT(sum_bins);
-HWY_EXPORT(shift);
+HWY_EXPORT(sum_first_bins);
 }  // namespace
 
 void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
@@ -170,10 +231,9 @@ void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
   HWY_DYNAMIC_DISPATCH(sum_bins)(batch, sets, wanted, precision, moments);
 }
 
-void shift_heights(BinBatch& batch, const std::array<float, batch_size>& origins) noexcept {
-  for (std::size_t i = 0; i < batch.count(); ++i) {
-    HWY_DYNAMIC_DISPATCH(shift)(batch.z(i), batch.places(i), origins[i]);
-  }
+void sum_first_moments(BinBatch& batch, const std::array<FirstSet, batch_size>& sets,
+                       MomentsBatch& moments) noexcept {
+  HWY_DYNAMIC_DISPATCH(sum_first_bins)(batch, sets, moments);
 }
 
 }  // namespace flagstone::patchwork

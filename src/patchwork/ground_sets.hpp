@@ -36,7 +36,15 @@ enum class Precision : std::uint8_t {
 void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
                  Precision precision, MomentsBatch& moments) noexcept;
 
-/// Moves the origin of z to `origins[i]` metres in each bin of the batch.
-void shift_heights(BinBatch& batch, const std::array<float, batch_size>& origins) noexcept;
+/// Where the first set of a bin begins, metres.
+struct FirstSet {
+  float origin;       ///< where heights are seen from afterwards
+  float bottom, top;  ///< of the set, seen from there: bottom <= z < top, eq. (4)
+};
+
+/// Moves the origin of z in every bin of the batch, and takes the moments of the first sets on the
+/// way, in single precision.
+void sum_first_moments(BinBatch& batch, const std::array<FirstSet, batch_size>& sets,
+                       MomentsBatch& moments) noexcept;
 
 }  // namespace flagstone::patchwork

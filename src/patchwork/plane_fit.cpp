@@ -34,44 +34,47 @@ PlaneFit::PlaneFit(const PatchworkConfig& config)
 
 void PlaneFit::fit(BinBatch& batch, const std::array<std::uint16_t, batch_size>& zones,
                    StageClock& clock, Result& result) noexcept {
-  // z-bar_init, eq. (4); heights are seen from there from now on.
+  // z-bar_init, eq. (4)
   std::array<float, batch_size> seed_cuts{};
   for (std::size_t i = 0; i < batch.count(); ++i) seed_cuts[i] = round_up(seed_cuts_[zones[i]]);
   Batch initial_heights;
   seed_heights_.find(batch, seed_cuts, initial_heights);
-  std::array<float, batch_size> z_origins{};
-  for (std::size_t i = 0; i < batch.count(); ++i) {
-    z_origins[i] = static_cast<float>(initial_heights[i]);
-    result.origins[i] = {batch.origin(i).x, batch.origin(i).y, z_origins[i]};
-  }
-  shift_heights(batch, z_origins);
   clock.end(Stage::seed);
 
-  // G^0, eq. (4), with the points below the margin kept out where the paper has it so.
+  // G^0, eq. (4), with the points below the margin kept out where the paper has it so. Heights are
+  // seen from z-bar_init from now on.
   GroundSets& sets = result.sets;
+  std::array<FirstSet, batch_size> first_sets{};
   for (std::size_t i = 0; i < batch.count(); ++i) {
-    const double floor = keep_below_margin_ ? -std::numeric_limits<double>::infinity()
-                                            : seed_cuts_[zones[i]] - z_origins[i];
-    const double ceiling = initial_heights[i] + seed_height_ - z_origins[i];
-    sets[i] = {0, 0, 1, round_up(floor), round_up(ceiling)};
+    const auto origin = static_cast<float>(initial_heights[i]);
+    const double bottom = keep_below_margin_ ? -std::numeric_limits<double>::infinity()
+                                             : seed_cuts_[zones[i]] - origin;
+    const double top = initial_heights[i] + seed_height_ - origin;
+    first_sets[i] = {origin, round_up(bottom), round_up(top)};
+    sets[i] = {0, 0, 1, first_sets[i].bottom, first_sets[i].top};
+    result.origins[i] = {batch.origin(i).x, batch.origin(i).y, origin};
   }
+  sum_first_moments(batch, first_sets, moments_);
 
   // G^(l+1), eqs. (5) and (6): the points less than M_d above the plane of G^l, and not so far
   // below it that they are noise.
-  PlaneBatch planes;
-  result.exists = all_of(batch);
-  for (int l = 0; l < iterations_; ++l) {
-    result.exists = fit_planes_of(batch, sets, result.exists, clock, planes);
-    for (std::size_t i = 0; i < batch.count(); ++i) sets[i] = set_below(planes, i);
+  PlaneBatch& planes = result.judged;
+  result.exists = fit_sets(batch, sets, all_of(batch), clock, planes);
+  for (int l = 1; l < iterations_; ++l) {
+    choose_next_sets(planes, sets);
+    sum_moments(batch, sets, result.exists, Precision::single, moments_);
+    result.exists = fit_sets(batch, sets, result.exists, clock, planes);
   }
-  if (judge_final_set_) result.exists = fit_planes_of(batch, sets, result.exists, clock, planes);
-  result.judged = planes;
+  choose_next_sets(planes, sets);
+  if (judge_final_set_) {
+    sum_moments(batch, sets, result.exists, Precision::single, moments_);
+    result.exists = fit_sets(batch, sets, result.exists, clock, planes);
+  }
 }
 
-/// Eq. (3) for the bins in `wanted`; returns those that have a plane.
-BinMask PlaneFit::fit_planes_of(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
-                                StageClock& clock, PlaneBatch& planes) noexcept {
-  sum_moments(batch, sets, wanted, Precision::single, moments_);
+/// Eq. (3) for the bins in `wanted`, whose moments are taken; returns those that have a plane.
+BinMask PlaneFit::fit_sets(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
+                           StageClock& clock, PlaneBatch& planes) noexcept {
   clock.end(Stage::moments);
   const BinMask doubtful = fit_planes(moments_, planes) & wanted;
   clock.end(Stage::solve);
@@ -89,12 +92,14 @@ BinMask PlaneFit::fit_planes_of(const BinBatch& batch, const GroundSets& sets, B
   return exists & wanted;
 }
 
-GroundSet PlaneFit::set_below(const PlaneBatch& planes, std::size_t i) const noexcept {
-  return {.normal_x = static_cast<float>(planes.normal[0][i]),
-          .normal_y = static_cast<float>(planes.normal[1][i]),
-          .normal_z = static_cast<float>(planes.normal[2][i]),
-          .bottom = static_cast<float>(-noise_margin_ - planes.d[i]),
-          .top = static_cast<float>(distance_margin_ - planes.d[i])};
+void PlaneFit::choose_next_sets(const PlaneBatch& planes, GroundSets& sets) const noexcept {
+  for (std::size_t i = 0; i < batch_size; ++i) {
+    sets[i] = {.normal_x = static_cast<float>(planes.normal[0][i]),
+               .normal_y = static_cast<float>(planes.normal[1][i]),
+               .normal_z = static_cast<float>(planes.normal[2][i]),
+               .bottom = static_cast<float>(-noise_margin_ - planes.d[i]),
+               .top = static_cast<float>(distance_margin_ - planes.d[i])};
+  }
 }
 
 }  // namespace flagstone::patchwork

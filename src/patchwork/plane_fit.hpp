@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/plane.hpp"
 #include "flagstone/patchwork_config.hpp"
@@ -39,10 +41,9 @@ class PlaneFit {
            Result& result) noexcept;
 
  private:
-  [[nodiscard]] BinMask fit_planes_of(const BinBatch& batch, const GroundSets& sets,
-                                      BinMask wanted, StageClock& clock,
-                                      PlaneBatch& planes) noexcept;
-  [[nodiscard]] GroundSet set_below(const PlaneBatch& planes, std::size_t i) const noexcept;
+  [[nodiscard]] BinMask fit_sets(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
+                                 StageClock& clock, PlaneBatch& planes) noexcept;
+  void choose_next_sets(const PlaneBatch& planes, GroundSets& sets) const noexcept;
 
   std::vector<double> seed_cuts_;  // M_h * h_s of each zone, metres
   double seed_height_;             // z_seed
