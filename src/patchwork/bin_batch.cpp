@@ -64,24 +64,17 @@ void gather_runs(const ScanPoints& scan, std::span<const Run> runs, const Packed
   pad(bin, size);
 }
 
-void gather_points(const ScanPoints& scan, std::span<const std::uint32_t> points,
-                   const PackedBin& bin) {
+void gather_points(std::span<const MovedPoint> points, const PackedBin& bin) {
   const FloatTag d;
-  const IntTag di;
   const FloatVector origin_x = hn::Set(d, bin.origin.x);
   const FloatVector origin_y = hn::Set(d, bin.origin.y);
-  const auto* indices = reinterpret_cast<const std::int32_t*>(points.data());
-  std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= points.size(); i += hn::Lanes(d)) {
-    const IntVector from = hn::LoadU(di, indices + i);
-    hn::StoreU(hn::Sub(hn::GatherIndex(d, scan.x(), from), origin_x), d, bin.x + i);
-    hn::StoreU(hn::Sub(hn::GatherIndex(d, scan.y(), from), origin_y), d, bin.y + i);
-    hn::StoreU(hn::GatherIndex(d, scan.z(), from), d, bin.z + i);
-  }
-  for (; i < points.size(); ++i) {
-    bin.x[i] = scan.x()[points[i]] - bin.origin.x;
-    bin.y[i] = scan.y()[points[i]] - bin.origin.y;
-    bin.z[i] = scan.z()[points[i]];
+  const float* records = &points.front().x;
+  for (std::size_t i = 0; i < points.size(); i += hn::Lanes(d)) {
+    FloatVector x, y, z;
+    load_points<4>(records + 4 * i, x, y, z);
+    hn::StoreU(hn::Sub(x, origin_x), d, bin.x + i);
+    hn::StoreU(hn::Sub(y, origin_y), d, bin.y + i);
+    hn::StoreU(z, d, bin.z + i);
   }
   pad(bin, points.size());
 }
@@ -96,8 +89,8 @@ namespace {
 HWY_EXPORT(gather_runs);
 HWY_EXPORT(gather_points);
 
-BinBatch::Origin midway(const ScanPoints& scan, std::size_t first, std::size_t last) {
-  return {(scan.x()[first] + scan.x()[last]) / 2, (scan.y()[first] + scan.y()[last]) / 2};
+BinBatch::Origin midway(float x1, float y1, float x2, float y2) {
+  return {(x1 + x2) / 2, (y1 + y2) / 2};
 }
 
 }  // namespace
@@ -113,12 +106,15 @@ void BinBatch::gather(const ScanPoints& scan, const BinGroups& groups) noexcept 
     firsts_[i] = first;
     PackedBin packed{.origin = {}, .x = x(i), .y = y(i), .z = z(i)};
     if (groups.scattered()) {
-      const std::span<const std::uint32_t> points = groups.points(bins_[i]);
-      packed.origin = midway(scan, points.front(), points.back());
-      HWY_DYNAMIC_DISPATCH(gather_points)(scan, points, packed);
+      const std::span<const MovedPoint> points = groups.points(bins_[i]);
+      packed.origin =
+          midway(points.front().x, points.front().y, points.back().x, points.back().y);
+      HWY_DYNAMIC_DISPATCH(gather_points)(points, packed);
     } else {
       const std::span<const Run> runs = groups.runs(bins_[i]);
-      packed.origin = midway(scan, runs.front().begin, runs.back().begin + runs.back().length - 1);
+      const std::size_t begin = runs.front().begin;
+      const std::size_t last = runs.back().begin + runs.back().length - 1;
+      packed.origin = midway(scan.x()[begin], scan.y()[begin], scan.x()[last], scan.y()[last]);
       HWY_DYNAMIC_DISPATCH(gather_runs)(scan, runs, packed);
     }
     origins_[i] = packed.origin;

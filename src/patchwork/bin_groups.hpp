@@ -17,10 +17,16 @@ struct Run {
   std::uint32_t length;  ///< number of points, at least 1
 };
 
-/// The points of a scan grouped by bin, without moving one: a counting sort of their runs.
+/// A point that was moved to its bin.
+struct MovedPoint {
+  float x, y, z;
+  std::uint32_t index;  ///< in the cloud
+};
+
+/// The points of a scan grouped by bin: a counting sort of their runs, without moving a point.
 ///
 /// Sorting runs is a tenth of the work of sorting points. Where a cloud comes in no order, runs are
-/// hardly longer than a point; then single points are sorted instead.
+/// hardly longer than a point; then the points themselves are sorted, and moved.
 class BinGroups {
  public:
   /// Makes room for scans of `points` points over `bins` bins; may throw std::bad_alloc.
@@ -35,7 +41,7 @@ class BinGroups {
     return static_cast<std::uint32_t>(tallies_.data()[bin] >> 32U);
   }
 
-  /// Whether runs are so short that the points are listed one by one.
+  /// Whether runs are so short that the points were moved one by one.
   [[nodiscard]] bool scattered() const noexcept { return scattered_; }
 
   /// The runs of a bin in input order; unless scattered.
@@ -43,8 +49,8 @@ class BinGroups {
     return {runs_.data() + first(bin), runs_.data() + first(bin + 1)};
   }
 
-  /// Indices of the points of a bin in input order; if scattered.
-  [[nodiscard]] std::span<const std::uint32_t> points(std::uint32_t bin) const noexcept {
+  /// The points of a bin in input order; if scattered. 16 more may be read and are meaningless.
+  [[nodiscard]] std::span<const MovedPoint> points(std::uint32_t bin) const noexcept {
     return {points_.data() + first(bin), points_.data() + first(bin + 1)};
   }
 
@@ -60,7 +66,7 @@ class BinGroups {
   Buffer<std::uint32_t> firsts_;   ///< where a bin begins in the sorted list
   Buffer<std::uint32_t> next_;     ///< where its next entry goes
   Buffer<Run> runs_;
-  Buffer<std::uint32_t> points_;
+  Buffer<MovedPoint> points_;
   bool scattered_ = false;
 };
 

@@ -98,8 +98,8 @@ LabelCounts BinLabels::write(const BinBatch& batch, std::size_t i, const GroundS
   std::uint8_t* packed = packed_.data();
   const LabelCounts counts = HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, packed);
   if (groups.scattered()) {
-    for (const std::uint32_t point : groups.points(batch.bin(i))) {
-      labels[point] = static_cast<Label>(*packed++);
+    for (const MovedPoint& point : groups.points(batch.bin(i))) {
+      labels[point.index] = static_cast<Label>(*packed++);
     }
   } else {
     HWY_DYNAMIC_DISPATCH(copy_runs)
@@ -111,7 +111,7 @@ LabelCounts BinLabels::write(const BinBatch& batch, std::size_t i, const GroundS
 std::uint32_t BinLabels::fill(const BinGroups& groups, std::uint32_t bin, Label label,
                               std::span<Label> labels) noexcept {
   if (groups.scattered()) {
-    for (const std::uint32_t point : groups.points(bin)) labels[point] = label;
+    for (const MovedPoint& point : groups.points(bin)) labels[point.index] = label;
   } else {
     for (const Run& run : groups.runs(bin)) {
       std::fill_n(labels.data() + run.begin, run.length, label);
