@@ -20,11 +20,12 @@ namespace flagstone {
 using baselines::Beams;
 using baselines::ContinuousPlanes;
 using baselines::Coordinates;
-using baselines::FittedPlane;
-using baselines::Plane;
 using baselines::PolarGrid;
 using baselines::RangeImage;
 using baselines::Regions;
+using baselines::set_ground_plane;
+using baselines::single_precision;
+using baselines::SinglePrecisionPlane;
 using baselines::UsablePoints;
 
 namespace {
@@ -123,7 +124,7 @@ struct Cascaded::Pipeline {
     // Unit vectors along the middle of each direction.
     constexpr std::array<std::array<double, 2>, Regions::directions> middle = {
         {{-1, 0}, {0, -1}, {1, 0}, {0, 1}}};
-    FittedPlane plane = planes.below_sensor();
+    Plane plane = planes.below_sensor();
     for (std::size_t section = 0; section < regions.sections(); ++section) {
       const std::uint32_t region = regions.region(section, direction);
       const Coordinates in_region = regions.points(region);
@@ -136,8 +137,8 @@ struct Cascaded::Pipeline {
   }
 
   void label_region(const Coordinates& in_region, std::span<const std::uint32_t> index,
-                    const FittedPlane& fit, Patch& patch, std::span<Label> labels) const noexcept {
-    const Plane plane = fit.plane();
+                    const Plane& fit, Patch& patch, std::span<Label> labels) const noexcept {
+    const SinglePrecisionPlane plane = single_precision(fit);
     for (std::size_t i = 0; i < in_region.size(); ++i) {
       if (!planes.is_ground(plane, in_region.x[i], in_region.y[i], in_region.z[i])) continue;
       labels[index[i]] = Label::ground;

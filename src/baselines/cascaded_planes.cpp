@@ -19,7 +19,7 @@ RansacConfig search_of(const CascadedConfig& config) {
 }
 
 /// Needs a plane that is not vertical.
-double height_at(const FittedPlane& plane, double x, double y) noexcept {
+double height_at(const Plane& plane, double x, double y) noexcept {
   return -(plane.normal[0] * x + plane.normal[1] * y + plane.d) / plane.normal[2];
 }
 
@@ -33,8 +33,8 @@ ContinuousPlanes::ContinuousPlanes(const CascadedConfig& config)
   search_.seed = config.seed;
 }
 
-FittedPlane ContinuousPlanes::below_sensor() const noexcept {
-  FittedPlane plane;
+Plane ContinuousPlanes::below_sensor() const noexcept {
+  Plane plane;
   plane.count = 3;
   plane.mean = {0, 0, -sensor_height_};
   plane.normal = {0, 0, 1};
@@ -42,12 +42,13 @@ FittedPlane ContinuousPlanes::below_sensor() const noexcept {
   return plane;
 }
 
-bool ContinuousPlanes::is_ground(const Plane& plane, float x, float y, float z) const noexcept {
+bool ContinuousPlanes::is_ground(const SinglePrecisionPlane& plane, float x, float y,
+                                 float z) const noexcept {
   return std::abs(plane.distance(x, y, z)) <= search_.distance_threshold;
 }
 
-bool ContinuousPlanes::is_continuous(const FittedPlane& plane, const FittedPlane& previous,
-                                     double x, double y) const noexcept {
+bool ContinuousPlanes::is_continuous(const Plane& plane, const Plane& previous, double x,
+                                     double y) const noexcept {
   const double cosine = plane.normal[0] * previous.normal[0] +
                         plane.normal[1] * previous.normal[1] + plane.normal[2] * previous.normal[2];
   const bool is_level_enough = cosine >= min_cosine_ && plane.normal[2] > 0;  // not if NaN
@@ -55,13 +56,13 @@ bool ContinuousPlanes::is_continuous(const FittedPlane& plane, const FittedPlane
   return std::abs(height_at(plane, x, y) - height_at(previous, x, y)) <= max_height_change_;
 }
 
-FittedPlane ContinuousPlanes::fit(const Coordinates& points, const FittedPlane& previous, double x,
-                                  double y, std::size_t region) const noexcept {
+Plane ContinuousPlanes::fit(const Coordinates& points, const Plane& previous, double x, double y,
+                            std::size_t region) const noexcept {
   RansacConfig search = search_;
   search.seed += static_cast<int>(region);
   const RansacSearch found = search_plane(points, search);
   if (found.consensus < static_cast<std::size_t>(search.min_consensus)) return previous;
-  const FittedPlane plane = fit_plane(
+  const Plane plane = fit_plane(
       points, [&](float px, float py, float pz) { return is_ground(found.plane, px, py, pz); });
   return plane.exists() && is_continuous(plane, previous, x, y) ? plane : previous;
 }

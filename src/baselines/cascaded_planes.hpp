@@ -16,19 +16,20 @@ class ContinuousPlanes {
   explicit ContinuousPlanes(const CascadedConfig& config);
 
   /// The ground below the sensor, with which every direction begins.
-  [[nodiscard]] FittedPlane below_sensor() const noexcept;
+  [[nodiscard]] Plane below_sensor() const noexcept;
 
   /// The plane of a region: by RANSAC from its points, or `previous`, that of the region before it,
   /// where there is none or it is not continuous with `previous`. The two regions meet at (x, y),
   /// metres. `region` numbers the draws, so that no region depends on another's.
-  [[nodiscard]] FittedPlane fit(const Coordinates& points, const FittedPlane& previous, double x,
-                                double y, std::size_t region) const noexcept;
+  [[nodiscard]] Plane fit(const Coordinates& points, const Plane& previous, double x, double y,
+                          std::size_t region) const noexcept;
 
   /// Whether a point lies on `plane`.
-  [[nodiscard]] bool is_ground(const Plane& plane, float x, float y, float z) const noexcept;
+  [[nodiscard]] bool is_ground(const SinglePrecisionPlane& plane, float x, float y,
+                               float z) const noexcept;
 
  private:
-  [[nodiscard]] bool is_continuous(const FittedPlane& plane, const FittedPlane& previous, double x,
+  [[nodiscard]] bool is_continuous(const Plane& plane, const Plane& previous, double x,
                                    double y) const noexcept;
 
   double sensor_height_;

@@ -4,8 +4,6 @@
 
 #include <array>
 
-#include "core/principal_axes.hpp"
-
 namespace flagstone::baselines {
 namespace {
 
@@ -15,24 +13,12 @@ std::array<float, 3> to_floats(const Vector3& v) {
 
 }  // namespace
 
-Plane FittedPlane::plane() const noexcept {
-  return {static_cast<float>(normal[0]), static_cast<float>(normal[1]),
-          static_cast<float>(normal[2]), static_cast<float>(d)};
+SinglePrecisionPlane single_precision(const Plane& plane) noexcept {
+  return {static_cast<float>(plane.normal[0]), static_cast<float>(plane.normal[1]),
+          static_cast<float>(plane.normal[2]), static_cast<float>(plane.d)};
 }
 
-FittedPlane fit_plane(const Moments& moments, const Vector3& origin) noexcept {
-  if (moments.count < 3) return {};
-  const PrincipalAxes axes = principal_axes(moments.covariance());
-  Vector3 mean = moments.mean();
-  double d = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    mean[k] += origin[k];
-    d -= axes.normal[k] * mean[k];
-  }
-  return {moments.count, mean, axes.normal, d, axes.eigenvalues};
-}
-
-void set_ground_plane(const FittedPlane& fit, Patch& patch) noexcept {
+void set_ground_plane(const Plane& fit, Patch& patch) noexcept {
   patch.verdict = Verdict::ground;
   patch.mean = to_floats(fit.mean);
   patch.normal = to_floats(fit.normal);

@@ -6,12 +6,13 @@
 
 #include "baselines/coordinates.hpp"
 #include "core/moments.hpp"
+#include "core/plane.hpp"
 #include "flagstone/patch.hpp"
 
 namespace flagstone::baselines {
 
 /// normal . p + d = 0, in single precision, as points are: loops over points stay in float.
-struct Plane {
+struct SinglePrecisionPlane {
   float normal_x = 0;
   float normal_y = 0;
   float normal_z = 1;
@@ -23,25 +24,12 @@ struct Plane {
   }
 };
 
-/// The plane of least squares through a set of points.
-struct FittedPlane {
-  double count = 0;  ///< points of the set
-  Vector3 mean{};
-  Vector3 normal{};  ///< unit length, z >= 0
-  double d = 0;
-  Vector3 eigenvalues{};  ///< of the covariance, descending, m^2
-
-  /// Three points and more make a plane.
-  [[nodiscard]] bool exists() const noexcept { return count >= 3; }
-  [[nodiscard]] Plane plane() const noexcept;
-};
-
-/// Fits a plane to points whose moments are taken from `origin`.
-FittedPlane fit_plane(const Moments& moments, const Vector3& origin) noexcept;
+/// The same plane in single precision.
+SinglePrecisionPlane single_precision(const Plane& plane) noexcept;
 
 /// Fits a plane to those points that `in_set(x, y, z)` picks.
 template <class InSet>
-FittedPlane fit_plane(const Coordinates& points, const InSet& in_set) noexcept {
+Plane fit_plane(const Coordinates& points, const InSet& in_set) noexcept {
   if (points.size() == 0) return {};
   const Vector3 origin = {points.x[0], points.y[0], points.z[0]};
   Moments moments;
@@ -49,10 +37,10 @@ FittedPlane fit_plane(const Coordinates& points, const InSet& in_set) noexcept {
     if (!in_set(points.x[i], points.y[i], points.z[i])) continue;
     moments.add(points.x[i] - origin[0], points.y[i] - origin[1], points.z[i] - origin[2]);
   }
-  return fit_plane(moments, origin);
+  return plane_of(moments).moved_by(origin);
 }
 
 /// Writes the plane into `patch`: a patch of ground.
-void set_ground_plane(const FittedPlane& fit, Patch& patch) noexcept;
+void set_ground_plane(const Plane& fit, Patch& patch) noexcept;
 
 }  // namespace flagstone::baselines

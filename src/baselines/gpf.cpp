@@ -17,8 +17,10 @@
 namespace flagstone {
 
 using baselines::Coordinates;
-using baselines::FittedPlane;
-using baselines::Plane;
+using baselines::fit_plane;
+using baselines::set_ground_plane;
+using baselines::single_precision;
+using baselines::SinglePrecisionPlane;
 
 namespace {
 
@@ -50,17 +52,17 @@ struct Gpf::Pipeline {
       if (in_segment.size() == 0) continue;
       Patch patch{.sector = static_cast<std::uint16_t>(s), .verdict = Verdict::no_plane};
       patch.point_count = static_cast<std::uint32_t>(in_segment.size());
-      const FittedPlane fit = fit_ground(in_segment);
+      const Plane fit = fit_ground(in_segment);
       if (fit.exists()) {
         set_ground_plane(fit, patch);
-        label_ground(in_segment, segments.index(s), fit.plane(), patch, labels);
+        label_ground(in_segment, segments.index(s), single_precision(fit), patch, labels);
       }
       result.mutable_patches().push_back(patch);  // within what was reserved
     }
   }
 
   /// Whether a point is ground by `plane`, algorithm 1.
-  [[nodiscard]] auto ground_of(const Plane& plane) const noexcept {
+  [[nodiscard]] auto ground_of(const SinglePrecisionPlane& plane) const noexcept {
     return [plane, margin = config.distance_margin](float x, float y, float z) {
       return plane.distance(x, y, z) < margin;
     };
@@ -68,11 +70,11 @@ struct Gpf::Pipeline {
 
   /// The plane of the seeds, then N_iter - 1 times that of the points which lie on the plane before
   /// or below it.
-  [[nodiscard]] FittedPlane fit_ground(const Coordinates& in_segment) noexcept {
+  [[nodiscard]] Plane fit_ground(const Coordinates& in_segment) noexcept {
     const double seed_limit = lowest_point_representative(in_segment.z) + config.seed_height;
-    FittedPlane fit = fit_plane(in_segment, [=](float, float, float z) { return z < seed_limit; });
+    Plane fit = fit_plane(in_segment, [=](float, float, float z) { return z < seed_limit; });
     for (int i = 1; i < config.iterations && fit.exists(); ++i) {
-      fit = fit_plane(in_segment, ground_of(fit.plane()));
+      fit = fit_plane(in_segment, ground_of(single_precision(fit)));
     }
     return fit;
   }
@@ -90,7 +92,8 @@ struct Gpf::Pipeline {
   }
 
   void label_ground(const Coordinates& in_segment, std::span<const std::uint32_t> index,
-                    const Plane& plane, Patch& patch, std::span<Label> labels) const noexcept {
+                    const SinglePrecisionPlane& plane, Patch& patch,
+                    std::span<Label> labels) const noexcept {
     const auto is_ground = ground_of(plane);
     for (std::size_t i = 0; i < in_segment.size(); ++i) {
       if (!is_ground(in_segment.x[i], in_segment.y[i], in_segment.z[i])) continue;

@@ -16,8 +16,10 @@
 namespace flagstone {
 
 using baselines::Coordinates;
-using baselines::FittedPlane;
-using baselines::Plane;
+using baselines::fit_plane;
+using baselines::set_ground_plane;
+using baselines::single_precision;
+using baselines::SinglePrecisionPlane;
 
 /// A plane that most points agree on, fitted to those that do.
 struct Ransac::Pipeline {
@@ -33,16 +35,16 @@ struct Ransac::Pipeline {
     if (points.size() == 0) return;
     Patch patch{.verdict = Verdict::no_plane};
     patch.point_count = static_cast<std::uint32_t>(points.size());
-    const FittedPlane fit = find_plane(points.coordinates());
+    const Plane fit = find_plane(points.coordinates());
     if (fit.exists()) {
       set_ground_plane(fit, patch);
-      label_consensus(fit.plane(), patch, labels);
+      label_consensus(single_precision(fit), patch, labels);
     }
     result.mutable_patches().push_back(patch);  // within what was reserved
   }
 
   /// Whether a point is of the consensus set of `plane`.
-  [[nodiscard]] auto agreeing_with(const Plane& plane) const noexcept {
+  [[nodiscard]] auto agreeing_with(const SinglePrecisionPlane& plane) const noexcept {
     return [plane, limit = config.distance_threshold](float x, float y, float z) {
       return std::abs(plane.distance(x, y, z)) <= limit;
     };
@@ -50,15 +52,16 @@ struct Ransac::Pipeline {
 
   /// Section II: the best sample's plane, replaced by the fit to its consensus set, and that by the
   /// fit to the set with the points added that agree with the first fit.
-  [[nodiscard]] FittedPlane find_plane(const Coordinates& all) const noexcept {
+  [[nodiscard]] Plane find_plane(const Coordinates& all) const noexcept {
     const baselines::RansacSearch search = search_plane(all, config);
     if (search.consensus < static_cast<std::size_t>(config.min_consensus)) return {};
-    const FittedPlane first = fit_plane(all, agreeing_with(search.plane));
+    const Plane first = fit_plane(all, agreeing_with(search.plane));
     if (!first.exists()) return {};
-    return fit_plane(all, agreeing_with(first.plane()));
+    return fit_plane(all, agreeing_with(single_precision(first)));
   }
 
-  void label_consensus(const Plane& plane, Patch& patch, std::span<Label> labels) const noexcept {
+  void label_consensus(const SinglePrecisionPlane& plane, Patch& patch,
+                       std::span<Label> labels) const noexcept {
     const auto agrees = agreeing_with(plane);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!agrees(points.x()[i], points.y()[i], points.z()[i])) continue;

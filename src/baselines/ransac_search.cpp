@@ -40,8 +40,8 @@ int trials_needed(double inlier_share, double confidence, int max_trials) noexce
   return trials;
 }
 
-std::optional<Plane> plane_through(const Coordinates& points, std::size_t i, std::size_t j,
-                                   std::size_t k) noexcept {
+std::optional<SinglePrecisionPlane> plane_through(const Coordinates& points, std::size_t i,
+                                                  std::size_t j, std::size_t k) noexcept {
   const Vector3 p = {points.x[i], points.y[i], points.z[i]};
   const Vector3 u = {points.x[j] - p[0], points.y[j] - p[1], points.z[j] - p[2]};
   const Vector3 v = {points.x[k] - p[0], points.y[k] - p[1], points.z[k] - p[2]};
@@ -49,17 +49,19 @@ std::optional<Plane> plane_through(const Coordinates& points, std::size_t i, std
                      u[0] * v[1] - u[1] * v[0]};
   const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   if (!(length > 0)) return std::nullopt;
-  return Plane{static_cast<float>(n[0] / length), static_cast<float>(n[1] / length),
-               static_cast<float>(n[2] / length),
-               static_cast<float>(-(n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) / length)};
+  return SinglePrecisionPlane{
+      static_cast<float>(n[0] / length), static_cast<float>(n[1] / length),
+      static_cast<float>(n[2] / length),
+      static_cast<float>(-(n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) / length)};
 }
 
 // Nearly all of the time goes here. Packed floats and a 32-bit count, so that it becomes vectors.
-std::size_t consensus_size(const Coordinates& points, const Plane& plane, float distance) noexcept {
+std::size_t consensus_size(const Coordinates& points, const SinglePrecisionPlane& plane,
+                           float distance) noexcept {
   const float* x = points.x.data();
   const float* y = points.y.data();
   const float* z = points.z.data();
-  const Plane p = plane;
+  const SinglePrecisionPlane p = plane;
   std::uint32_t agree = 0;  // a scan has at most 2^32 - 1 points
   for (std::size_t i = 0; i < points.size(); ++i) {
     agree += std::abs(p.distance(x[i], y[i], z[i])) <= distance ? 1U : 0U;
@@ -74,7 +76,7 @@ RansacSearch search_plane(const Coordinates& points, const RansacConfig& config)
   int needed = config.max_trials;
   for (; best.trials < needed; ++best.trials) {
     const auto [i, j, k] = draw_sample(random, points.size());
-    const std::optional<Plane> plane = plane_through(points, i, j, k);
+    const std::optional<SinglePrecisionPlane> plane = plane_through(points, i, j, k);
     if (!plane) continue;
     const std::size_t consensus = consensus_size(points, *plane, config.distance_threshold);
     if (consensus <= best.consensus) continue;

@@ -16,17 +16,18 @@ namespace flagstone::baselines {
 int trials_needed(double inlier_share, double confidence, int max_trials) noexcept;
 
 /// The plane through points i, j and k; none where they lie on a line.
-std::optional<Plane> plane_through(const Coordinates& points, std::size_t i, std::size_t j,
-                                   std::size_t k) noexcept;
+std::optional<SinglePrecisionPlane> plane_through(const Coordinates& points, std::size_t i,
+                                                  std::size_t j, std::size_t k) noexcept;
 
 /// How many points lie at most `distance` from the plane, on either side.
-std::size_t consensus_size(const Coordinates& points, const Plane& plane, float distance) noexcept;
+std::size_t consensus_size(const Coordinates& points, const SinglePrecisionPlane& plane,
+                           float distance) noexcept;
 
 /// What the search came to.
 struct RansacSearch {
-  Plane plane;                ///< through the three points of the best sample
-  std::size_t consensus = 0;  ///< points that agree with it; 0 where there is no plane
-  int trials = 0;             ///< trials made
+  SinglePrecisionPlane plane;  ///< through the three points of the best sample
+  std::size_t consensus = 0;   ///< points that agree with it; 0 where there is no plane
+  int trials = 0;              ///< trials made
 };
 
 /// Draws samples until trials_needed for the largest consensus so far have been drawn; of equal

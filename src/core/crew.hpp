@@ -51,10 +51,10 @@ class Crew {
   std::size_t count_ = 0;
   const void* context_ = nullptr;
   Call call_ = nullptr;
-  int looks_ = 0;  ///< how long to watch before sleeping
-  std::atomic<std::size_t> next_ = 0;        ///< job
-  std::atomic<std::uint32_t> round_ = 0;     ///< raised when there is work
-  std::atomic<std::uint32_t> at_work_ = 0;   ///< other threads that are not done with the round
+  int looks_ = 0;                           ///< how long to watch before sleeping
+  std::atomic<std::size_t> next_ = 0;       ///< job
+  std::atomic<std::uint32_t> round_ = 0;    ///< raised when there is work
+  std::atomic<std::uint32_t> at_work_ = 0;  ///< other threads that are not done with the round
   std::atomic<bool> dismissed_ = false;
 };
 

@@ -21,8 +21,8 @@ inline constexpr auto inverse_factorials = [] {
   return inverse;
 }();
 
-/// e^x within 1e-15 of it, by + and * alone: the bits of a mathematics library's exp() depend on the
-/// processor it finds. Beyond -700 and 700 it stays what it is there, short of 0 and infinity.
+/// e^x within 1e-15 of it, by + and * alone: the bits of a mathematics library's exp() depend on
+/// the processor it finds. Beyond -700 and 700 it stays what it is there, short of 0 and infinity.
 inline double exponential(double x) noexcept {
   x = std::clamp(x, -700.0, 700.0);
   // x = k ln 2 + rest; ln 2 in two parts, so that k times the first is exact.

@@ -18,8 +18,7 @@ namespace {
 /// Planes of `Lanes` sets from `first` on; bits as of fit_planes.
 HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, PlaneBatch& planes) {
   const DoubleTag d;
-  const auto load = [&](const Batch& batch)
-                        HWY_ATTR { return hn::Load(d, batch.data() + first); };
+  const auto load = [&](const Batch& batch) HWY_ATTR { return hn::Load(d, batch.data() + first); };
   const auto store = [&](DoubleVector v, Batch& batch)
                          HWY_ATTR { hn::Store(v, d, batch.data() + first); };
 
@@ -32,8 +31,9 @@ HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, Pla
                                            load(moments.sum[2])};
   const Vectors3 mean = {div(sum[0], count), div(sum[1], count), div(sum[2], count)};
   const DoubleVector degrees = sub(count, number(1));
-  const auto covariance = [&](std::size_t entry, DoubleVector a, DoubleVector b)
-                              HWY_ATTR { return div(sub(load(moments.squares[entry]), mul(a, b)), degrees); };
+  const auto covariance = [&](std::size_t entry, DoubleVector a, DoubleVector b) HWY_ATTR {
+    return div(sub(load(moments.squares[entry]), mul(a, b)), degrees);
+  };
   const Symmetrics c = {covariance(0, sum[0], mean.x), covariance(1, sum[0], mean.y),
                         covariance(2, sum[0], mean.z), covariance(3, sum[1], mean.y),
                         covariance(4, sum[1], mean.z), covariance(5, sum[2], mean.z)};
@@ -55,8 +55,8 @@ HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, Pla
 
   // An error of 1e-6 of the squares, seen from the origin, turns the normal by that over the gap
   // between the two lesser eigenvalues.
-  const DoubleVector squares = add(add(load(moments.squares[0]), load(moments.squares[3])),
-                                   load(moments.squares[5]));
+  const DoubleVector squares =
+      add(add(load(moments.squares[0]), load(moments.squares[3])), load(moments.squares[5]));
   const DoubleMask centered = hn::Gt(mul(mul(trace, count), number(8)), squares);
   const DoubleMask distinct = hn::Gt(sub(axes.l2, axes.l3), number(0.01));
   const DoubleMask doubtful = hn::AndNot(hn::And(centered, distinct), exists);

@@ -14,9 +14,9 @@ namespace flagstone::HWY_NAMESPACE {
 namespace {
 
 void axes_of(const Symmetric3& c, double trace, PrincipalAxes& result) {
-  const Axes axes = principal_axes({number(c[0]), number(c[1]), number(c[2]), number(c[3]),
-                                    number(c[4]), number(c[5])},
-                                   number(trace));
+  const Axes axes = principal_axes(
+      {number(c[0]), number(c[1]), number(c[2]), number(c[3]), number(c[4]), number(c[5])},
+      number(trace));
   const double spread = hn::GetLane(axes.l1) > 0 ? trace : 0;  // not infinite
   result.eigenvalues = {hn::GetLane(axes.l1) * spread, hn::GetLane(axes.l2) * spread,
                         hn::GetLane(axes.l3) * spread};

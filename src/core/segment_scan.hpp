@@ -17,8 +17,8 @@ namespace flagstone {
 
 /// What every Segmenter::segment does around its own work: refuses impossible clouds, starts and
 /// finishes the result, turns a failed allocation into a status. `work(labels)` sets the labels
-/// that are not to be nonground; it may throw std::bad_alloc and nothing else. It may return how many
-/// it set, as Segmentation::finish takes it.
+/// that are not to be nonground; it may throw std::bad_alloc and nothing else. It may return how
+/// many it set, as Segmentation::finish takes it.
 template <class Work>
 Status segment_scan(CloudView cloud, Segmentation& result, Work&& work) noexcept {
   result.clear();

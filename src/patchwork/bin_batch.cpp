@@ -107,8 +107,7 @@ void BinBatch::gather(const ScanPoints& scan, const BinGroups& groups) noexcept 
     PackedBin packed{.origin = {}, .x = x(i), .y = y(i), .z = z(i)};
     if (groups.scattered()) {
       const std::span<const MovedPoint> points = groups.points(bins_[i]);
-      packed.origin =
-          midway(points.front().x, points.front().y, points.back().x, points.back().y);
+      packed.origin = midway(points.front().x, points.front().y, points.back().x, points.back().y);
       HWY_DYNAMIC_DISPATCH(gather_points)(points, packed);
     } else {
       const std::span<const Run> runs = groups.runs(bins_[i]);

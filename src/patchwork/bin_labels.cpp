@@ -17,7 +17,7 @@ namespace {
 
 /// Labels of the points of a bin in their packed order, one byte for each place.
 LabelCounts label_bin(const BinBatch& batch, std::size_t bin, const GroundSet& set,
-                        std::uint8_t* HWY_RESTRICT labels) {
+                      std::uint8_t* HWY_RESTRICT labels) {
   const FloatTag d;
   const IntTag di;
   const hn::Rebind<std::uint8_t, FloatTag> d8;
@@ -42,8 +42,8 @@ LabelCounts label_bin(const BinBatch& batch, std::size_t bin, const GroundSet& s
 
 #if HWY_TARGET == HWY_AVX3
 
-/// Copies a run's labels, up to 64 at once. No byte outside of it is touched: a neighbour may belong
-/// to another thread.
+/// Copies a run's labels, up to 64 at once. No byte outside of it is touched: a neighbour may
+/// belong to another thread.
 HWY_INLINE void copy_run(const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
   const hn::ScalableTag<std::uint8_t> d;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {

@@ -29,12 +29,12 @@ class BinLabels {
   /// Labels the points of bin `i` of the batch: ground if in the set, noise below it, nonground
   /// above.
   LabelCounts write(const BinBatch& batch, std::size_t i, const GroundSet& set,
-                      const BinGroups& groups, std::span<Label> labels) noexcept;
+                    const BinGroups& groups, std::span<Label> labels) noexcept;
 
   /// Gives all points of a bin one label.
   /// Returns how many they are.
   static std::uint32_t fill(const BinGroups& groups, std::uint32_t bin, Label label,
-                   std::span<Label> labels) noexcept;
+                            std::span<Label> labels) noexcept;
 
  private:
   Buffer<std::uint8_t> packed_;  ///< labels of one bin, in the order of its points

@@ -15,11 +15,11 @@ inline constexpr float max_height = 10000;
 
 /// One ring of bins, with everything that its bins share.
 struct Ring {
-  std::uint16_t zone;        ///< m - 1
-  std::uint16_t ring;        ///< i - 1, within the zone
-  std::uint16_t sectors;     ///< N_theta,m
-  std::uint32_t first_bin;   ///< bin of sector 0; the others follow
-  float center_radius;       ///< r_n: distance from the origin to the centre of the bins, metres
+  std::uint16_t zone;       ///< m - 1
+  std::uint16_t ring;       ///< i - 1, within the zone
+  std::uint16_t sectors;    ///< N_theta,m
+  std::uint32_t first_bin;  ///< bin of sector 0; the others follow
+  float center_radius;      ///< r_n: distance from the origin to the centre of the bins, metres
 };
 
 /// A binary tree over the rings' boundaries: as many steps as it has levels lead from the root to

@@ -25,14 +25,14 @@ using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespac
 /// n . p for points of any vector length.
 template <class D>
 HWY_INLINE hn::Vec<D> height(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> z, const GroundSet& set) {
-  return hn::Add(hn::Add(hn::Mul(hn::Set(d, set.normal_x), x), hn::Mul(hn::Set(d, set.normal_y), y)),
-                 hn::Mul(hn::Set(d, set.normal_z), z));
+  return hn::Add(
+      hn::Add(hn::Mul(hn::Set(d, set.normal_x), x), hn::Mul(hn::Set(d, set.normal_y), y)),
+      hn::Mul(hn::Set(d, set.normal_z), z));
 }
 
 /// bottom <= n . p < top
 template <class D>
-HWY_INLINE hn::Mask<D> in_set(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> z,
-                              const GroundSet& set) {
+HWY_INLINE hn::Mask<D> in_set(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> z, const GroundSet& set) {
   const auto h = height(d, x, y, z, set);
   return hn::And(hn::Lt(h, hn::Set(d, set.top)), hn::Ge(h, hn::Set(d, set.bottom)));
 }

@@ -126,8 +126,9 @@ HWY_INLINE void add_lanes(const float (&HWY_RESTRICT sums)[sum_count][lanes], do
   const hn::CappedTag<float, 4> d;
   float sums_of_lanes[4 * 3];
   for (std::size_t k = 0; k < sum_count; k += 4) {
-    const auto of = [&](std::size_t i)
-                        HWY_ATTR { return sum_of_quarters(d, sums[std::min(k + i, sum_count - 1)]); };
+    const auto of = [&](std::size_t i) HWY_ATTR {
+      return sum_of_quarters(d, sums[std::min(k + i, sum_count - 1)]);
+    };
     const auto halves = [&](std::size_t i) HWY_ATTR {  // lanes: of(i), of(i + 1), and again
       const auto a = of(i);
       const auto b = of(i + 1);
@@ -143,8 +144,8 @@ HWY_INLINE void add_lanes(const float (&HWY_RESTRICT sums)[sum_count][lanes], do
 
 #endif
 
-/// Moments of those points of a bin for which `inside(d, first place, x, y, z)` is set, in vectors of
-/// `SumTag`.
+/// Moments of those points of a bin for which `inside(d, first place, x, y, z)` is set, in vectors
+/// of `SumTag`.
 template <class SumTag, class Inside>
 HWY_INLINE void sum_bin(const BinBatch& batch, std::size_t bin, MomentsBatch& moments,
                         const Inside& inside) {
@@ -184,23 +185,22 @@ void sum_first_bins(BinBatch& batch, const std::array<FirstSet, batch_size>& set
   for (std::size_t bin = 0; bin < batch.count(); ++bin) {
     const FirstSet& set = sets[bin];
     float* shifted = batch.z(bin);
-    sum_bin<FloatTag>(batch, bin, moments,
-                      [&](FloatTag d, std::size_t i, FloatVector, FloatVector, FloatVector& z)
-                          HWY_ATTR {
-                            z = hn::Sub(z, hn::Set(d, set.origin));
-                            hn::Store(z, d, shifted + i);
-                            return hn::And(hn::Lt(z, hn::Set(d, set.top)),
-                                           hn::Ge(z, hn::Set(d, set.bottom)));
-                          });
+    sum_bin<FloatTag>(
+        batch, bin, moments,
+        [&](FloatTag d, std::size_t i, FloatVector, FloatVector, FloatVector& z) HWY_ATTR {
+          z = hn::Sub(z, hn::Set(d, set.origin));
+          hn::Store(z, d, shifted + i);
+          return hn::And(hn::Lt(z, hn::Set(d, set.top)), hn::Ge(z, hn::Set(d, set.bottom)));
+        });
   }
 }
 
 template <class SumTag>
 HWY_INLINE void sum_set(const BinBatch& batch, std::size_t bin, const GroundSet& set,
                         MomentsBatch& moments) {
-  sum_bin<SumTag>(batch, bin, moments,
-                  [&](auto d, std::size_t, auto x, auto y, auto z)
-                      HWY_ATTR { return in_set(d, x, y, z, set); });
+  sum_bin<SumTag>(batch, bin, moments, [&](auto d, std::size_t, auto x, auto y, auto z) HWY_ATTR {
+    return in_set(d, x, y, z, set);
+  });
 }
 
 void sum_bins(const BinBatch& batch, const GroundSets& sets, BinMask wanted, Precision precision,
@@ -226,8 +226,8 @@ HWY_EXPORT(sum_bins);
 HWY_EXPORT(sum_first_bins);
 }  // namespace
 
-void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
-                 Precision precision, MomentsBatch& moments) noexcept {
+void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted, Precision precision,
+                 MomentsBatch& moments) noexcept {
   HWY_DYNAMIC_DISPATCH(sum_bins)(batch, sets, wanted, precision, moments);
 }
 

@@ -33,8 +33,8 @@ enum class Precision : std::uint8_t {
 };
 
 /// Moments of the sets of the bins in `wanted`; those of other bins are left alone.
-void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
-                 Precision precision, MomentsBatch& moments) noexcept;
+void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted, Precision precision,
+                 MomentsBatch& moments) noexcept;
 
 /// Where the first set of a bin begins, metres.
 struct FirstSet {

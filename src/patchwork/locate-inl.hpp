@@ -33,15 +33,15 @@ HWY_INLINE FloatVector turn_of(FloatVector x, FloatVector y) {
   const FloatVector t = hn::Div(hn::Min(ax, ay), hn::Max(ax, ay));
   const FloatVector t2 = hn::Mul(t, t);
   FloatVector p = hn::Set(d, 0.001084128f);
-  for (const float coefficient : {-0.005348271f, 0.012672494f, -0.021061514f, 0.031525116f,
-                                  -0.053026237f, 0.15915433f}) {
+  for (const float coefficient :
+       {-0.005348271f, 0.012672494f, -0.021061514f, 0.031525116f, -0.053026237f, 0.15915433f}) {
     p = hn::Add(hn::Mul(p, t2), hn::Set(d, coefficient));
   }
   const FloatVector eighth = hn::Mul(p, t);
   const FloatVector quarter =
       hn::IfThenElse(hn::Gt(ax, ay), eighth, hn::Sub(hn::Set(d, 0.25f), eighth));
-  const FloatVector half = hn::IfThenElse(hn::Lt(x, hn::Zero(d)),
-                                          hn::Sub(hn::Set(d, 0.5f), quarter), quarter);
+  const FloatVector half =
+      hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(hn::Set(d, 0.5f), quarter), quarter);
   return hn::Add(hn::Set(d, 0.5f), hn::CopySignToAbs(half, y));
 }
 
@@ -94,9 +94,8 @@ HWY_INLINE IntVector with_binless(IntVector bins, FloatVector squared_range, Flo
       hn::And(hn::And(hn::Ge(squared_range, hn::Set(d, zones.min_squared_range())),
                       hn::Lt(squared_range, hn::Set(d, zones.max_squared_range()))),
               hn::Le(hn::Abs(z), hn::Set(d, max_height)));
-  const IntVector binless =
-      hn::IfThenElse(hn::RebindMask(di, valid), all_lanes(zones.out_of_range()),
-                     all_lanes(zones.invalid()));
+  const IntVector binless = hn::IfThenElse(
+      hn::RebindMask(di, valid), all_lanes(zones.out_of_range()), all_lanes(zones.invalid()));
   return hn::IfThenElse(hn::RebindMask(di, hn::And(in_range, valid)), bins, binless);
 }
 

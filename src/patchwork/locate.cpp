@@ -22,7 +22,8 @@ void locate_all(const ConcentricZones& zones, const float* x, const float* y, co
   const IntTag di;
   const auto locate_vector = [&](const float* vx, const float* vy, const float* vz,
                                  std::uint32_t* out) HWY_ATTR {
-    const IntVector found = locate<few>(hn::LoadU(d, vx), hn::LoadU(d, vy), hn::LoadU(d, vz), zones);
+    const IntVector found =
+        locate<few>(hn::LoadU(d, vx), hn::LoadU(d, vy), hn::LoadU(d, vz), zones);
     hn::StoreU(found, di, reinterpret_cast<std::int32_t*>(out));
   };
   std::size_t i = 0;

@@ -97,9 +97,8 @@ struct Patchwork::Pipeline {
     StageClock clock(stage_times);
 
     // Concentric Zone Model (III-B)
-    crew.run(ScanPoints::chunk_count(cloud.size()), [&](std::size_t, std::size_t chunk) {
-      scan.read(cloud, chunk, zones);
-    });
+    crew.run(ScanPoints::chunk_count(cloud.size()),
+             [&](std::size_t, std::size_t chunk) { scan.read(cloud, chunk, zones); });
     clock.end(Stage::bin);
     groups.group(scan, cloud.size(), zones.group_count());
     for (Fitter& fitter : fitters) fitter.totals = {};

@@ -68,14 +68,19 @@ class RunWriter {
 /// processor's own prefetching falls behind where scans are not in the cache.
 inline constexpr std::size_t prefetch_distance = 512;
 
+/// Asks for the memory of a block that comes later; harmless behind the end of the cloud.
+template <std::size_t floats>
+HWY_INLINE void prefetch_block(const float* points) {
+  for (std::size_t line = 0; line < floats; ++line) {  // a cache line is 16 floats
+    hwy::Prefetch(points + prefetch_distance + lanes * line);
+  }
+}
+
 /// Reads sixteen points of `floats` floats each and finds their bins.
 template <std::size_t floats, bool few>
 HWY_INLINE void read_block(const float* HWY_RESTRICT points, std::size_t index,
                            const Stretch& stretch, const ConcentricZones& zones, RunWriter& runs) {
   const FloatTag d;
-  for (std::size_t line = 0; line < floats; ++line) {  // a cache line is 16 floats
-    hwy::Prefetch(points + prefetch_distance + lanes * line);
-  }
   for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
     FloatVector x, y, z;
     load_points<floats>(points + floats * lane, x, y, z);
@@ -96,19 +101,20 @@ HWY_INLINE std::size_t read_with(const Stretch& stretch, const ConcentricZones& 
   const bool contiguous = layout.y == layout.x + 4 && layout.z == layout.x + 8 &&
                           std::bit_cast<std::uintptr_t>(first) % sizeof(float) == 0;
   const std::size_t count = stretch.end - stretch.begin;
-  const std::size_t in_place = contiguous ? (std::min(stretch.end, cloud.size() - 1) -
-                                             stretch.begin) / lanes * lanes
-                                          : 0;
+  const std::size_t in_place =
+      contiguous ? (std::min(stretch.end, cloud.size() - 1) - stretch.begin) / lanes * lanes : 0;
   RunWriter runs(stretch.starts);
   std::size_t i = 0;
   if (layout.stride == 16) {
     const float* points = reinterpret_cast<const float*>(first) + 4 * stretch.begin;
     for (; i < in_place; i += lanes) {
+      prefetch_block<4>(points + 4 * i);
       read_block<4, few>(points + 4 * i, i, stretch, zones, runs);
     }
   } else if (layout.stride == 12) {
     const float* points = reinterpret_cast<const float*>(first) + 3 * stretch.begin;
     for (; i < in_place; i += lanes) {
+      prefetch_block<3>(points + 3 * i);
       read_block<3, few>(points + 3 * i, i, stretch, zones, runs);
     }
   }

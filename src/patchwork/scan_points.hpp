@@ -21,8 +21,9 @@ inline constexpr int bin_bits = 18;
 
 /// A scan as the later steps read it: coordinates apart from one another, and where bins change.
 ///
-/// The cloud itself, in whatever layout, is read once, in the order of its memory. A spinning sensor
-/// delivers neighbours one after another: 124,000 points are 6 to 9 thousand runs within one bin.
+/// The cloud itself, in whatever layout, is read once, in the order of its memory. A spinning
+/// sensor delivers neighbours one after another: 124,000 points are 6 to 9 thousand runs within one
+/// bin.
 class ScanPoints {
  public:
   /// Makes room for `points` points; may throw std::bad_alloc.

@@ -165,8 +165,8 @@ void SeedHeights::find(const BinBatch& batch, const std::array<float, batch_size
   float* heights = heights_.data();
   if (seed_count_ > most_candidates) {
     for (std::size_t i = 0; i < batch.count(); ++i) {
-      const std::size_t count = HWY_DYNAMIC_DISPATCH(copy_between)(
-          batch.z(i), batch.places(i), floors[i], highest, heights);
+      const std::size_t count = HWY_DYNAMIC_DISPATCH(copy_between)(batch.z(i), batch.places(i),
+                                                                   floors[i], highest, heights);
       means[i] = mean_of_lowest(heights, count, seed_count_);
     }
     return;

@@ -21,7 +21,8 @@ class StageClock {
   void end(Stage stage) noexcept {
     if (times_ == nullptr) return;
     const Clock::time_point now = Clock::now();
-    (*times_)[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
+    (*times_)[static_cast<std::size_t>(stage)] +=
+        std::chrono::duration<double>(now - last_).count();
     last_ = now;
   }
 

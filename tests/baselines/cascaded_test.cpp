@@ -24,7 +24,6 @@ namespace {
 using baselines::Beams;
 using baselines::ContinuousPlanes;
 using baselines::Coordinates;
-using baselines::FittedPlane;
 
 constexpr double sensor_height = 1.73;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -122,7 +121,7 @@ struct Slab {
 };
 
 /// The plane found for the slab when the ground before it is level and the two meet at x = 6.
-FittedPlane plane_of(const Slab& slab, const CascadedConfig& config = {}) {
+Plane plane_of(const Slab& slab, const CascadedConfig& config = {}) {
   const ContinuousPlanes planes(config);
   return planes.fit(slab.coordinates(), planes.below_sensor(), 6, 0, 0);
 }

@@ -23,15 +23,15 @@ struct SlopeAndOnePointAbove {
     z.push_back(50);
   }
 
-  [[nodiscard]] FittedPlane fit() const {
+  [[nodiscard]] Plane fit() const {
     return fit_plane({x, y, z}, [](float, float, float height) { return height < 0; });
   }
 
   std::vector<float> x, y, z;
 };
 
-TEST(FittedPlane, GoesThroughThePointsOfItsSetAndStandsUp) {
-  const FittedPlane fit = SlopeAndOnePointAbove().fit();
+TEST(Plane, GoesThroughThePointsOfItsSetAndStandsUp) {
+  const Plane fit = SlopeAndOnePointAbove().fit();
 
   ASSERT_TRUE(fit.exists());
   EXPECT_EQ(fit.count, 9);
@@ -41,22 +41,22 @@ TEST(FittedPlane, GoesThroughThePointsOfItsSetAndStandsUp) {
   EXPECT_NEAR(fit.mean[2], -2.5, 1e-12);
 }
 
-TEST(FittedPlane, DistanceIsPositiveAboveIt) {
-  const Plane plane = SlopeAndOnePointAbove().fit().plane();
+TEST(Plane, DistanceIsPositiveAboveIt) {
+  const SinglePrecisionPlane plane = single_precision(SlopeAndOnePointAbove().fit());
 
   EXPECT_NEAR(plane.distance(0, 0, -3), 0, 1e-6f);
   EXPECT_NEAR(plane.distance(4, 7, 1), 2 / std::sqrt(1.25f), 1e-6f);
   EXPECT_LT(plane.distance(0, 0, -4), 0);
 }
 
-TEST(FittedPlane, NeedsThreePoints) {
+TEST(Plane, NeedsThreePoints) {
   const std::vector<float> x = {1, 2, 3};
 
   EXPECT_FALSE(fit_plane({x, x, x}, [](float at, float, float) { return at > 1; }).exists());
   EXPECT_TRUE(fit_plane({x, x, x}, [](float, float, float) { return true; }).exists());
 }
 
-TEST(FittedPlane, MakesAPatchOfGround) {
+TEST(Plane, MakesAPatchOfGround) {
   Patch patch;
 
   set_ground_plane(SlopeAndOnePointAbove().fit(), patch);

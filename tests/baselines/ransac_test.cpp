@@ -23,9 +23,9 @@ namespace flagstone {
 namespace {
 
 using baselines::Coordinates;
-using baselines::Plane;
 using baselines::RansacSearch;
 using baselines::search_plane;
+using baselines::SinglePrecisionPlane;
 using baselines::trials_needed;
 
 constexpr float slope_x = 0.05f;
@@ -160,7 +160,7 @@ TEST(Ransac, LeastSquaresOnTheConsensusSetImprovesOnTheBestSample) {
   double of_samples = 0;
   double of_fits = 0;
   for (int seed = 0; seed < 20; ++seed) {
-    const Plane sample = search_plane(packed.coordinates(), {.seed = seed}).plane;
+    const SinglePrecisionPlane sample = search_plane(packed.coordinates(), {.seed = seed}).plane;
     of_samples += lean(sample.normal_x, sample.normal_y, sample.normal_z);
     of_fits += lean(segment(cloud, {.seed = seed}).patches()[0]);
   }

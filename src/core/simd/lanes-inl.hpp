@@ -4,10 +4,10 @@
 // What the vector code of every instruction set stands on. Included once for each of them, after
 // hwy/highway.h, inside HWY_BEFORE_NAMESPACE.
 //
-// The same bits everywhere: work is laid out for 16 virtual lanes, which are one AVX-512 vector, two
-// of AVX2, four of SSE4 or NEON, sixteen numbers in plain C++. What one lane computes never depends
-// on how many of them share a vector, sums over lanes follow one fixed tree, and a * b + c is always
-// two roundings: no target fuses it.
+// The same bits everywhere: work is laid out for 16 virtual lanes, which are one AVX-512 vector,
+// two of AVX2, four of SSE4 or NEON, sixteen numbers in plain C++. What one lane computes never
+// depends on how many of them share a vector, sums over lanes follow one fixed tree, and a * b + c
+// is always two roundings: no target fuses it.
 
 // clang-format off
 #if defined(FLAGSTONE_CORE_SIMD_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -84,8 +84,8 @@ HWY_INLINE IntVector move_up(IntVector v, IntVector before) {
 #if HWY_TARGET == HWY_AVX3
   return IntVector{_mm512_alignr_epi32(v.raw, before.raw, 15)};
 #elif HWY_TARGET == HWY_AVX2
-  return IntVector{_mm256_alignr_epi8(
-      v.raw, _mm256_permute2x128_si256(before.raw, v.raw, 0x21), 12)};
+  return IntVector{
+      _mm256_alignr_epi8(v.raw, _mm256_permute2x128_si256(before.raw, v.raw, 0x21), 12)};
 #elif HWY_MAX_BYTES == 16
   return hn::CombineShiftRightBytes<12>(IntTag(), v, before);
 #else
@@ -135,20 +135,20 @@ inline constexpr auto picked_bytes = [] {
 }();
 #endif
 
-/// Stores the lanes that the mask picks one after another, meaningless ones behind them; returns how
-/// many they are. hn::Compress copies its table to the stack in every call with GCC.
+/// Stores the lanes that the mask picks one after another, meaningless ones behind them; returns
+/// how many they are. hn::Compress copies its table to the stack in every call with GCC.
 HWY_INLINE std::size_t compress_store(IntVector v, hn::Mask<IntTag> mask, std::int32_t* to) {
   const IntTag di;
 #if HWY_TARGET == HWY_AVX2
-  const auto bits = static_cast<unsigned>(
-      _mm256_movemask_ps(_mm256_castsi256_ps(hn::VecFromMask(di, mask).raw)));
+  const auto bits =
+      static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(hn::VecFromMask(di, mask).raw)));
   const __m256i packed = _mm256_set1_epi32(static_cast<int>(picked_lanes[bits]));
   const __m256i picked = _mm256_srlv_epi32(packed, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
   hn::StoreU(IntVector{_mm256_permutevar8x32_epi32(v.raw, picked)}, di, to);
   return hwy::PopCount(bits);
 #elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
-  const auto bits = static_cast<unsigned>(
-      _mm_movemask_ps(_mm_castsi128_ps(hn::VecFromMask(di, mask).raw)));
+  const auto bits =
+      static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(hn::VecFromMask(di, mask).raw)));
   const __m128i picked =
       _mm_loadu_si128(reinterpret_cast<const __m128i*>(picked_bytes[bits].data()));
   hn::StoreU(IntVector{_mm_shuffle_epi8(v.raw, picked)}, di, to);
@@ -169,7 +169,7 @@ HWY_INLINE void load_points(const float* HWY_RESTRICT points, FloatVector& x, Fl
   } else {
 #if HWY_TARGET == HWY_AVX3
     // Seven shuffles; the general way takes fifteen.
-    HWY_ALIGN static constexpr std::int32_t x_then_y[] = {0, 4, 8,  12, 16, 20, 24, 28,
+    HWY_ALIGN static constexpr std::int32_t x_then_y[] = {0, 4, 8, 12, 16, 20, 24, 28,
                                                           1, 5, 9, 13, 17, 21, 25, 29};
     HWY_ALIGN static constexpr std::int32_t z_twice[] = {2, 6, 10, 14, 18, 22, 26, 30,
                                                          2, 6, 10, 14, 18, 22, 26, 30};

@@ -111,8 +111,8 @@ HWY_INLINE Axes principal_axes(const Symmetrics& c, DoubleVector trace) {
   const DoubleVector yy = div(c.yy, trace);
   const DoubleVector yz = div(c.yz, trace);
   const DoubleVector zz = div(c.zz, trace);
-  const DoubleVector minors = add(add(minor(xx, yy, xy, xy), minor(xx, zz, xz, xz)),
-                                  minor(yy, zz, yz, yz));
+  const DoubleVector minors =
+      add(add(minor(xx, yy, xy, xy), minor(xx, zz, xz, xz)), minor(yy, zz, yz, yz));
   const DoubleVector determinant =
       add(sub(mul(xx, minor(yy, zz, yz, yz)), mul(xy, minor(xy, zz, yz, xz))),
           mul(xz, minor(xy, yz, yy, xz)));
