@@ -4,6 +4,8 @@
 
 #include <system_error>
 
+#include "core/flush_denormals.hpp"
+
 namespace flagstone {
 namespace {
 
@@ -57,6 +59,7 @@ void Crew::take_jobs(std::size_t worker) noexcept {
 }
 
 void Crew::serve(std::size_t worker) noexcept {
+  const FlushDenormals flush;
   for (std::uint32_t round = 0;;) {
     wait_while(round_, round, looks_);
     round = round_.load(std::memory_order_acquire);

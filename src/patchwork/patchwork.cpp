@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/crew.hpp"
+#include "core/flush_denormals.hpp"
 #include "core/segment_scan.hpp"
 #include "patchwork/bin_batch.hpp"
 #include "patchwork/bin_groups.hpp"
@@ -94,6 +95,7 @@ struct Patchwork::Pipeline {
   }
 
   LabelTotals segment(CloudView cloud, Segmentation& result, std::span<Label> labels) noexcept {
+    const FlushDenormals flush;
     StageClock clock(stage_times);
 
     // Concentric Zone Model (III-B)

@@ -91,41 +91,63 @@ HWY_INLINE void read_block(const float* HWY_RESTRICT points, std::size_t index,
   }
 }
 
-/// Blocks read where they lie as long as no read can leave the cloud; the last one, and all of a
-/// layout that is neither packed xyz nor records of four floats, by way of a copy.
+/// Copies points into records of four floats, the last of which is meaningless.
+HWY_INLINE void copy_records(const CloudView& cloud, std::size_t begin, std::size_t end,
+                             float* records) {
+  for (std::size_t k = begin; k < end; ++k) {
+    const Point p = cloud[k];
+    std::memcpy(records + 4 * (k - begin), &p, sizeof p);
+  }
+}
+
+/// The same where x, y and z lie together and four more bytes may be read behind z.
+HWY_INLINE void copy_records_at_once(const std::byte* points, std::ptrdiff_t stride,
+                                     float* records) {
+  for (std::size_t k = 0; k < lanes; ++k) {
+    std::memcpy(records + 4 * k, points + static_cast<std::ptrdiff_t>(k) * stride,
+                4 * sizeof(float));
+  }
+}
+
+/// Packed xyz and records of four floats are read where they lie, as long as no read can leave the
+/// cloud; all other layouts, and what the last point needs, by way of a copy.
 template <bool few>
 HWY_INLINE std::size_t read_with(const Stretch& stretch, const ConcentricZones& zones) {
   const CloudView& cloud = stretch.cloud;
   const CloudLayout& layout = cloud.layout();
-  const auto* first = static_cast<const std::byte*>(cloud.data()) + layout.x;
-  const bool contiguous = layout.y == layout.x + 4 && layout.z == layout.x + 8 &&
-                          std::bit_cast<std::uintptr_t>(first) % sizeof(float) == 0;
+  const std::byte* first = static_cast<const std::byte*>(cloud.data()) + layout.x +
+                           static_cast<std::ptrdiff_t>(stretch.begin) * layout.stride;
+  const auto* floats = reinterpret_cast<const float*>(first);
+  const bool together = layout.y == layout.x + 4 && layout.z == layout.x + 8 && layout.stride >= 12;
+  const bool aligned = std::bit_cast<std::uintptr_t>(first) % sizeof(float) == 0;
   const std::size_t count = stretch.end - stretch.begin;
-  const std::size_t in_place =
-      contiguous ? (std::min(stretch.end, cloud.size() - 1) - stretch.begin) / lanes * lanes : 0;
+  // Blocks without the last point of the cloud.
+  const std::size_t whole =
+      together ? (std::min(stretch.end, cloud.size() - 1) - stretch.begin) / lanes * lanes : 0;
+
   RunWriter runs(stretch.starts);
+  HWY_ALIGN std::array<float, 4 * lanes> records{};
   std::size_t i = 0;
-  if (layout.stride == 16) {
-    const float* points = reinterpret_cast<const float*>(first) + 4 * stretch.begin;
-    for (; i < in_place; i += lanes) {
-      prefetch_block<4>(points + 4 * i);
-      read_block<4, few>(points + 4 * i, i, stretch, zones, runs);
+  if (aligned && layout.stride == 16) {
+    for (; i < whole; i += lanes) {
+      prefetch_block<4>(floats + 4 * i);
+      read_block<4, few>(floats + 4 * i, i, stretch, zones, runs);
     }
-  } else if (layout.stride == 12) {
-    const float* points = reinterpret_cast<const float*>(first) + 3 * stretch.begin;
-    for (; i < in_place; i += lanes) {
-      prefetch_block<3>(points + 3 * i);
-      read_block<3, few>(points + 3 * i, i, stretch, zones, runs);
+  } else if (aligned && layout.stride == 12) {
+    for (; i < whole; i += lanes) {
+      prefetch_block<3>(floats + 3 * i);
+      read_block<3, few>(floats + 3 * i, i, stretch, zones, runs);
     }
   }
-  HWY_ALIGN std::array<float, 4 * lanes> copy{};
+  for (; i < whole; i += lanes) {
+    copy_records_at_once(first + static_cast<std::ptrdiff_t>(i) * layout.stride, layout.stride,
+                         records.data());
+    read_block<4, few>(records.data(), i, stretch, zones, runs);
+  }
   for (; i < count; i += lanes) {
-    const std::size_t end = std::min(count, i + lanes);
-    for (std::size_t k = i; k < end; ++k) {
-      const Point p = cloud[stretch.begin + k];
-      std::memcpy(copy.data() + 4 * (k - i), &p, sizeof p);
-    }
-    read_block<4, few>(copy.data(), i, stretch, zones, runs);
+    copy_records(cloud, stretch.begin + i, stretch.begin + std::min(count, i + lanes),
+                 records.data());
+    read_block<4, few>(records.data(), i, stretch, zones, runs);
   }
   return runs.close(count);
 }
