@@ -43,8 +43,8 @@ latency: ## time of 10,000 different scans, with those meant to take long
 primitives: ## time of each step for every instruction set
 	@scripts/setup build benchmark && scripts/benchmark primitives
 
-bench-compare: ## is the working tree slower than REVISION, on SCANS?
-	@scripts/setup build && python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(SCANS)
+bench-compare: build ## is the working tree slower than REVISION, on SCANS?
+	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(SCANS)
 
 install: build ## install the library and the command under PREFIX (/usr/local)
 	@cmake --install build --prefix $(PREFIX)

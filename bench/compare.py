@@ -5,13 +5,16 @@
     make bench-compare                           # against the last tag, or HEAD~1 where there is none
     make bench-compare REVISION=54a37fc
     make bench-compare REVISION=main SCANS="a.bin b.bin"
-    python3 bench/compare.py --revision main --rounds 400 --core 1
+    python3 bench/compare.py --revision main --launches 40 --core 1
 
 Builds the library of both, each with bench/segment_loop, and has the two segment the same scans by turns on
-one core. Prints the ratio of the times, working tree / revision: the median over rounds, and its 95 % interval
-by order statistics, which assumes no distribution, but that rounds are independent. Where Valgrind is, also the instructions of one pass over
-each scan under callgrind: they repeat to the digit where times do not. Valgrind offers a program no AVX-512,
-so the library takes its AVX2 code there.
+one core. Where a program's memory comes to lie is worth a few percent, so both are started anew many times. A
+launch gives one ratio of the times, working tree / revision: the median over its rounds. Printed is the
+median over launches, with its interval of 95 % or a little more by order statistics, which assumes nothing
+of the distribution.
+
+Where Valgrind is, also the instructions of one pass over each scan under callgrind: they repeat to the digit
+where times do not. Valgrind offers a program no AVX-512, so the library takes its AVX2 code there.
 
 Scans are KITTI's .bin files: those given, else those in FLAGSTONE_DATA, else simulated ones.
 """
@@ -78,11 +81,10 @@ def build(name, source):
 
 
 def default_scans():
-    data = os.environ.get("FLAGSTONE_DATA")
-    if data:
-        scans = sorted(pathlib.Path(data, "kitti", "velodyne").glob("*.bin"))
-        if scans:
-            return scans
+    data = pathlib.Path(os.environ.get("FLAGSTONE_DATA", ROOT.parent / "shared" / "data"))
+    scans = sorted((data / "kitti" / "velodyne").glob("*.bin"))
+    if scans:
+        return scans
     folder = FOLDER / "simulated"
     scans = sorted(folder.rglob("*.bin"))
     if not scans:
@@ -90,8 +92,8 @@ def default_scans():
         command = ROOT / "build" / "flagstone"
         if not command.exists():
             sys.exit(
-                f"no scans: FLAGSTONE_DATA is not set and {command} not built; run `make build`, or give"
-                " KITTI's .bin files as SCANS"
+                f"no scans: none of KITTI's in {data} and no {command} to simulate some; set FLAGSTONE_DATA,"
+                " run `make build`, or give .bin files as SCANS"
             )
         call(command, "simulate", "--scene", "flat_street", "--frames", "4", "--output", folder)
         scans = sorted(folder.rglob("*.bin"))
@@ -128,33 +130,33 @@ class Loop:
         self.process.wait()
 
 
-def alternate(programs, scans, core, rounds):
-    """Times of both, by round and scan, and whether their labels are the same."""
+def alternate(programs, scans, core, rounds, first):
+    """A launch: times of both, by round and scan, and of each scan whether its labels are the same.
+
+    The two take turns strictly: who went twice would find its caches warm the second time.
+    """
     loops = [Loop(program, scans, core) for program in programs]
-    same = [a == b for a, b in zip(loops[0].hashes, loops[1].hashes)]
     times = ([], [])
     try:
-        for number in range(rounds):
-            if number % 20 == 0:
-                say(f"{number} of {rounds} rounds")
-            # Each goes first in every other round.
-            for which in (0, 1) if number % 2 == 0 else (1, 0):
+        for _ in range(rounds):
+            for which in (first, 1 - first):
                 times[which].append(loops[which].round())
     finally:
         for loop in loops:
             loop.close()
-    return times, same
+    return times, [a == b for a, b in zip(loops[0].hashes, loops[1].hashes)]
 
 
 def median_with_interval(values):
-    """Median and the 95 % interval by order statistics: as many values as that lie below the median are
+    """Median and its interval of at least 95 %: how many of the values lie below the true median is
     binomial."""
     ordered = sorted(values)
     count = len(ordered)
-    margin = 1.96 * math.sqrt(count) / 2
-    low = max(0, math.floor(count / 2 - margin) - 1)
-    high = min(count - 1, math.ceil(count / 2 + margin))
-    return statistics.median(ordered), ordered[low], ordered[high]
+    left_out = 0  # values on either side
+    while sum(math.comb(count, k) for k in range(left_out + 1)) / 2**count <= 0.025:
+        left_out += 1
+    first = left_out - 1
+    return statistics.median(ordered), ordered[first], ordered[count - 1 - first]
 
 
 def instructions(program, scan):
@@ -174,21 +176,23 @@ def table(head, rows):
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
-def time_table(times, scans, same):
-    revision, tree = times
-    rows = []
-    for s, scan in enumerate(scans):
-        ratios = [new[s] / old[s] for old, new in zip(revision, tree)]
-        before = statistics.median(old[s] for old in revision) / 1e6
-        after = statistics.median(new[s] for new in tree) / 1e6
-        ratio, low, high = median_with_interval(ratios)
-        rows.append(
-            [scan.name, f"{before:.3f}", f"{after:.3f}", f"{ratio:.4f}", f"{low:.4f} to {high:.4f}",
-             "same" if same[s] else "differ"]
-        )  # fmt: skip
-    ratio, low, high = median_with_interval([sum(new) / sum(old) for old, new in zip(revision, tree)])
-    totals = [f"{statistics.median(sum(r) for r in side) / 1e6:.3f}" for side in times]
-    rows.append(["all", *totals, f"**{ratio:.4f}**", f"**{low:.4f} to {high:.4f}**", ""])
+def row_of(name, launches, time_of):
+    """Times and ratio of what `time_of` takes from a round."""
+    sides = [[time_of(round_) for times in launches for round_ in times[side]] for side in (0, 1)]
+    ratios = [
+        statistics.median(time_of(new) / time_of(old) for old, new in zip(*times)) for times in launches
+    ]
+    ratio, low, high = median_with_interval(ratios)
+    return [name, *(f"{statistics.median(side) / 1e6:.3f}" for side in sides), f"{ratio:.4f}",
+            f"{low:.4f} to {high:.4f}"]  # fmt: skip
+
+
+def time_table(launches, scans, same):
+    rows = [
+        [*row_of(scan.name, launches, lambda times, s=s: times[s]), "same" if same[s] else "differ"]
+        for s, scan in enumerate(scans)
+    ]
+    rows.append([*row_of("all", launches, sum), "same" if all(same) else "differ"])
     return table(["scan", "revision, ms", "working tree, ms", "ratio", "95 %", "labels"], rows)
 
 
@@ -202,7 +206,7 @@ def instruction_table(programs, scans):
             return f"no instruction counts: Valgrind could not run {programs[counts.index(None)]}"
         totals = [total + count for total, count in zip(totals, counts)]
         rows.append([scan.name, *(f"{count:,}" for count in counts), f"{counts[1] / counts[0]:.4f}"])
-    rows.append(["all", *(f"{total:,}" for total in totals), f"**{totals[1] / totals[0]:.4f}**"])
+    rows.append(["all", *(f"{total:,}" for total in totals), f"{totals[1] / totals[0]:.4f}"])
     return table(["scan, instructions", "revision", "working tree", "ratio"], rows)
 
 
@@ -211,23 +215,33 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--revision", help="what git knows it by; the last tag or HEAD~1")
-    parser.add_argument("--rounds", type=int, default=200, help="over all scans, 10 or more; 200")
+    parser.add_argument("--launches", type=int, default=20, help="6 or more; 20")
+    parser.add_argument("--rounds", type=int, default=20, help="of a launch, over all scans; 20")
     parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)), help="the last one")
     parser.add_argument("--no-instructions", action="store_true", help="times only")
     parser.add_argument("scans", nargs="*", type=pathlib.Path, help="KITTI's .bin files")
     arguments = parser.parse_args()
-    if arguments.rounds < 10:
-        parser.error("--rounds: 10 or more, for an interval")
+    if arguments.launches < 6:
+        parser.error("--launches: 6 or more, fewer give no interval")
+    if arguments.rounds < 1:
+        parser.error("--rounds: 1 or more")
     if arguments.core not in os.sched_getaffinity(0):
         parser.error(f"--core: one of {sorted(os.sched_getaffinity(0))}")
     FOLDER.mkdir(exist_ok=True)
     scans = [scan.resolve() for scan in arguments.scans] or default_scans()
     revision = call("git", "rev-parse", "--short", f"{arguments.revision or default_revision()}^{{commit}}")
     programs = [build(f"{revision}-build", checkout(revision)), build("tree-build", ROOT)]
-    times, same = alternate(programs, scans, arguments.core, arguments.rounds)
+    launches = []
+    for number in range(arguments.launches):
+        say(f"{number} of {arguments.launches} launches")
+        times, same = alternate(programs, scans, arguments.core, arguments.rounds, first=number % 2)
+        launches.append(times)
     say("")
-    print(f"Working tree against {revision}, {arguments.rounds} rounds by turns on core {arguments.core}:\n")
-    print(time_table(times, scans, same))
+    print(
+        f"Working tree against {revision}: {arguments.launches} launches of {arguments.rounds} rounds by"
+        f" turns on core {arguments.core}.\n"
+    )
+    print(time_table(launches, scans, same))
     if arguments.no_instructions:
         return
     if shutil.which("valgrind") is None:

@@ -5,6 +5,7 @@
 // Prints JSON; bench/growth.py runs it and draws the plot.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -61,8 +62,8 @@ Json to_json(const Duration& duration) {
 Json growth_with_points(const Cloud& dense, std::size_t most) {
   Json rows = Json::array();
   Random random(1);
-  constexpr std::size_t sizes[] = {1000,   3000,    10000,   30000,   100000,
-                                   300000, 1000000, 3000000, 10000000};
+  constexpr std::array<std::size_t, 9> sizes = {1000,   3000,    10000,   30000,   100000,
+                                                300000, 1000000, 3000000, 10000000};
   for (const std::size_t size : sizes) {
     if (size > most) break;
     say_on_terminal("points: " + std::to_string(size));
@@ -122,8 +123,8 @@ Json time_of_layout(const std::string& name, const PatchworkConfig& config, cons
 
 Json growth_with_bins(const Cloud& cloud) {
   Json rows = Json::array();
-  constexpr std::pair<int, int> layouts[] = {{4, 25},   {6, 50},   {10, 100},
-                                             {20, 150}, {40, 250}, {50, 400}};
+  constexpr std::array<std::pair<int, int>, 6> layouts = {
+      {{4, 25}, {6, 50}, {10, 100}, {20, 150}, {40, 250}, {50, 400}}};
   for (const auto& [rings, sectors] : layouts) {
     rows.push_back(time_of_layout(std::to_string(rings) + " x " + std::to_string(sectors),
                                   layout_of(rings, sectors), cloud));
@@ -135,7 +136,7 @@ Json growth_with_bins(const Cloud& cloud) {
 Json general_layouts(const Cloud& cloud) {
   Json rows = Json::array();
   rows.push_back(time_of_layout("default", {}, cloud));
-  constexpr std::pair<int, int> layouts[] = {{16, 34}, {17, 32}, {34, 16}, {68, 8}};
+  constexpr std::array<std::pair<int, int>, 4> layouts = {{{16, 34}, {17, 32}, {34, 16}, {68, 8}}};
   for (const auto& [rings, sectors] : layouts) {
     rows.push_back(time_of_layout(std::to_string(rings) + " x " + std::to_string(sectors),
                                   layout_of(rings, sectors), cloud));
@@ -150,12 +151,12 @@ Json memory_layouts(const Cloud& cloud) {
     CloudLayout layout;
   };
   const auto plane = static_cast<std::ptrdiff_t>(cloud.size() * sizeof(float));
-  const Layout layouts[] = {{"xyz, 12 bytes", {12, 0, 4, 8}},
-                            {"xyzi, 16 bytes", {16, 0, 4, 8}},
-                            {"18 bytes, unaligned", {18, 0, 4, 8}},
-                            {"20 bytes", {20, 0, 4, 8}},
-                            {"32 bytes", {32, 0, 4, 8}},
-                            {"x, y, z apart", {4, 0, plane, 2 * plane}}};
+  const std::array<Layout, 6> layouts = {{{"xyz, 12 bytes", {12, 0, 4, 8}},
+                                          {"xyzi, 16 bytes", {16, 0, 4, 8}},
+                                          {"18 bytes, unaligned", {18, 0, 4, 8}},
+                                          {"20 bytes", {20, 0, 4, 8}},
+                                          {"32 bytes", {32, 0, 4, 8}},
+                                          {"x, y, z apart", {4, 0, plane, 2 * plane}}}};
   Json rows = Json::array();
   for (const auto& [name, layout] : layouts) {
     say_on_terminal(std::string("memory: ") + name);

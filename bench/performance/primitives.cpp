@@ -135,7 +135,8 @@ class Steps {
 /// `work` on every instruction set, with `items` each time it is done.
 void add(const std::string& name, std::size_t items, const std::function<void()>& work) {
   for (const std::string& target : simd_targets()) {
-    benchmark::RegisterBenchmark((name + "/" + target).c_str(), [=](benchmark::State& state) {
+    const std::string title = std::string(name).append("/").append(target);
+    benchmark::RegisterBenchmark(title.c_str(), [=](benchmark::State& state) {
       use_simd_target(target);
       for (auto _ : state) {
         work();
@@ -178,6 +179,7 @@ int main(int argc, char** argv) {
   Steps scattered(shuffled(street, random));
   std::vector<float> xyzi;
   for (const flagstone::Point& p : street) xyzi.insert(xyzi.end(), {p.x, p.y, p.z, 0.0f});
+  benchmark::AddCustomContext("points", std::to_string(street.size()));
   add_all(ordered, scattered, xyzi);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

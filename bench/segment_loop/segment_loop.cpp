@@ -72,9 +72,11 @@ int main(int argc, char** argv) {
     (void)patchwork.segment(view_of(scan), result);
     std::cout << hash_of(result) << ' ';
   }
-  std::cout << std::endl;
+  std::cout << '\n' << std::flush;
 
   for (std::string line; std::getline(std::cin, line);) {
+    // Another program had the core in between: the first scan is not to pay for the caches.
+    (void)patchwork.segment(view_of(scans.back()), result);
     for (const std::vector<float>& scan : scans) {
       const flagstone::CloudView cloud = view_of(scan);
       const auto start = std::chrono::steady_clock::now();
@@ -82,7 +84,7 @@ int main(int argc, char** argv) {
       const std::chrono::nanoseconds time = std::chrono::steady_clock::now() - start;
       std::cout << time.count() << ' ';
     }
-    std::cout << std::endl;
+    std::cout << '\n' << std::flush;
   }
   return 0;
 }
