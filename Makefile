@@ -6,11 +6,12 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test sanitize format format-check tidy install clean
+.PHONY: help build demo test sanitize format format-check tidy growth latency primitives bench-compare install \
+        clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
-	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 14
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
 
 build: ## install what is missing, build the command: build/flagstone
 	@scripts/setup build && scripts/build
@@ -33,8 +34,20 @@ format-check: ## fail where `make format` would change something
 tidy: ## run clang-tidy over our sources
 	@scripts/setup build test tidy && scripts/tidy
 
+growth: ## time and memory over points, beams, bins and threads; draws docs/images/growth.png
+	@scripts/setup build benchmark plot && scripts/benchmark growth
+
+latency: ## time of 10,000 different scans, with those meant to take long
+	@scripts/setup build benchmark && scripts/benchmark latency
+
+primitives: ## time of each step for every instruction set
+	@scripts/setup build benchmark && scripts/benchmark primitives
+
+bench-compare: build ## is the working tree slower than REVISION, on SCANS?
+	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(SCANS)
+
 install: build ## install the library and the command under PREFIX (/usr/local)
 	@cmake --install build --prefix $(PREFIX)
 
 clean: ## remove the build trees
-	@rm -rf build build-fuzz build-sanitize
+	@rm -rf build build-fuzz build-sanitize build-compare

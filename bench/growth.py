@@ -1,0 +1,297 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Measures how Patchwork's time and memory grow, draws the plot and prints the tables. Needs Matplotlib.
+
+    make growth                                            # all of it, a minute or two
+    python3 bench/growth.py --from docs/results/growth.json  # plot and tables of what was measured
+
+The figures go to docs/results/growth.json, the plot to docs/images/growth.png, the tables, in Markdown, to
+standard output. All clouds are simulated.
+"""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+RESULTS = ROOT / "docs" / "results" / "growth.json"
+PICTURE = ROOT / "docs" / "images" / "growth.png"
+LIMIT = 64  # bytes a point that the product may hold
+
+BLUE, ORANGE, GREY = "#1f6fb4", "#d9601a", "#808080"
+
+
+def measure(program, points):
+    done = subprocess.run([program, str(points)], stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        sys.exit(f"exit code {done.returncode}: {program} {points}")
+    return json.loads(done.stdout)
+
+
+# --- plot --------------------------------------------------------------------------------------------------
+
+
+def median(duration):
+    return duration["median_ms"]
+
+
+def plot_points(axes, results):
+    rows = results["points"]
+    points = [row["points"] for row in rows]
+    axes.loglog(
+        points, [median(row["ordered"]) for row in rows], "o-", color=BLUE, label="in the sensor's order"
+    )
+    axes.loglog(points, [median(row["shuffled"]) for row in rows], "s-", color=ORANGE, label="shuffled")
+    # A line of slope 1 through the ordered scan of 100,000 points.
+    through = next((row for row in rows if row["points"] == 100000), rows[-1])
+    rate = median(through["ordered"]) / through["points"]
+    axes.loglog(points, [rate * n for n in points], "--", color=GREY, linewidth=1, label="slope 1")
+    axes.set(title="Time over points", xlabel="points", ylabel="time a scan, ms")
+
+
+def plot_memory(axes, results):
+    rows = results["points"]
+    points = [row["points"] for row in rows]
+    axes.loglog(
+        points, [row["bytes_held"] / 2**20 for row in rows], "o-", color=BLUE, label="held, result included"
+    )
+    axes.loglog(
+        points,
+        [LIMIT * n / 2**20 for n in points],
+        "--",
+        color=GREY,
+        linewidth=1,
+        label=f"{LIMIT} bytes a point (slope 1)",
+    )
+    axes.set(title="Memory over points", xlabel="points", ylabel="memory, MiB")
+
+
+def plot_beams(axes, results):
+    rows = results["beams"]
+    beams = [row["beams"] for row in rows]
+    axes.loglog(beams, [median(row["time"]) for row in rows], "o-", color=BLUE, label="2,048 columns")
+    rate = median(rows[0]["time"]) / beams[0]
+    axes.loglog(beams, [rate * n for n in beams], "--", color=GREY, linewidth=1, label="slope 1")
+    axes.set_xticks(beams, [str(n) for n in beams])
+    axes.minorticks_off()
+    axes.set(title="Time over beams", xlabel="beams", ylabel="time a scan, ms")
+
+
+def plot_bins(axes, results):
+    rows = results["bins"]
+    bins = [row["bins"] for row in rows]
+    axes.loglog(bins, [median(row["time"]) for row in rows], "o-", color=BLUE, label="equal rings × sectors")
+    default = results["general_layouts"][0]
+    axes.loglog([default["bins"]], [median(default["time"])], "D", color=ORANGE, label="default zones")
+    rate = median(rows[0]["time"]) / bins[0]
+    short = bins[:3]
+    axes.loglog(short, [rate * n for n in short], "--", color=GREY, linewidth=1, label="slope 1")
+    axes.set(title="Time over bins, 120,000 points", xlabel="bins", ylabel="time a scan, ms")
+
+
+def plot_one_scan(axes, results):
+    rows = results["threads_of_one_scan"]
+    for size, color in zip(sorted({row["points"] for row in rows}), (BLUE, ORANGE)):
+        times = [(row["threads"], median(row["time"])) for row in rows if row["points"] == size]
+        alone = times[0][1]
+        speedups = [(threads, alone / time) for threads, time in times]
+        axes.plot(*zip(*speedups), "o-", color=color, label=f"{size:,} points")
+    threads_scale(axes, rows)
+    axes.set(title="One scan over threads", xlabel="threads", ylabel="times faster than with one")
+
+
+def plot_many_scans(axes, results):
+    rows = results["threads_of_many_scans"]
+    alone = rows[0]["scans_per_second"]
+    shares = [(row["threads"], row["scans_per_second"] / alone) for row in rows]
+    axes.plot(*zip(*shares), "o-", color=BLUE, label=f"120,000 points; {alone:,.0f} scans a second with one")
+    threads_scale(axes, rows)
+    axes.set(title="Many scans over threads", xlabel="threads", ylabel="times as many as with one")
+
+
+def threads_scale(axes, rows):
+    """Linear from 0, with the line on which all threads are used."""
+    threads = sorted({row["threads"] for row in rows})
+    axes.plot(threads, threads, "--", color=GREY, linewidth=1, label="slope 1")
+    axes.set_xticks(threads)
+    axes.set_ylim(0, 1.25 * threads[-1])
+
+
+def plain_numbers(axis):
+    """0.2, 0.5, 1, 2, 5 where there are few decades."""
+    from matplotlib import ticker
+
+    low, high = axis.get_view_interval()
+    if axis.get_scale() != "log" or high > 100 * low:
+        return
+    axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_locator(ticker.NullLocator())
+
+
+def draw(results, path):
+    try:
+        import matplotlib
+    except ImportError:
+        sys.exit("no Matplotlib for the plot: install it (Debian: apt-get install python3-matplotlib)")
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(2, 3, figsize=(13, 7.6), layout="constrained")
+    plots = (plot_points, plot_memory, plot_beams, plot_bins, plot_one_scan, plot_many_scans)
+    for plot, place in zip(plots, axes.flat):
+        plot(place, results)
+        place.grid(True, which="major", color="#dddddd", linewidth=0.6)
+        place.set_axisbelow(True)
+        plain_numbers(place.yaxis)
+        place.legend(frameon=False, fontsize=9)
+    figure.suptitle(
+        f"Patchwork, preset default: {results['machine']}, {results['simd']}, {results['date']}", fontsize=11
+    )
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=110, metadata={"Software": None})
+
+
+# --- tables ------------------------------------------------------------------------------------------------
+
+
+def table(head, rows):
+    lines = [head, ["---"] + ["---:"] * (len(head) - 1), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+
+
+def ms(duration):
+    return f"{duration['median_ms']:.3f}"
+
+
+def points_table(results):
+    rows = []
+    for row in results["points"]:
+        points = row["points"]
+        ordered, scattered = row["ordered"]["median_ms"], row["shuffled"]["median_ms"]
+        rows.append(
+            [f"{points:,}", ms(row["ordered"]), f"{1e6 * ordered / points:.2f}", ms(row["shuffled"]),
+             f"{1e6 * scattered / points:.2f}", f"{scattered / ordered:.2f}", f"{row['bytes_held'] / points:.1f}"]
+        )  # fmt: skip
+    head = [
+        "points",
+        "in order, ms",
+        "ns a point",
+        "shuffled, ms",
+        "ns a point",
+        "shuffled / in order",
+        "bytes held a point",
+    ]
+    return table(head, rows)
+
+
+def beams_table(results):
+    rows = [
+        [
+            str(row["beams"]),
+            f"{row['points']:,}",
+            ms(row["time"]),
+            f"{1e6 * row['time']['median_ms'] / row['points']:.2f}",
+        ]
+        for row in results["beams"]
+    ]
+    return table(["beams, 2,048 columns", "points", "ms", "ns a point"], rows)
+
+
+def layouts_table(results, name):
+    default = results["general_layouts"][0]["time"]["median_ms"]
+    rows = [
+        [row["layout"], str(row["rings"]), f"{row['bins']:,}", f"{row['patches']:,}", ms(row["time"]),
+         f"{row['time']['median_ms'] / default:.2f}"]
+        for row in results[name]
+    ]  # fmt: skip
+    return table(["zones, rings × sectors", "rings", "bins", "with points", "ms", "/ default"], rows)
+
+
+def memory_table(results):
+    first = results["memory_layouts"][0]["time"]["median_ms"]
+    rows = [
+        [row["memory"], ms(row["time"]), f"{row['time']['median_ms'] / first:.2f}"]
+        for row in results["memory_layouts"]
+    ]
+    return table(["a point is", "ms", "/ packed xyz"], rows)
+
+
+def yes_or_no(same):
+    return "yes" if same else "**no**"
+
+
+def threads_tables(results):
+    rows = []
+    alone = {}
+    for row in results["threads_of_one_scan"]:
+        time = row["time"]["median_ms"]
+        alone.setdefault(row["points"], time)
+        rows.append(
+            [
+                f"{row['points']:,}",
+                str(row["threads"]),
+                f"{time:.3f}",
+                f"{alone[row['points']] / time:.2f}",
+                yes_or_no(row["same_labels"]),
+            ]
+        )
+    one = table(["one scan of", "threads", "ms", "times faster", "same bytes"], rows)
+    many = results["threads_of_many_scans"]
+    rows = [
+        [
+            str(row["threads"]),
+            f"{row['scans_per_second']:.0f}",
+            f"{row['scans_per_second'] / many[0]['scans_per_second']:.2f}",
+            yes_or_no(row["same_labels"]),
+        ]
+        for row in many
+    ]
+    return f"{one}\n{table(['many scans: threads', 'scans a second', 'times as many', 'same bytes'], rows)}"
+
+
+def tables(results):
+    head = f"{results['date']}, {results['machine']}, {results['simd']}; medians, warm caches.\n"
+    parts = (
+        head,
+        points_table(results),
+        beams_table(results),
+        layouts_table(results, "bins"),
+        layouts_table(results, "general_layouts"),
+        memory_table(results),
+        threads_tables(results),
+    )
+    return "\n".join(parts)
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--program", type=pathlib.Path, default=ROOT / "build" / "bench" / "performance" / "growth"
+    )
+    parser.add_argument(
+        "--points", type=int, default=10000000, help="of the largest cloud, 1,000 to 10,000,000"
+    )
+    parser.add_argument("--from", dest="file", type=pathlib.Path, help="figures measured before")
+    arguments = parser.parse_args()
+    if arguments.file:
+        results = json.loads(arguments.file.read_text())
+    else:
+        if not arguments.program.exists():
+            sys.exit(f"{arguments.program} is not built: `make growth` builds it")
+        results = measure(arguments.program, arguments.points)
+        RESULTS.parent.mkdir(exist_ok=True)
+        RESULTS.write_text(json.dumps(results, indent=1) + "\n")
+    print(tables(results))
+    draw(results, PICTURE)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit("\ninterrupted")

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+//
+// How time and memory of Patchwork grow with points, beams, bins and threads, on simulated streets.
+// Prints JSON; bench/growth.py runs it and draws the plot.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <flagstone/patchwork.hpp>
+#include <flagstone/version.hpp>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "clouds.hpp"
+#include "core/simd_target.hpp"
+#include "eval/machine.hpp"
+#include "live_memory.hpp"
+#include "terminal.hpp"
+#include "timing.hpp"
+
+namespace flagstone::performance {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t usual_size = 120000;  ///< points of an HDL-64E's scan, about
+
+/// A segmenter and its result, as a user keeps them.
+struct Worker {
+  explicit Worker(PatchworkConfig config = {}, unsigned threads = 1)
+      : patchwork(std::move(config), threads) {}
+
+  void operator()(CloudView cloud) {
+    const Status status = patchwork.segment(cloud, result);
+    if (!status.ok()) throw std::runtime_error(status.message());
+  }
+
+  Patchwork patchwork;
+  Segmentation result;
+};
+
+Duration time_of_scan(Worker& worker, CloudView cloud, double budget = 250) {
+  return time_of([&] { worker(cloud); }, budget);
+}
+
+Json to_json(const Duration& duration) {
+  return {{"median_ms", duration.median}, {"least_ms", duration.least}};
+}
+
+/// Time and bytes held for a cloud in its order and out of it.
+Json growth_with_points(const Cloud& dense, std::size_t most) {
+  Json rows = Json::array();
+  Random random(1);
+  constexpr std::array<std::size_t, 9> sizes = {1000,   3000,    10000,   30000,   100000,
+                                                300000, 1000000, 3000000, 10000000};
+  for (const std::size_t size : sizes) {
+    if (size > most) break;
+    say_on_terminal("points: " + std::to_string(size));
+    Cloud cloud = resized(dense, size);
+    const std::size_t before = live_bytes();
+    Worker worker;
+    const Duration ordered = time_of_scan(worker, view_of(cloud));
+    const std::size_t held = live_bytes() - before;
+    cloud = shuffled(std::move(cloud), random);
+    const Duration scattered = time_of_scan(worker, view_of(cloud));
+    rows.push_back({{"points", size},
+                    {"ordered", to_json(ordered)},
+                    {"shuffled", to_json(scattered)},
+                    {"bytes_held", held},
+                    {"bytes_held_after_shuffled", live_bytes() - before}});
+  }
+  return rows;
+}
+
+/// At 2,048 columns.
+Json growth_with_beams() {
+  Json rows = Json::array();
+  for (const int beams : {16, 32, 64, 128}) {
+    say_on_terminal("beams: " + std::to_string(beams));
+    const Cloud cloud = simulated_street(beams, 2048, 1);
+    Worker worker;
+    rows.push_back({{"beams", beams},
+                    {"points", cloud.size()},
+                    {"time", to_json(time_of_scan(worker, view_of(cloud)))}});
+  }
+  return rows;
+}
+
+/// One zone of `rings` equal rings, `sectors` each.
+PatchworkConfig layout_of(int rings, int sectors) {
+  PatchworkConfig config;
+  const float outer = config.zones.back().ring_radii.back();
+  config.zones = {{.ring_radii = equal_rings(config.min_range, outer, rings), .sectors = sectors}};
+  return config;
+}
+
+Json time_of_layout(const std::string& name, const PatchworkConfig& config, const Cloud& cloud) {
+  say_on_terminal("bins: " + name);
+  std::size_t rings = 0;
+  std::size_t bins = 0;
+  for (const Zone& zone : config.zones) {
+    rings += zone.ring_radii.size();
+    bins += zone.ring_radii.size() * static_cast<std::size_t>(zone.sectors);
+  }
+  const std::size_t before = live_bytes();
+  Worker worker(config);
+  const Duration time = time_of_scan(worker, view_of(cloud));
+  return {{"layout", name},        {"rings", rings},
+          {"bins", bins},          {"patches", worker.result.patches().size()},
+          {"time", to_json(time)}, {"bytes_held", live_bytes() - before}};
+}
+
+Json growth_with_bins(const Cloud& cloud) {
+  Json rows = Json::array();
+  constexpr std::array<std::pair<int, int>, 6> layouts = {
+      {{4, 25}, {6, 50}, {10, 100}, {20, 150}, {40, 250}, {50, 400}}};
+  for (const auto& [rings, sectors] : layouts) {
+    rows.push_back(time_of_layout(std::to_string(rings) + " x " + std::to_string(sectors),
+                                  layout_of(rings, sectors), cloud));
+  }
+  return rows;
+}
+
+/// What layouts cost whose rings no longer fit vector registers: about as many bins each.
+Json general_layouts(const Cloud& cloud) {
+  Json rows = Json::array();
+  rows.push_back(time_of_layout("default", {}, cloud));
+  constexpr std::array<std::pair<int, int>, 4> layouts = {{{16, 34}, {17, 32}, {34, 16}, {68, 8}}};
+  for (const auto& [rings, sectors] : layouts) {
+    rows.push_back(time_of_layout(std::to_string(rings) + " x " + std::to_string(sectors),
+                                  layout_of(rings, sectors), cloud));
+  }
+  return rows;
+}
+
+/// The same points in other memory.
+Json memory_layouts(const Cloud& cloud) {
+  struct Layout {
+    const char* name;
+    CloudLayout layout;
+  };
+  const auto plane = static_cast<std::ptrdiff_t>(cloud.size() * sizeof(float));
+  const std::array<Layout, 6> layouts = {{{"xyz, 12 bytes", {12, 0, 4, 8}},
+                                          {"xyzi, 16 bytes", {16, 0, 4, 8}},
+                                          {"18 bytes, unaligned", {18, 0, 4, 8}},
+                                          {"20 bytes", {20, 0, 4, 8}},
+                                          {"32 bytes", {32, 0, 4, 8}},
+                                          {"x, y, z apart", {4, 0, plane, 2 * plane}}}};
+  Json rows = Json::array();
+  for (const auto& [name, layout] : layouts) {
+    say_on_terminal(std::string("memory: ") + name);
+    const auto record = static_cast<std::size_t>(std::max<std::ptrdiff_t>(layout.stride, 12));
+    std::vector<char> bytes(cloud.size() * record);
+    const auto put = [&](std::size_t point, std::ptrdiff_t offset, float value) {
+      const auto at = static_cast<std::ptrdiff_t>(point) * layout.stride + offset;
+      std::memcpy(bytes.data() + at, &value, sizeof value);
+    };
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      put(i, layout.x, cloud[i].x);
+      put(i, layout.y, cloud[i].y);
+      put(i, layout.z, cloud[i].z);
+    }
+    Worker worker;
+    const Duration time = time_of_scan(worker, CloudView(bytes.data(), cloud.size(), layout));
+    rows.push_back({{"memory", name}, {"time", to_json(time)}});
+  }
+  return rows;
+}
+
+bool same_bytes(const Segmentation& a, const Segmentation& b) {
+  return std::ranges::equal(a.labels(), b.labels());
+}
+
+/// One scan over several threads.
+Json growth_with_threads_of_one_scan(const Cloud& dense, unsigned cores) {
+  Json rows = Json::array();
+  for (const std::size_t size : {usual_size, std::size_t{1000000}}) {
+    const Cloud cloud = resized(dense, size);
+    Worker alone;
+    alone(view_of(cloud));
+    for (unsigned threads = 1; threads <= cores; ++threads) {
+      say_on_terminal("threads of one scan: " + std::to_string(threads));
+      Worker worker({}, threads);
+      const Duration time = time_of_scan(worker, view_of(cloud), 500);
+      rows.push_back({{"points", size},
+                      {"threads", threads},
+                      {"time", to_json(time)},
+                      {"same_labels", same_bytes(worker.result, alone.result)}});
+    }
+  }
+  return rows;
+}
+
+/// Many scans at once: every thread takes all of them in turn.
+Json growth_with_threads_of_many_scans(const Cloud& dense, unsigned cores) {
+  constexpr std::size_t scan_count = 8;
+  constexpr std::size_t rounds = 40;
+  std::vector<Cloud> clouds;
+  std::vector<Segmentation> expected(scan_count);
+  Worker alone;
+  for (std::size_t scan = 0; scan < scan_count; ++scan) {
+    clouds.push_back(turned(resized(dense, usual_size), 0.7 * static_cast<double>(scan)));
+    alone(view_of(clouds.back()));
+    expected[scan] = alone.result;
+  }
+  Json rows = Json::array();
+  for (unsigned threads = 1; threads <= cores; ++threads) {
+    say_on_terminal("threads of many scans: " + std::to_string(threads));
+    std::vector<Worker> workers(threads);
+    std::vector<char> same(threads, 1);
+    const auto crew = [&](const auto& work) {
+      std::vector<std::jthread> others;
+      for (unsigned t = 1; t < threads; ++t) others.emplace_back([&work, t] { work(t); });
+      work(0);
+    };
+    crew([&](unsigned t) {  // warms up and compares
+      for (std::size_t scan = 0; scan < scan_count; ++scan) {
+        workers[t](view_of(clouds[scan]));
+        if (!same_bytes(workers[t].result, expected[scan])) same[t] = 0;
+      }
+    });
+    Stopwatch stopwatch;
+    crew([&](unsigned t) {
+      for (std::size_t i = 0; i < rounds * scan_count; ++i) {
+        workers[t](view_of(clouds[(i + t) % scan_count]));
+      }
+    });
+    const double seconds = stopwatch.lap() / 1000;
+    rows.push_back({{"threads", threads},
+                    {"points", usual_size},
+                    {"scans_per_second", threads * rounds * scan_count / seconds},
+                    {"same_labels", std::ranges::all_of(same, [](char s) { return s != 0; })}});
+  }
+  return rows;
+}
+
+int run(std::size_t most) {
+  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  say_on_terminal("simulating");
+  // Two thirds of the firings come back.
+  const auto columns = static_cast<int>(std::max(most, std::size_t{1000000}) * 17 / 640);
+  const Cloud dense = simulated_street(64, columns, 1);
+  const Cloud cloud = resized(dense, usual_size);
+  Json result = {{"flagstone", FLAGSTONE_VERSION},
+                 {"date", eval::today()},
+                 {"machine", eval::machine_name()},
+                 {"simd", simd_target()},
+                 {"simulated_points", dense.size()}};
+  result["points"] = growth_with_points(dense, most);
+  result["beams"] = growth_with_beams();
+  result["bins"] = growth_with_bins(cloud);
+  result["general_layouts"] = general_layouts(cloud);
+  result["memory_layouts"] = memory_layouts(cloud);
+  result["threads_of_one_scan"] = growth_with_threads_of_one_scan(dense, cores);
+  result["threads_of_many_scans"] = growth_with_threads_of_many_scans(dense, cores);
+  say_on_terminal("");
+  std::cout << result.dump(1) << '\n';
+  return 0;
+}
+
+/// The largest cloud asked for: 1,000 to 10,000,000 points.
+std::size_t parse_most(std::string_view text) {
+  std::size_t most = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9' || most > 10000000) return 0;
+    most = 10 * most + static_cast<std::size_t>(c - '0');
+  }
+  return most;
+}
+
+}  // namespace
+}  // namespace flagstone::performance
+
+int main(int argc, char** argv) {
+  constexpr std::size_t all = 10000000;
+  const std::size_t most = argc == 2 ? flagstone::performance::parse_most(argv[1]) : all;
+  if (argc > 2 || most < 1000 || most > all) {
+    std::fputs("usage: growth [POINTS], the largest cloud, 1000 to 10000000 (all by default)\n",
+               stderr);
+    return 2;
+  }
+  try {
+    return flagstone::performance::run(most);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "growth: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+//
+// How long Patchwork takes on 10,000 different scans, among them those meant to take long, and
+// which take longer than others of their size. Prints Markdown.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <flagstone/patchwork.hpp>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "clouds.hpp"
+#include "core/simd_target.hpp"
+#include "core/stopwatch.hpp"
+#include "eval/machine.hpp"
+#include "latency_scans.hpp"
+#include "terminal.hpp"
+#include "timing.hpp"
+
+namespace flagstone::performance {
+namespace {
+
+/// How many scans there are of a size; 10,000 together.
+struct SizeClass {
+  std::size_t points;
+  std::size_t scans;
+};
+constexpr std::array<SizeClass, 4> size_classes = {
+    {{1000, 3600}, {10000, 3600}, {120000, 2640}, {1000000, 160}}};
+
+/// A scan is segmented this often. What an input costs shows in the least of the times; the first
+/// one also has what else the machine does, and caches without the scan's working memory.
+constexpr int repeats = 5;
+
+/// Scans slower than this many times the median of their kind are looked at again once all others
+/// are done, so that what the machine did at that moment is not put down to them.
+constexpr double suspicious = 1.2;
+
+struct Times {
+  std::vector<double> first;  ///< of each scan, milliseconds
+  std::vector<double> least;
+  std::vector<std::size_t> scans;  ///< their numbers
+};
+
+/// Times by size class and kind.
+using Table = std::vector<std::vector<Times>>;
+
+/// Segments scans of one size.
+class Bench {
+ public:
+  Bench(const std::vector<ScanKind>& kinds, std::size_t points) : kinds_(kinds), points_(points) {
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      (kinds[k].ordinary ? ordinary_ : others_).push_back(k);
+    }
+    Random random(points);
+    for (const ScanKind& kind : kinds) {  // memory grows to this size
+      (void)patchwork_.segment(view_of(kind.draw(points, random)), result_);
+    }
+  }
+
+  /// Every other scan is an ordinary one.
+  [[nodiscard]] std::size_t kind_of(std::size_t scan) const {
+    const std::vector<std::size_t>& kinds = scan % 2 == 0 ? ordinary_ : others_;
+    return kinds[scan / 2 % kinds.size()];
+  }
+
+  void measure(std::size_t scan, std::vector<Times>& times_of_kinds) {
+    Times& times = times_of_kinds[kind_of(scan)];
+    const Cloud cloud = draw(scan);
+    times.scans.push_back(scan);
+    times.first.push_back(time_of_one(cloud));
+    times.least.push_back(times.first.back());
+    for (int repeat = 1; repeat < repeats; ++repeat) {
+      times.least.back() = std::min(times.least.back(), time_of_one(cloud));
+    }
+  }
+
+  /// Measures those again that are suspicious.
+  void measure_again(Times& times) {
+    const double limit = suspicious * quantile(times.least, 0.5);
+    for (std::size_t i = 0; i < times.scans.size(); ++i) {
+      if (times.least[i] <= limit) continue;
+      const Cloud cloud = draw(times.scans[i]);
+      for (int repeat = 0; repeat < 2 * repeats; ++repeat) {
+        times.least[i] = std::min(times.least[i], time_of_one(cloud));
+      }
+    }
+  }
+
+ private:
+  Cloud draw(std::size_t scan) {
+    Random own = Random::stream(points_, scan);
+    return kinds_[kind_of(scan)].draw(points_, own);
+  }
+
+  double time_of_one(const Cloud& cloud) {
+    Stopwatch stopwatch;
+    const Status status = patchwork_.segment(view_of(cloud), result_);
+    const double time = stopwatch.lap();
+    if (!status.ok()) throw std::runtime_error(status.message());
+    return time;
+  }
+
+  const std::vector<ScanKind>& kinds_;
+  std::size_t points_;
+  std::vector<std::size_t> ordinary_;  ///< kinds
+  std::vector<std::size_t> others_;
+  Patchwork patchwork_;
+  Segmentation result_;
+};
+
+Table measure(const std::vector<ScanKind>& kinds) {
+  Table table;
+  std::size_t done = 0;
+  for (const SizeClass& size_class : size_classes) {
+    std::vector<Times>& times = table.emplace_back(kinds.size());
+    Bench bench(kinds, size_class.points);
+    for (std::size_t scan = 0; scan < size_class.scans; ++scan, ++done) {
+      if (done % 100 == 0) say_on_terminal(fmt::format("{} of 10000 scans", done));
+      bench.measure(scan, times);
+    }
+    for (Times& of_kind : times) bench.measure_again(of_kind);
+  }
+  say_on_terminal("");
+  return table;
+}
+
+Times all_of(const std::vector<Times>& kinds, const std::vector<ScanKind>& names,
+             bool only_ordinary) {
+  Times all;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (only_ordinary && !names[k].ordinary) continue;
+    all.first.insert(all.first.end(), kinds[k].first.begin(), kinds[k].first.end());
+    all.least.insert(all.least.end(), kinds[k].least.begin(), kinds[k].least.end());
+  }
+  return all;
+}
+
+/// | median | 99 % | 99.9 % | greatest | 99.9 % / median |
+std::string cells(const std::vector<double>& times) {
+  const double median = quantile(times, 0.5);
+  const double high = quantile(times, 0.999);
+  return fmt::format(" {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.2f} |", median, quantile(times, 0.99),
+                     high, quantile(times, 1), high / median);
+}
+
+void print_by_size(const Table& table, const std::vector<ScanKind>& kinds) {
+  fmt::print(
+      "| points, scans, time | median, ms | 99 % | 99.9 % | greatest | 99.9 % / median |\n"
+      "|---|---:|---:|---:|---:|---:|\n");
+  for (std::size_t s = 0; s < table.size(); ++s) {
+    for (const bool ordinary : {true, false}) {
+      const Times times = all_of(table[s], kinds, ordinary);
+      const std::string title =
+          fmt::format("| {}, {} {}", size_classes[s].points, times.first.size(),
+                      ordinary ? "ordinary" : "of all kinds");
+      fmt::print("{}, least |{}\n", title, cells(times.least));
+      fmt::print("{}, first |{}\n", title, cells(times.first));
+    }
+  }
+}
+
+void print_by_kind(const Table& table, const std::vector<ScanKind>& kinds) {
+  constexpr std::size_t usual = 2;  // 120,000 points
+  fmt::print(
+      "\n| kind, {} points, least | median, ms | 99 % | 99.9 % | greatest | 99.9 % / median "
+      "| median / ordinary |\n|---|---:|---:|---:|---:|---:|---:|\n",
+      size_classes[usual].points, repeats);
+  const double ordinary = quantile(all_of(table[usual], kinds, true).least, 0.5);
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const std::vector<double>& times = table[usual][k].least;
+    fmt::print("| {} |{} {:.2f} |\n", kinds[k].name, cells(times), quantile(times, 0.5) / ordinary);
+  }
+}
+
+/// Nanoseconds by n log2 n.
+double cost(double milliseconds, std::size_t points) {
+  const auto n = static_cast<double>(points);
+  return milliseconds * 1e6 / (n * std::log2(n));
+}
+
+/// The last column tells a time that grows faster than points * log(points): from the second size
+/// to the last it would rise.
+void print_growth(const Table& table, const std::vector<ScanKind>& kinds) {
+  fmt::print("\n| slowest scan, ns / (n log2 n) |");
+  for (const SizeClass& size_class : size_classes) fmt::print(" {} |", size_class.points);
+  fmt::print(" last / {} |\n|---|", size_classes[1].points);
+  for (std::size_t column = 0; column <= size_classes.size(); ++column) fmt::print("---:|");
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    fmt::print("\n| {} |", kinds[k].name);
+    std::vector<double> costs;
+    for (std::size_t s = 0; s < table.size(); ++s) {
+      costs.push_back(cost(quantile(table[s][k].least, 1), size_classes[s].points));
+      fmt::print(" {:.3f} |", costs.back());
+    }
+    fmt::print(" {:.2f} |", costs.back() / costs[1]);
+  }
+  fmt::print("\n");
+}
+
+/// Kinds with a scan more than three times as slow as ordinary scans of its size.
+void print_slow(const Table& table, const std::vector<ScanKind>& kinds) {
+  fmt::print("\nSlower than 3 times the median of ordinary scans of the size:\n\n");
+  for (std::size_t s = 0; s < table.size(); ++s) {
+    const double ordinary = quantile(all_of(table[s], kinds, true).least, 0.5);
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      const double ratio = quantile(table[s][k].least, 1) / ordinary;
+      if (ratio > 3) {
+        fmt::print("- {} points, {}: {:.2f}\n", size_classes[s].points, kinds[k].name, ratio);
+      }
+    }
+  }
+}
+
+int run() {
+  say_on_terminal("simulating");
+  const Sources sources = load_sources();
+  const std::vector<ScanKind> kinds = scan_kinds(sources);
+  std::size_t real_count = sources.voxel_means.size();
+  for (const auto& [set, scans] : sources.real) real_count += scans.size();
+  const Table table = measure(kinds);
+  fmt::print("{}, {}, {}; from {} simulated and {} real scans.\n\n", eval::today(),
+             eval::machine_name(), simd_target(), sources.simulated.size(), real_count);
+  print_by_size(table, kinds);
+  print_by_kind(table, kinds);
+  print_growth(table, kinds);
+  print_slow(table, kinds);
+  return 0;
+}
+
+}  // namespace
+}  // namespace flagstone::performance
+
+int main(int argc, char** /*argv*/) {
+  if (argc != 1) {
+    std::fputs("usage: latency (FLAGSTONE_DATA names the folder of real scans)\n", stderr);
+    return 2;
+  }
+  try {
+    return flagstone::performance::run();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "latency: %s\n", error.what());
+    return 1;
+  }
+}
