@@ -23,7 +23,7 @@ ConcentricZones::ConcentricZones(const PatchworkConfig& config) {
       add_ring(config, zone, ring);
     }
   }
-  least_squared_range_ = std::max(squared_radii_.front(), std::numeric_limits<float>::denorm_min());
+  least_squared_range_ = std::max(squared_radii_.front(), std::numeric_limits<float>::min());
   const std::size_t table_size = std::max(rings_.size(), RingTree::few);
   for (std::vector<float>* table : {&sectors_, &first_bins_, &noise_heights_}) {
     table->resize(table_size);

@@ -59,7 +59,7 @@ class ConcentricZones {
 
   /// L_min^2 and L_max^2.
   [[nodiscard]] float min_squared_range() const noexcept { return squared_radii_.front(); }
-  /// L_min^2, or the least above 0.
+  /// L_min^2, or the least normal number.
   [[nodiscard]] float least_squared_range() const noexcept { return least_squared_range_; }
   [[nodiscard]] float max_squared_range() const noexcept { return squared_radii_.back(); }
 

@@ -88,8 +88,11 @@ HWY_INLINE IntVector with_binless(IntVector bins, FloatVector squared_range, Flo
   // Infinity * 0 and NaN * 0 are NaN.
   const FloatVector nothing =
       hn::Add(hn::Add(hn::Mul(x, zero), hn::Mul(y, zero)), hn::Mul(z, zero));
-  const auto somewhere = hn::Or(hn::Or(hn::Ne(x, zero), hn::Ne(y, zero)), hn::Ne(z, zero));
-  const auto valid = hn::And(hn::Eq(nothing, zero), somewhere);
+  // Looked at as integers without their sign, numbers are zero if they are, not if they are
+  // denormal.
+  const IntVector bits = hn::BitCast(di, hn::Or(hn::Or(x, y), z));
+  const auto somewhere = hn::Ne(hn::ShiftLeft<1>(bits), hn::Zero(di));
+  const auto valid = hn::And(hn::Eq(nothing, zero), hn::RebindMask(d, somewhere));
   const auto in_range =
       hn::And(hn::And(hn::Ge(squared_range, hn::Set(d, zones.min_squared_range())),
                       hn::Lt(squared_range, hn::Set(d, zones.max_squared_range()))),
