@@ -28,7 +28,9 @@ PlaneFit::PlaneFit(const PatchworkConfig& config)
       judge_final_set_(config.judge_final_set),
       seed_heights_(static_cast<std::size_t>(config.seed_count)) {
   for (const Zone& zone : config.zones) {
-    seed_cuts_.push_back(static_cast<double>(zone.height_margin) * config.sensor_height);
+    // No margin is none at any sensor height, though infinity * 0 is not a number.
+    const double margin = zone.height_margin;
+    seed_cuts_.push_back(std::isinf(margin) ? margin : margin * config.sensor_height);
   }
 }
 
