@@ -18,11 +18,10 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-TEST(SimdTarget, ListsEachInstructionSetOnceAndPlainCppLast) {
+TEST(SimdTarget, ListsEachInstructionSetOnce) {
   const std::vector<std::string> targets = simd_targets();
 
   ASSERT_FALSE(targets.empty());
-  EXPECT_EQ(targets.back(), "scalar");
   EXPECT_EQ(std::set<std::string>(targets.begin(), targets.end()).size(), targets.size());
 }
 
@@ -35,9 +34,9 @@ TEST(SimdTarget, NamesAreLowerCaseWithoutSpaces) {
 }
 
 #if defined(__x86_64__)
-TEST(SimdTarget, NamesOnX86AreThoseDocumented) {
-  EXPECT_THAT(simd_targets(),
-              testing::Each(AnyOf("avx3_dl", "avx3", "avx2", "sse4", "ssse3", "scalar")));
+TEST(SimdTarget, NamesOnX86AreThoseDocumentedAndPlainCppIsTheLast) {
+  EXPECT_THAT(simd_targets(), testing::Each(AnyOf("avx3", "avx2", "sse4", "ssse3", "scalar")));
+  EXPECT_EQ(simd_targets().back(), "scalar");
 }
 #endif
 
@@ -84,11 +83,12 @@ TEST(SimdTarget, UnknownOnesAreRefusedInOneLineThatNamesThoseThereAre) {
 }
 
 TEST(SimdTarget, ARefusedNameChangesNothing) {
-  const tests::ForcedTarget forced("scalar");
+  const std::string last = simd_targets().back();
+  const tests::ForcedTarget forced(last);
 
   EXPECT_THROW(use_simd_target("no such thing"), std::invalid_argument);
 
-  EXPECT_EQ(simd_target(), "scalar");
+  EXPECT_EQ(simd_target(), last);
 }
 
 }  // namespace

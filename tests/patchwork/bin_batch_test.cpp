@@ -18,15 +18,6 @@
 namespace flagstone::patchwork {
 namespace {
 
-std::vector<std::uint32_t> points_of(const BinGroups& groups, std::uint32_t bin) {
-  if (groups.scattered()) return {groups.points(bin).begin(), groups.points(bin).end()};
-  std::vector<std::uint32_t> points;
-  for (const Run& run : groups.runs(bin)) {
-    for (std::uint32_t i = 0; i < run.length; ++i) points.push_back(run.begin + i);
-  }
-  return points;
-}
-
 /// The parameter is the instruction set.
 class BinBatchOn : public testing::TestWithParam<std::string> {
  protected:
@@ -51,7 +42,7 @@ class BinBatchOn : public testing::TestWithParam<std::string> {
  private:
   static void expect_gathered(const tests::SortedScan& sorted, const BinBatch& batch, std::size_t i,
                               const std::vector<Point>& cloud) {
-    const std::vector<std::uint32_t> points = points_of(sorted.groups, batch.bin(i));
+    const std::vector<std::uint32_t> points = tests::points_of(sorted.groups, batch.bin(i));
     const Point& first = cloud[points.front()];
     const Point& last = cloud[points.back()];
     ASSERT_EQ(batch.size(i), points.size());

@@ -27,18 +27,10 @@ Lists naive(const ScanPoints& scan, std::size_t points, const ConcentricZones& z
   return lists;
 }
 
-/// The same as the groups have it, whichever way they list points.
+/// The same as the groups have it.
 Lists listed(const BinGroups& groups, std::uint32_t group_count) {
   Lists lists(group_count);
-  for (std::uint32_t bin = 0; bin < group_count; ++bin) {
-    if (groups.scattered()) {
-      lists[bin].assign(groups.points(bin).begin(), groups.points(bin).end());
-    } else {
-      for (const Run& run : groups.runs(bin)) {
-        for (std::uint32_t i = 0; i < run.length; ++i) lists[bin].push_back(run.begin + i);
-      }
-    }
-  }
+  for (std::uint32_t bin = 0; bin < group_count; ++bin) lists[bin] = tests::points_of(groups, bin);
   return lists;
 }
 

@@ -130,7 +130,7 @@ TEST_P(Layouts, OffsetsBeforeTheRecord) {
 
 TEST_P(Layouts, NothingIsReadBehindTheLastCoordinate) {
   const tests::ForcedTarget forced(GetParam());
-  const tests::GuardedMemory memory(16448 * 20);
+  const tests::GuardedMemory memory(std::size_t{16448} * 20);
   const std::vector<Point> points = corrupted_cloud(16448, 6);
   Patchwork patchwork;
   for (const CloudLayout& layout : {CloudLayout{.stride = 12, .x = 0, .y = 4, .z = 8},

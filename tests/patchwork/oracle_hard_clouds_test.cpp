@@ -80,6 +80,7 @@ TEST_P(OracleOnHardClouds, RealScansInNoOrder) {
     ASSERT_TRUE(status.ok()) << status.message();
     config.sensor_height = scan.sensor_height;
     std::vector<Point> points;
+    points.reserve(cloud.size());
     for (std::size_t i = 0; i < cloud.size(); ++i) points.push_back(cloud.view()[i]);
     total += compare(view_of(shuffled(std::move(points), 1)), config);
   }
@@ -131,8 +132,8 @@ TEST_P(OracleOnHardClouds, Poles) {
 TEST_P(OracleOnHardClouds, PolesOnGround) {
   std::mt19937 random(5);
   std::vector<Point> cloud = made_up_cloud(30000, 22);
-  for (int i = 0; i < 6000; ++i) {
-    Point top = cloud[static_cast<std::size_t>(i / 30 * 150)];
+  for (std::size_t i = 0; i < 6000; ++i) {
+    Point top = cloud[i / 30 * 150];
     top.z += 3 * unit(random);
     cloud.push_back(top);
   }
@@ -170,14 +171,23 @@ TEST_P(OracleOnHardClouds, BinsOf300Metres) {
 
 TEST_P(OracleOnHardClouds, HeightsOf9999Metres) {
   config.noise_depth = std::numeric_limits<float>::infinity();
+  // With a margin all points may be below it, the next test's subject.
+  for (Zone& zone : config.zones) zone.height_margin = -std::numeric_limits<float>::infinity();
   for (const float height : {-9999.0f, 9999.0f}) {
     const auto level = [height](float x, float) { return height + 0.004f * x; };
     expect_agreement_on("ground at " + std::to_string(height) + " m",
-                        surface(30000, 79, 12, level, 0.5f));
+                        surface(60000, 79, 12, level, 0.5f));
     std::vector<Point> cloud = made_up_cloud(40000, 23);
     for (std::size_t i = 0; i < cloud.size(); i += 50) cloud[i].z = height;
     expect_agreement_on("one point in 50 at " + std::to_string(height) + " m", cloud);
   }
+}
+
+TEST_P(OracleOnHardClouds, GroundBelowEveryMargin) {
+  // Without seeds heights are seen from the sensor's, in steps of 8 micrometres at 100 m.
+  config.noise_depth = std::numeric_limits<float>::infinity();
+  const auto level = [](float x, float) { return -100 + 0.004f * x; };
+  expect_agreement_on("ground at -100 m", surface(60000, 79, 14, level, 0.5f));
 }
 
 TEST_P(OracleOnHardClouds, ReflectionsAtMinus9000MetresThatNobodyCallsNoise) {

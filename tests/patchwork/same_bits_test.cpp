@@ -153,7 +153,7 @@ TEST_P(SameBits, OnPointsOnALine) {
 TEST_P(SameBits, OnCloudsOf1To70Points) {
   for (std::size_t size = 1; size <= 70; ++size) {
     // In few bins, so that some are fitted.
-    std::vector<Point> cloud = made_up_cloud(70 * 64, static_cast<std::uint32_t>(size));
+    std::vector<Point> cloud = made_up_cloud(4480, static_cast<std::uint32_t>(size));
     cloud.resize(size);
     const std::string what = std::to_string(size) + " points";
     for (const Setting& setting : presets()) expect_same(setting, view_of(cloud), what);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "made_up_cloud.hpp"
@@ -27,6 +29,16 @@ struct SortedScan {
   patchwork::ScanPoints scan;
   patchwork::BinGroups groups;
 };
+
+/// Indices of the points of a bin, whichever way the groups list them.
+inline std::vector<std::uint32_t> points_of(const patchwork::BinGroups& groups, std::uint32_t bin) {
+  if (groups.scattered()) return {groups.points(bin).begin(), groups.points(bin).end()};
+  std::vector<std::uint32_t> points;
+  for (const patchwork::Run& run : groups.runs(bin)) {
+    for (std::uint32_t i = 0; i < run.length; ++i) points.push_back(run.begin + i);
+  }
+  return points;
+}
 
 /// One ring of sixteen bins, from 2.7 to 80 m, which no height is too low for.
 inline PatchworkConfig sixteen_bins() {
