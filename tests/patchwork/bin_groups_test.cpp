@@ -70,6 +70,7 @@ TEST(BinGroups, OfACloudInNoOrderAreScattered) {
 /// `run_length` points by turns in two bins opposite each other.
 std::vector<Point> by_turns(std::size_t points, std::size_t run_length) {
   std::vector<Point> cloud;
+  cloud.reserve(points);
   for (std::size_t i = 0; i < points; ++i) {
     cloud.push_back({i / run_length % 2 == 0 ? 5.0f : -5.0f, 0.5f, -1.7f});
   }

@@ -36,7 +36,7 @@ NaiveSums naive(const BinBatch& batch, std::size_t i, const GroundSet& set) {
     const float y = batch.y(i)[k];
     const float z = batch.z(i)[k];
     const float height = (set.normal_x * x + set.normal_y * y) + set.normal_z * z;
-    if (!(height >= set.bottom && height < set.top)) continue;
+    if (height < set.bottom || height >= set.top) continue;
     const Vector3 p = {x, y, z};
     sums.moments.add(p[0], p[1], p[2]);
     for (std::size_t c = 0; c < 3; ++c) {

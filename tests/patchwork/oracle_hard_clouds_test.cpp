@@ -40,7 +40,8 @@ std::vector<Point> surface(std::size_t points, float range, std::uint32_t seed,
   cloud.reserve(points);
   while (cloud.size() < points) {
     const float rho = 2.8f + (range - 2.9f) * unit(random);
-    const float theta = 6.2831853f * unit(random);
+    // A multiple of all presets' sectors: no direction is within rounding of a sector's boundary.
+    const float theta = 6.2831853f * (std::floor(12096 * unit(random)) + 0.5f) / 12096;
     const float x = rho * std::cos(theta);
     const float y = rho * std::sin(theta);
     cloud.push_back({x, y, height(x, y) + roughness * (unit(random) - 0.5f)});

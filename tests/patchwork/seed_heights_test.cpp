@@ -79,6 +79,7 @@ TEST_P(SeedHeightsOn, AreTheMeanOfTheLowestForBinsOf1To200Points) {
   std::mt19937 random(1);
   for (std::size_t first = 1; first <= 200; first += batch_size) {
     std::vector<Heights> bins;
+    bins.reserve(batch_size);
     for (std::size_t i = 0; i < batch_size; ++i) {
       bins.push_back(any_heights(first + i, 1U << 20U, random));
     }
