@@ -150,6 +150,26 @@ void add_labels(SeedFolder& seeds) {
                     npy_file("{'descr': '>i4', 'fortran_order': False, 'shape': (10,), }", 40)}));
 }
 
+/// A few hundred places on the ground, as the fuzzer of Patchwork takes them, for each of its
+/// settings.
+void add_segment(SeedFolder& seeds) {
+  Bytes places;
+  for (int i = 0; i < 300; ++i) {
+    for (const int number : {3000 + 7 * (i % 20), 400 + 9 * (i / 20), -9450 + i * 37 % 60}) {
+      places = joined({places, numbers({static_cast<std::int16_t>(number)})});
+    }
+  }
+  const Bytes odd =
+      numbers<float>({5, 5, -1.7F, 1e20F, 0, 0, 0, 0, 0, 3e38F, 6, -1.7F, 6, 2, -9999});
+  for (std::uint8_t settings = 0; settings < 12; ++settings) {
+    const auto choice = std::byte{settings};
+    seeds.add("segment", "ground" + std::to_string(settings),
+              joined({Bytes{choice, choice, std::byte{1}}, places}));
+    seeds.add("segment", "odd" + std::to_string(settings),
+              joined({Bytes{choice, choice, std::byte{0}}, odd}));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -164,5 +184,6 @@ int main(int argc, char** argv) {
   add_npy(seeds, varied);
   add_raw(seeds);
   add_labels(seeds);
+  add_segment(seeds);
   return seeds.failed() ? 1 : 0;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/crew.hpp"
 
-#include <system_error>
+#include <exception>
 
 #include "core/flush_denormals.hpp"
 
@@ -30,8 +30,8 @@ Crew::Crew(unsigned size) {
     for (unsigned worker = 1; worker < size; ++worker) {
       others_.emplace_back([this, worker] { serve(worker); });
     }
-  } catch (const std::system_error&) {
-    return;  // fewer do as well
+  } catch (const std::exception&) {
+    return;  // no more threads, or no memory for them: fewer do as well
   }
 }
 

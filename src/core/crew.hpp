@@ -16,7 +16,7 @@ namespace flagstone {
 class Crew {
  public:
   /// `size` >= 1 counts the thread that calls `run`. May throw std::bad_alloc; where the system has
-  /// no more threads the crew is smaller.
+  /// no more threads, or no memory for them, the crew is smaller.
   explicit Crew(unsigned size);
   ~Crew();
   Crew(const Crew&) = delete;

@@ -37,7 +37,8 @@ HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, Pla
   const Symmetrics c = {covariance(0, sum[0], mean.x), covariance(1, sum[0], mean.y),
                         covariance(2, sum[0], mean.z), covariance(3, sum[1], mean.y),
                         covariance(4, sum[1], mean.z), covariance(5, sum[2], mean.z)};
-  const DoubleVector trace = add(add(c.xx, c.yy), c.zz);
+  // Where all points are equal rounding may make it less than 0.
+  const DoubleVector trace = hn::Max(add(add(c.xx, c.yy), c.zz), number(0));
   const Axes axes = principal_axes(c, trace);
   const Vectors3& normal = axes.normal;
   store(n, planes.count);

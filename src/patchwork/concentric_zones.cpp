@@ -24,7 +24,8 @@ ConcentricZones::ConcentricZones(const PatchworkConfig& config) {
     }
   }
   least_squared_range_ = std::max(squared_radii_.front(), std::numeric_limits<float>::min());
-  const std::size_t table_size = std::max(rings_.size(), RingTree::few);
+  // Where rho^2 is infinite the tree leads to its last leaf, ring or not.
+  const std::size_t table_size = std::max(std::bit_ceil(rings_.size()), RingTree::few);
   for (std::vector<float>* table : {&sectors_, &first_bins_, &noise_heights_}) {
     table->resize(table_size);
   }

@@ -66,7 +66,7 @@ class ConcentricZones {
   [[nodiscard]] const RingTree& tree() const noexcept { return tree_; }
 
   /// @name Tables by ring
-  /// At least 16 entries each.
+  /// An entry for each leaf of the tree.
   /// @{
   [[nodiscard]] const float* sectors() const noexcept { return sectors_.data(); }
   /// The bits of integers.

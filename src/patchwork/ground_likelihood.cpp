@@ -19,8 +19,9 @@ double bounded_exp(double x) { return exponential(std::clamp(x, -300.0, 300.0));
 
 GroundLikelihood::GroundLikelihood(const PatchworkConfig& config, const std::vector<Ring>& rings)
     : uprightness_(config.uprightness),
-      smallest_normal_z_(
-          std::cos(std::numbers::pi / 2 - config.uprightness.angle * std::numbers::pi / 180)),
+      // In single precision, so that what mathematics libraries differ by is rounded away.
+      smallest_normal_z_(static_cast<float>(
+          std::cos(std::numbers::pi / 2 - config.uprightness.angle * std::numbers::pi / 180))),
       elevation_scale_(config.elevation.scale),
       flatness_(config.flatness) {
   const std::vector<float>& thresholds = config.flatness.thresholds;

@@ -28,7 +28,9 @@ PlaneFit::PlaneFit(const PatchworkConfig& config)
       judge_final_set_(config.judge_final_set),
       seed_heights_(static_cast<std::size_t>(config.seed_count)) {
   for (const Zone& zone : config.zones) {
-    seed_cuts_.push_back(static_cast<double>(zone.height_margin) * config.sensor_height);
+    // No margin is none at any sensor height, though infinity * 0 is not a number.
+    const double margin = zone.height_margin;
+    seed_cuts_.push_back(std::isinf(margin) ? margin : margin * config.sensor_height);
   }
 }
 
@@ -42,11 +44,12 @@ void PlaneFit::fit(BinBatch& batch, const std::array<std::uint16_t, batch_size>&
   clock.end(Stage::seed);
 
   // G^0, eq. (4), with the points below the margin kept out where the paper has it so. Heights are
-  // seen from z-bar_init from now on.
+  // seen from z-bar_init from now on; where there was no seed and it is 0, from the first point.
   GroundSets& sets = result.sets;
   std::array<FirstSet, batch_size> first_sets{};
   for (std::size_t i = 0; i < batch.count(); ++i) {
-    const auto origin = static_cast<float>(initial_heights[i]);
+    const float origin =
+        initial_heights[i] == 0 ? batch.z(i)[0] : static_cast<float>(initial_heights[i]);
     const double bottom = keep_below_margin_ ? -std::numeric_limits<double>::infinity()
                                              : seed_cuts_[zones[i]] - origin;
     const double top = initial_heights[i] + seed_height_ - origin;

@@ -8,9 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
+#include "core/simd_target.hpp"
 #include "flagstone/cloud_view.hpp"
+#include "forced_target.hpp"
 
 namespace flagstone::patchwork {
 namespace {
@@ -150,6 +153,38 @@ TEST(ConcentricZones, NoiseBeginsLowerWithRangeWhereTheGroundMayFallAway) {
   EXPECT_EQ(locate(zones, {9, 0, -8.1f}), zones.noise());
   EXPECT_LT(locate(zones, {11, 0, -12.9f}), zones.bin_count());
   EXPECT_EQ(locate(zones, {11, 0, -13.1f}), zones.noise());
+}
+
+TEST(ConcentricZones, PointsOnADiagonalLieInTheSectorThatBeginsThere) {
+  // Sectors are numbered from theta = -pi; of 16, every other one begins on an axis or a diagonal.
+  PatchworkConfig config;
+  config.zones = {{.ring_radii = {80}, .sectors = 16}};
+  const ConcentricZones zones(config);
+  for (const std::string& target : simd_targets()) {
+    const tests::ForcedTarget forced(target);
+    for (const float a : {2.0f, 2.7f, 5.5f, 7.1234f, 13.266f, 55.0f}) {
+      EXPECT_EQ(locate(zones, {-a, -a, 0}), 2U) << a << " on " << target;
+      EXPECT_EQ(locate(zones, {a, -a, 0}), 6U) << a << " on " << target;
+      EXPECT_EQ(locate(zones, {a, a, 0}), 10U) << a << " on " << target;
+      EXPECT_EQ(locate(zones, {-a, a, 0}), 14U) << a << " on " << target;
+    }
+  }
+}
+
+TEST(ConcentricZones, PointsInfinitelyFarAreOutOfRangeWhateverTheNumberOfRings) {
+  // Their squared range is infinite, and no power of two is the number of rings.
+  for (const int rings : {1, 15, 16, 17, 33, 600, 1000}) {
+    PatchworkConfig config;
+    config.zones = {{.ring_radii = equal_rings(config.min_range, 80, rings), .sectors = 2}};
+    const ConcentricZones zones(config);
+    for (const std::string& target : simd_targets()) {
+      const tests::ForcedTarget forced(target);
+      EXPECT_EQ(locate(zones, {1e20f, 1, 0}), zones.out_of_range()) << rings << " on " << target;
+      EXPECT_EQ(locate(zones, {3e38f, -3e38f, 0}), zones.out_of_range());
+      EXPECT_EQ(locate(zones, {79, -79, 0}), zones.out_of_range());
+      EXPECT_EQ(locate(zones, {std::numeric_limits<float>::infinity(), 1, 0}), zones.invalid());
+    }
+  }
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <numeric>
 #include <random>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -94,6 +96,28 @@ TEST(Contract, TenMillionPointsAreSegmented) {
 
   EXPECT_EQ(result.labels().size(), cloud.size());
   EXPECT_GT(result.count(Label::ground), cloud.size() / 2);
+}
+
+TEST(Contract, ThreadsOutsideOf1To1024AreRefusedWithTheirNumber) {
+  for (const unsigned threads : {0U, 1025U, 4294967295U}) {
+    try {
+      const Patchwork patchwork({}, threads);
+      ADD_FAILURE() << threads << " threads were accepted";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("threads is " + std::to_string(threads)));
+      EXPECT_THAT(error.what(), testing::HasSubstr("1 to 1024"));
+    }
+  }
+}
+
+TEST(Contract, ManyMoreThreadsThanCoresSegment) {
+  const std::vector<Point> cloud = made_up_cloud(20000, 16);
+  Patchwork patchwork({}, 64);
+  Segmentation result;
+
+  ASSERT_TRUE(patchwork.segment(view_of(cloud), result).ok());
+
+  EXPECT_TRUE(std::ranges::equal(result.labels(), labels_of(cloud)));
 }
 
 TEST(Contract, AMovedSegmenterStillSegments) {

@@ -186,7 +186,8 @@ void segment_bin(CloudView cloud, const Place& place, std::size_t ring_overall,
   }
 
   const Zone& zone = config.zones[static_cast<std::size_t>(place.zone)];
-  const double cut = static_cast<double>(zone.height_margin) * config.sensor_height;  // M_h h_s
+  const double margin = zone.height_margin;
+  const double cut = std::isinf(margin) ? margin : margin * config.sensor_height;  // M_h h_s
   Indices set = initial_set(cloud, bin.points, cut, config);
   Indices previous;
   Plane last;

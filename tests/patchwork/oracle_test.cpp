@@ -2,84 +2,26 @@
 // SPDX-License-Identifier: MIT
 // The product against the equations written out in double precision, scan by scan and preset by
 // preset.
-#include "patchwork/oracle.hpp"
-
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
-#include "flagstone/patchwork.hpp"
+#include "flagstone/patchwork_config.hpp"
 #include "io/cloud.hpp"
 #include "io/read_cloud.hpp"
 #include "made_up_cloud.hpp"
+#include "patchwork/oracle_comparison.hpp"
 #include "real_scans.hpp"
 #include "sim/simulate_street.hpp"
 
 namespace flagstone {
 namespace {
 
-/// Points and patches on which product and oracle differ.
-struct Difference {
-  std::size_t points = 0;
-  std::size_t different_labels = 0;
-  std::size_t patches = 0;
-  std::size_t different_verdicts = 0;
-  double largest_normal_error = 0;  ///< 1 - |cos| between normals where verdicts agree
-
-  Difference& operator+=(const Difference& other) {
-    points += other.points;
-    different_labels += other.different_labels;
-    patches += other.patches;
-    different_verdicts += other.different_verdicts;
-    largest_normal_error = std::max(largest_normal_error, other.largest_normal_error);
-    return *this;
-  }
-};
-
-Difference compare(CloudView cloud, const PatchworkConfig& config) {
-  const oracle::Answer expected = oracle::segment(cloud, config);
-  Patchwork patchwork(config);
-  Segmentation result;
-  EXPECT_TRUE(patchwork.segment(cloud, result).ok());
-
-  Difference difference{.points = cloud.size(), .patches = expected.bins.size()};
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    difference.different_labels += result.labels()[i] != expected.labels[i];
-  }
-  if (result.patches().size() != expected.bins.size()) {
-    difference.different_verdicts = difference.patches;
-    return difference;
-  }
-  for (std::size_t i = 0; i < expected.bins.size(); ++i) {
-    const Patch& patch = result.patches()[i];
-    const oracle::Bin& bin = expected.bins[i];
-    const bool same = patch.zone == bin.zone && patch.ring == bin.ring &&
-                      patch.sector == bin.sector && patch.verdict == bin.verdict;
-    difference.different_verdicts += !same;
-    if (!same || !patch.is_ground()) continue;
-    const double cosine = patch.normal[0] * bin.normal.x() + patch.normal[1] * bin.normal.y() +
-                          patch.normal[2] * bin.normal.z();
-    difference.largest_normal_error = std::max(difference.largest_normal_error, 1 - cosine);
-  }
-  return difference;
-}
-
-void report(const std::string& what, const Difference& d) {
-  std::printf("%s: %zu of %zu labels and %zu of %zu verdicts differ from the oracle\n",
-              what.c_str(), d.different_labels, d.points, d.different_verdicts, d.patches);
-}
-
-/// At most 1 in 10,000: points within rounding of a threshold.
-void expect_agreement(const std::string& what, const Difference& difference) {
-  report(what, difference);
-  EXPECT_LE(difference.different_labels * 10000, difference.points) << what;
-  EXPECT_LE(difference.different_verdicts * 1000, difference.patches) << what;
-  EXPECT_LT(difference.largest_normal_error, 1e-5) << what;
-}
+using oracle::compare;
+using oracle::Difference;
+using oracle::expect_agreement;
 
 /// Axes are sector boundaries: which side a point on one belongs to is a matter of rounding in an
 /// arc tangent. concentric_zones_test says what the product does with them.

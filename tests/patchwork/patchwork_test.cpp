@@ -173,6 +173,24 @@ TEST(AdaptiveSeeds, GroundFallingAwayFarOutIsKept) {
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::ground), 400);
 }
 
+TEST(AdaptiveSeeds, WithoutAMarginNoPointIsPassedOverWhateverTheSensorHeight) {
+  // Rising by 10 %, far out, where the margin is minus infinity: 3 m above the seeds of height 0
+  // that a bin without candidates would have.
+  std::vector<Point> cloud;
+  for (const float sensor_height : {1.73f, 0.0f, -1.0f}) {
+    PatchworkConfig config;
+    config.sensor_height = sensor_height;
+    ASSERT_TRUE(std::isinf(config.zones[2].height_margin));
+    cloud.clear();
+    add_square(cloud, 30, 0.6f,
+               [=](float x, float y) { return 0.1f * x - sensor_height + rough(x, y); });
+
+    const Outcome outcome = segment(cloud, config);
+
+    EXPECT_EQ(std::ranges::count(outcome.labels, Label::ground), 400) << sensor_height;
+  }
+}
+
 TEST(FewPoints, AreWhatTheConfigurationSays) {
   const std::vector<Point> cloud = {{7, 1, -1.7f}, {7.1f, 1, -1.7f}, {7, 1.1f, -1.7f}};
   PatchworkConfig config;

@@ -40,16 +40,16 @@ using FloatVector = hn::Vec<FloatTag>;
 using IntVector = hn::Vec<IntTag>;
 using DoubleVector = hn::Vec<DoubleTag>;
 
-/// Element `index` (0 to 15 in each lane) of a table of 16.
+/// Element `index` (0 to 15 in each lane) of a table of 16, of any alignment.
 HWY_INLINE FloatVector lookup_16(const float* HWY_RESTRICT table, IntVector index) {
   const FloatTag d;
 #if HWY_TARGET == HWY_AVX3
-  return hn::TableLookupLanes(hn::Load(d, table), hn::IndicesFromVec(d, index));
+  return hn::TableLookupLanes(hn::LoadU(d, table), hn::IndicesFromVec(d, index));
 #elif HWY_TARGET == HWY_AVX2
   const IntTag di;
   const auto within = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, 7)));
-  const FloatVector low = hn::TableLookupLanes(hn::Load(d, table), within);
-  const FloatVector high = hn::TableLookupLanes(hn::Load(d, table + 8), within);
+  const FloatVector low = hn::TableLookupLanes(hn::LoadU(d, table), within);
+  const FloatVector high = hn::TableLookupLanes(hn::LoadU(d, table + 8), within);
   return hn::IfThenElse(hn::RebindMask(d, hn::Gt(index, hn::Set(di, 7))), high, low);
 #else
   return hn::GatherIndex(d, table, index);
@@ -60,7 +60,7 @@ HWY_INLINE FloatVector lookup_16(const float* HWY_RESTRICT table, IntVector inde
 HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index) {
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
   const FloatTag d;
-  return hn::TableLookupLanes(hn::Load(d, table), hn::IndicesFromVec(d, index));
+  return hn::TableLookupLanes(hn::LoadU(d, table), hn::IndicesFromVec(d, index));
 #else
   return lookup_16(table, index);
 #endif

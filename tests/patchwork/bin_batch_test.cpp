@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "patchwork/bin_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "forced_target.hpp"
+#include "patchwork/sorted_scan.hpp"
+
+namespace flagstone::patchwork {
+namespace {
+
+/// The parameter is the instruction set.
+class BinBatchOn : public testing::TestWithParam<std::string> {
+ protected:
+  /// Gathers all bins of the scan, sixteen at a time, and compares each with its points.
+  static void expect_gathered(const std::vector<Point>& cloud) {
+    const tests::SortedScan sorted(cloud, {});
+    BinBatch batch;
+    batch.reserve(cloud.size());
+    std::size_t gathered = 0;
+    for (std::uint32_t bin = 0; bin < sorted.zones.bin_count();) {
+      batch.clear();
+      for (; bin < sorted.zones.bin_count() && batch.count() < batch_size; ++bin) {
+        if (sorted.groups.size(bin) > 0) batch.add(bin, sorted.groups.size(bin));
+      }
+      batch.gather(sorted.scan, sorted.groups);
+      for (std::size_t i = 0; i < batch.count(); ++i) expect_gathered(sorted, batch, i, cloud);
+      gathered += batch.count();
+    }
+    EXPECT_GT(gathered, 0U);
+  }
+
+ private:
+  static void expect_gathered(const tests::SortedScan& sorted, const BinBatch& batch, std::size_t i,
+                              const std::vector<Point>& cloud) {
+    const std::vector<std::uint32_t> points = tests::points_of(sorted.groups, batch.bin(i));
+    const Point& first = cloud[points.front()];
+    const Point& last = cloud[points.back()];
+    ASSERT_EQ(batch.size(i), points.size());
+    ASSERT_EQ(batch.origin(i).x, (first.x + last.x) / 2);
+    ASSERT_EQ(batch.origin(i).y, (first.y + last.y) / 2);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      ASSERT_EQ(batch.x(i)[k], cloud[points[k]].x - batch.origin(i).x);
+      ASSERT_EQ(batch.y(i)[k], cloud[points[k]].y - batch.origin(i).y);
+      ASSERT_EQ(batch.z(i)[k], cloud[points[k]].z);
+    }
+    ASSERT_EQ(batch.places(i) % 16, 0U);
+    for (std::size_t k = points.size(); k < batch.places(i); ++k) {
+      ASSERT_EQ(batch.x(i)[k], 0);
+      ASSERT_EQ(batch.y(i)[k], 0);
+      ASSERT_EQ(batch.z(i)[k], std::numeric_limits<float>::infinity());
+    }
+  }
+
+  tests::ForcedTarget forced{GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(Target, BinBatchOn, testing::ValuesIn(simd_targets()),
+                         [](const auto& target) { return target.param; });
+
+TEST_P(BinBatchOn, HoldsThePointsOfItsBinsAsSeenFromTheirOrigins) {
+  expect_gathered(tests::made_up_cloud(60000, 1));
+}
+
+TEST_P(BinBatchOn, HoldsThemWhereTheCloudIsInNoOrder) {
+  std::vector<Point> cloud = tests::made_up_cloud(60000, 2);
+  std::ranges::shuffle(cloud, std::mt19937(1));
+  expect_gathered(cloud);
+}
+
+TEST_P(BinBatchOn, HoldsThemWhereBinsHaveFewPoints) {
+  for (std::size_t size = 20; size < 60; ++size) {
+    expect_gathered(tests::made_up_cloud(size, static_cast<std::uint32_t>(size)));
+  }
+}
+
+TEST_P(BinBatchOn, HoldsABinOfAnySize) {
+  for (std::size_t size = 1; size <= 70; ++size) {
+    std::vector<Point> cloud;
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto step = static_cast<float>(i);
+      cloud.push_back({6.5f + 0.01f * step, 0.7f, -1.7f - 0.01f * step});
+    }
+    expect_gathered(cloud);
+  }
+}
+
+}  // namespace
+}  // namespace flagstone::patchwork

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "made_up_cloud.hpp"
+#include "patchwork/bin_batch.hpp"
+#include "patchwork/bin_groups.hpp"
+#include "patchwork/concentric_zones.hpp"
+#include "patchwork/scan_points.hpp"
+
+namespace flagstone::tests {
+
+/// A cloud as the pipeline has it when planes are about to be fitted.
+struct SortedScan {
+  SortedScan(const std::vector<Point>& cloud, const PatchworkConfig& config) : zones(config) {
+    scan.reserve(cloud.size());
+    for (std::size_t i = 0; i < patchwork::ScanPoints::chunk_count(cloud.size()); ++i) {
+      scan.read(view_of(cloud), i, zones);
+    }
+    groups.reserve(cloud.size(), zones.group_count());
+    groups.group(scan, cloud.size(), zones.group_count());
+  }
+
+  patchwork::ConcentricZones zones;
+  patchwork::ScanPoints scan;
+  patchwork::BinGroups groups;
+};
+
+/// Indices of the points of a bin, whichever way the groups list them.
+inline std::vector<std::uint32_t> points_of(const patchwork::BinGroups& groups, std::uint32_t bin) {
+  std::vector<std::uint32_t> points;
+  if (groups.scattered()) {
+    for (const patchwork::MovedPoint& p : groups.points(bin)) points.push_back(p.index);
+    return points;
+  }
+  for (const patchwork::Run& run : groups.runs(bin)) {
+    for (std::uint32_t i = 0; i < run.length; ++i) points.push_back(run.begin + i);
+  }
+  return points;
+}
+
+/// One ring of sixteen bins, from 2.7 to 80 m, which no height is too low for.
+inline PatchworkConfig sixteen_bins() {
+  PatchworkConfig config;
+  config.zones = {{.ring_radii = {80}, .sectors = 16}};
+  config.noise_depth = 1000;
+  config.noise_slope = 10;
+  return config;
+}
+
+}  // namespace flagstone::tests
