@@ -61,7 +61,8 @@ HWY_INLINE IntVector ring_of(FloatVector squared_range, const RingTree& tree) {
   IntVector node = step(hn::Zero(di), hn::Set(d, level[0][0]));
   for (std::size_t l = 1; l < 4; ++l) node = step(node, lookup_8(level[l].data(), node));
   if constexpr (!few) {
-    for (std::size_t l = 4; l < tree.boundaries.size(); ++l) {
+    node = step(node, lookup_16(level[4].data(), node));  // 17 rings and more have a fifth level
+    for (std::size_t l = 5; l < tree.boundaries.size(); ++l) {
       node = step(node, hn::GatherIndex(d, level[l].data(), node));
     }
   }
