@@ -39,10 +39,12 @@ flagstone_dependency(
   566fc77315878473d9a6bd815f7de78c73734acdcb745c3dde8579560ac5440e 1.0.3)
 find_package(Threads REQUIRED)
 add_library(flagstone_highway INTERFACE)
-# Vectors whose length is known at run time only cannot be members of our structs.
+# Vectors whose length is known at run time only cannot be members of our structs. The plain build is always
+# there, whatever the compiler is told of the processor.
 target_compile_definitions(
   flagstone_highway
-  INTERFACE "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)")
+  INTERFACE HWY_COMPILE_ALL_ATTAINABLE
+            "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)")
 if(NOT TARGET hwy)
   target_link_libraries(flagstone_highway INTERFACE hwy::hwy)
 else()

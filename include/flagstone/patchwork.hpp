@@ -17,8 +17,11 @@ namespace flagstone {
 /// Ground Likelihood Estimation Using a 3D LiDAR Sensor", IEEE RA-L 6(4), 2021.
 class Patchwork final : public Segmenter {
  public:
-  /// `threads` work on one scan together, 1 to 1,024; the result does not depend on how many.
-  /// Throws std::invalid_argument naming the field, its value and the range allowed.
+  /// `threads` work on one scan together, 1 to 1,024; the result does not depend on how many. All
+  /// but the caller's are started here (fewer if the system has no more) and do not survive a
+  /// fork(): a child that segments makes a segmenter of its own. It holds 52 bytes for each point
+  /// of its largest scan, and 17 more for each thread but the first. Throws std::invalid_argument
+  /// naming the field, its value and the range allowed, or std::bad_alloc.
   explicit Patchwork(PatchworkConfig config = {}, unsigned threads = 1);
   ~Patchwork() override;
   Patchwork(Patchwork&&) noexcept;
@@ -30,8 +33,9 @@ class Patchwork final : public Segmenter {
   /// The configuration it was made with.
   [[nodiscard]] const PatchworkConfig& config() const noexcept;
 
-  /// From now on adds to `*times` what each stage of a scan took on the calling thread; nullptr
-  /// stops that. Taking times costs about 1 % of a scan.
+  /// From now on adds to `*times`, which must live as long, the seconds that the calling thread
+  /// spent on each stage of a scan; waiting for other threads belongs to none. nullptr stops that.
+  /// Taking times costs about 1 % of a scan.
   void time_stages(StageTimes* times) noexcept;
 
  private:

@@ -57,8 +57,9 @@ class Segmentation {
     for (const Label label : labels_) ++counts_[static_cast<std::size_t>(label)];
   }
 
-  /// The same for those who have counted while they wrote them: how many have each label but
-  /// nonground, which all others have.
+  /// The same for those who have counted while they wrote them: how many have each label, together
+  /// no more than there are labels. What is given for nonground is not looked at: all others have
+  /// it.
   void finish(std::array<std::size_t, label_count> counts) noexcept {
     counts_ = counts;
     std::size_t others = labels_.size();

@@ -11,7 +11,7 @@ namespace flagstone {
 /// What Patchwork::segment does, in order.
 enum class Stage : std::uint8_t {
   bin,      ///< read every point, find its bin, note where runs of one bin begin (III-B)
-  group,    ///< sort the runs by bin
+  group,    ///< sort the runs by bin, list the patches, label points without one
   gather,   ///< pack the points of each bin
   seed,     ///< mean height of the lowest points, eq. (4)
   moments,  ///< sums over the ground sets, eqs. (5) and (6)

@@ -168,6 +168,7 @@ class Benchmark {
     const double own = seconds_of(0, ours_);
     const double peers = seconds_of(ours_, entrants_.size());
     drop_failed();
+    if (own <= 0) return 0;  // interrupted
     // Both take about as long then.
     rounds_per_peer_round_ = static_cast<std::size_t>(std::clamp(peers / own, 1.0, 1e6));
     if (settings_.rounds != 0) return settings_.rounds;

@@ -4,7 +4,7 @@
 
 #include <exception>
 
-#include "core/flush_denormals.hpp"
+#include "core/own_floating_point.hpp"
 
 namespace flagstone {
 namespace {
@@ -59,7 +59,7 @@ void Crew::take_jobs(std::size_t worker) noexcept {
 }
 
 void Crew::serve(std::size_t worker) noexcept {
-  const FlushDenormals flush;
+  const OwnFloatingPoint own;
   for (std::uint32_t round = 0;;) {
     wait_while(round_, round, looks_);
     round = round_.load(std::memory_order_acquire);

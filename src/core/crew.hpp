@@ -12,7 +12,7 @@ namespace flagstone {
 
 /// Threads that work on one scan together. They are started once; in between they watch for work
 /// for some microseconds, so that the next step of a scan finds them awake, and then sleep. They
-/// flush denormals (see there); the thread that calls `run` does as it likes.
+/// have their OwnFloatingPoint (see there); the thread that calls `run` does as it likes.
 class Crew {
  public:
   /// `size` >= 1 counts the thread that calls `run`. May throw std::bad_alloc; where the system has

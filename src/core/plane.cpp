@@ -50,7 +50,7 @@ HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, Pla
   store(normal.z, planes.normal[2]);
   store(hn::Neg(add(add(mul(normal.x, mean.x), mul(normal.y, mean.y)), mul(normal.z, mean.z))),
         planes.d);
-  store(mul(axes.l1, trace), planes.eigenvalues[0]);
+  store(mul(axes.l1, trace), planes.eigenvalues[0]);  // a trace of float sums is finite
   store(mul(axes.l2, trace), planes.eigenvalues[1]);
   store(mul(axes.l3, trace), planes.eigenvalues[2]);
 

@@ -16,7 +16,8 @@ std::vector<std::string> simd_targets();
 /// The one in use.
 std::string simd_target();
 
-/// Uses this one from now on, in all threads; "" for the best. Not while a segmenter is at work.
+/// Uses this one from now on, in all threads and for whatever else stands on Highway in this
+/// process; "" for the best. For benchmarks and tests; not while a segmenter is at work.
 /// Throws std::invalid_argument naming those there are.
 void use_simd_target(std::string_view name);
 

@@ -40,7 +40,7 @@ LabelCounts label_bin(const BinBatch& batch, std::size_t bin, const GroundSet& s
           .noise = static_cast<std::uint32_t>(ground_or_noise - ground)};
 }
 
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
 
 /// Copies a run's labels, up to 64 at once. No byte outside of it is touched: a neighbour may
 /// belong to another thread.

@@ -33,7 +33,7 @@ HWY_INLINE DoubleVector add_if(DoubleTag /*d*/, M /*inside*/, DoubleVector sum, 
   return hn::Add(sum, v);
 }
 
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
 template <class M>
 HWY_INLINE FloatVector widen_if(FloatTag /*d*/, M /*inside*/, FloatVector v) {
   return v;

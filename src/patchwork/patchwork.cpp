@@ -3,7 +3,9 @@
 #include "flagstone/patchwork.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -11,7 +13,7 @@
 #include <vector>
 
 #include "core/crew.hpp"
-#include "core/flush_denormals.hpp"
+#include "core/own_floating_point.hpp"
 #include "core/segment_scan.hpp"
 #include "patchwork/bin_batch.hpp"
 #include "patchwork/bin_groups.hpp"
@@ -57,6 +59,8 @@ std::array<float, 3> to_floats(const Vector3& v) {
 
 }  // namespace
 
+namespace patchwork {
+
 /// What one thread needs to fit bins.
 struct Fitter {
   explicit Fitter(const PatchworkConfig& config) : fit(config) {}
@@ -75,6 +79,8 @@ struct Fitter {
   LabelTotals totals{};
 };
 
+}  // namespace patchwork
+
 /// Patchwork, top to bottom: points into bins, a plane for each bin, a verdict for each plane,
 /// labels.
 struct Patchwork::Pipeline {
@@ -89,13 +95,13 @@ struct Patchwork::Pipeline {
   void reserve(std::size_t point_count, Segmentation& result) {
     scan.reserve(point_count);
     groups.reserve(point_count, zones.group_count());
-    for (Fitter& fitter : fitters) fitter.reserve(point_count);
+    for (patchwork::Fitter& fitter : fitters) fitter.reserve(point_count);
     result.mutable_patches().reserve(zones.bin_count());
     fitted_bins.reserve(zones.bin_count());
   }
 
   LabelTotals segment(CloudView cloud, Segmentation& result, std::span<Label> labels) noexcept {
-    const FlushDenormals flush;
+    const OwnFloatingPoint own;
     StageClock clock(stage_times);
 
     // Concentric Zone Model (III-B)
@@ -103,7 +109,7 @@ struct Patchwork::Pipeline {
              [&](std::size_t, std::size_t chunk) { scan.read(cloud, chunk, zones); });
     clock.end(Stage::bin);
     groups.group(scan, cloud.size(), zones.group_count());
-    for (Fitter& fitter : fitters) fitter.totals = {};
+    for (patchwork::Fitter& fitter : fitters) fitter.totals = {};
     label_binless(labels);
     list_patches(result.mutable_patches(), labels);
     clock.end(Stage::group);
@@ -117,7 +123,7 @@ struct Patchwork::Pipeline {
     });
 
     LabelTotals totals{};
-    for (const Fitter& fitter : fitters) {
+    for (const patchwork::Fitter& fitter : fitters) {
       for (std::size_t i = 0; i < label_count; ++i) totals[i] += fitter.totals[i];
     }
     return totals;
@@ -160,7 +166,7 @@ struct Patchwork::Pipeline {
   }
 
   void segment_batch(std::size_t index, std::span<Patch> patches, std::span<Label> labels,
-                     Fitter& fitter, StageClock& clock) noexcept {
+                     patchwork::Fitter& fitter, StageClock& clock) noexcept {
     const std::size_t first = index * batch_size;
     const std::span<const FittedBin> bins(fitted_bins.data() + first,
                                           std::min(batch_size, fitted_count - first));
@@ -224,7 +230,7 @@ struct Patchwork::Pipeline {
   Buffer<FittedBin> fitted_bins;
   std::size_t fitted_count = 0;
   StageTimes* stage_times = nullptr;
-  std::vector<Fitter> fitters;  ///< one for each of the crew
+  std::vector<patchwork::Fitter> fitters;  ///< one for each of the crew
   Crew crew;
 };
 

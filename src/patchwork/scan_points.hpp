@@ -18,6 +18,8 @@ inline constexpr std::size_t chunk_size = 8192;
 /// Where a run of points in one bin begins: index within the chunk << 18 | bin.
 using RunStart = std::uint32_t;
 inline constexpr int bin_bits = 18;
+static_assert(most_bins + 3 < 1U << bin_bits);           // noise and the like included
+static_assert(chunk_size <= 1U << (32 - bin_bits - 1));  // the index behind the last fits too
 
 /// A scan as the later steps read it: coordinates apart from one another, and where bins change.
 ///

@@ -40,6 +40,7 @@ inline constexpr auto sorting_network = [] {
       }
     }
   }
+  if (next != network.size()) throw "the network has another size";
   return network;
 }();
 
@@ -92,17 +93,14 @@ void lowest_of_lanes(const float* HWY_RESTRICT z, std::size_t places, float floo
 std::size_t copy_between(const float* HWY_RESTRICT z, std::size_t places, float floor,
                          float ceiling, float* HWY_RESTRICT heights) {
   const FloatTag d;
-  const IntTag di;
   const FloatVector bottom = hn::Set(d, floor);
   const FloatVector top = hn::Set(d, ceiling);
-  auto* to = reinterpret_cast<std::int32_t*>(heights);
-  const auto pick = [&](std::size_t i, std::int32_t* behind) HWY_ATTR {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < places; i += hn::Lanes(d)) {
     const FloatVector height = hn::Load(d, z + i);
     const auto inside = hn::And(hn::Ge(height, bottom), hn::Le(height, top));
-    return compress_store(hn::BitCast(di, height), hn::RebindMask(di, inside), behind);
-  };
-  for (std::size_t i = 0; i < places; i += hn::Lanes(d)) to += pick(i, to);
-  const auto count = static_cast<std::size_t>(to - reinterpret_cast<std::int32_t*>(heights));
+    count += compress_store(height, inside, heights + count);
+  }
   return count;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// What the vector code of every instruction set stands on. Included once for each of them, after
-// hwy/highway.h, inside HWY_BEFORE_NAMESPACE.
+// What the vector code of every instruction set stands on. Included once for each of them. Better
+// targets have lower bits: `HWY_TARGET <= HWY_AVX3` is AVX-512 of any kind.
 //
 // The same bits everywhere: work is laid out for 16 virtual lanes, which are one AVX-512 vector,
 // two of AVX2, four of SSE4 or NEON, sixteen numbers in plain C++. What one lane computes never
@@ -43,7 +43,7 @@ using DoubleVector = hn::Vec<DoubleTag>;
 /// Element `index` (0 to 15 in each lane) of a table of 16, of any alignment.
 HWY_INLINE FloatVector lookup_16(const float* HWY_RESTRICT table, IntVector index) {
   const FloatTag d;
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
   return hn::TableLookupLanes(hn::LoadU(d, table), hn::IndicesFromVec(d, index));
 #elif HWY_TARGET == HWY_AVX2
   const IntTag di;
@@ -58,7 +58,7 @@ HWY_INLINE FloatVector lookup_16(const float* HWY_RESTRICT table, IntVector inde
 
 /// The same for an index of 0 to 7.
 HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index) {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
+#if HWY_TARGET <= HWY_AVX3 || HWY_TARGET == HWY_AVX2
   const FloatTag d;
   return hn::TableLookupLanes(hn::LoadU(d, table), hn::IndicesFromVec(d, index));
 #else
@@ -68,7 +68,7 @@ HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index
 
 /// Whole part of numbers from 0 to 2^31, without hn::ConvertTo's care for all others.
 HWY_INLINE IntVector whole_part(FloatVector v) {
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
   return IntVector{_mm512_cvttps_epi32(v.raw)};
 #elif HWY_TARGET == HWY_AVX2
   return IntVector{_mm256_cvttps_epi32(v.raw)};
@@ -81,7 +81,7 @@ HWY_INLINE IntVector whole_part(FloatVector v) {
 
 /// Every lane moved one up, the last lane of `before` being the new first.
 HWY_INLINE IntVector move_up(IntVector v, IntVector before) {
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
   return IntVector{_mm512_alignr_epi32(v.raw, before.raw, 15)};
 #elif HWY_TARGET == HWY_AVX2
   return IntVector{
@@ -100,7 +100,7 @@ HWY_INLINE IntVector move_up(IntVector v, IntVector before) {
 /// v + 1 where the mask says so.
 HWY_INLINE IntVector increment_if(hn::Mask<IntTag> mask, IntVector v) {
   const IntTag di;
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
   return hn::IfThenElse(mask, hn::Add(v, hn::Set(di, 1)), v);
 #else
   return hn::Sub(v, hn::VecFromMask(di, mask));  // a set mask is -1
@@ -135,28 +135,36 @@ inline constexpr auto picked_bytes = [] {
 }();
 #endif
 
-/// Stores the lanes that the mask picks one after another, meaningless ones behind them; returns
-/// how many they are. hn::Compress copies its table to the stack in every call with GCC.
-HWY_INLINE std::size_t compress_store(IntVector v, hn::Mask<IntTag> mask, std::int32_t* to) {
-  const IntTag di;
+/// The lanes that the mask picks, one after another, meaningless ones behind them. hn::Compress
+/// copies its table to the stack in every call with GCC.
+HWY_INLINE IntVector compress(IntVector v, hn::Mask<IntTag> mask) {
 #if HWY_TARGET == HWY_AVX2
-  const auto bits =
-      static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(hn::VecFromMask(di, mask).raw)));
+  const auto bits = static_cast<unsigned>(
+      _mm256_movemask_ps(_mm256_castsi256_ps(hn::VecFromMask(IntTag(), mask).raw)));
   const __m256i packed = _mm256_set1_epi32(static_cast<int>(picked_lanes[bits]));
   const __m256i picked = _mm256_srlv_epi32(packed, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
-  hn::StoreU(IntVector{_mm256_permutevar8x32_epi32(v.raw, picked)}, di, to);
-  return hwy::PopCount(bits);
+  return IntVector{_mm256_permutevar8x32_epi32(v.raw, picked)};
 #elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
   const auto bits =
-      static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(hn::VecFromMask(di, mask).raw)));
+      static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(hn::VecFromMask(IntTag(), mask).raw)));
   const __m128i picked =
       _mm_loadu_si128(reinterpret_cast<const __m128i*>(picked_bytes[bits].data()));
-  hn::StoreU(IntVector{_mm_shuffle_epi8(v.raw, picked)}, di, to);
-  return hwy::PopCount(bits);
+  return IntVector{_mm_shuffle_epi8(v.raw, picked)};
 #else
-  hn::StoreU(hn::Compress(v, mask), di, to);
-  return hn::CountTrue(di, mask);
+  return hn::Compress(v, mask);
 #endif
+}
+
+/// Stores the lanes that the mask picks, and may write a whole vector; returns how many they are.
+HWY_INLINE std::size_t compress_store(IntVector v, hn::Mask<IntTag> mask, std::int32_t* to) {
+  hn::StoreU(compress(v, mask), IntTag(), to);
+  return hn::CountTrue(IntTag(), mask);
+}
+HWY_INLINE std::size_t compress_store(FloatVector v, hn::Mask<FloatTag> mask, float* to) {
+  const FloatTag d;
+  const IntTag di;
+  hn::StoreU(hn::BitCast(d, compress(hn::BitCast(di, v), hn::RebindMask(di, mask))), d, to);
+  return hn::CountTrue(d, mask);
 }
 
 /// x, y and z of points that are records of three or four floats.
@@ -167,7 +175,7 @@ HWY_INLINE void load_points(const float* HWY_RESTRICT points, FloatVector& x, Fl
   if constexpr (floats == 3) {
     hn::LoadInterleaved3(d, points, x, y, z);
   } else {
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
     // Seven shuffles; the general way takes fifteen.
     HWY_ALIGN static constexpr std::int32_t x_then_y[] = {0, 4, 8, 12, 16, 20, 24, 28,
                                                           1, 5, 9, 13, 17, 21, 25, 29};
