@@ -8,9 +8,8 @@
 
 namespace flagstone {
 
-/// The instruction sets that this build has code for and this machine can run, best first. On x86
-/// these are avx3 (AVX-512), avx2, sse4, ssse3 and scalar, plain C++ without vectors; elsewhere the
-/// one that the compiler was told, such as neon.
+/// The instruction sets that this build has code for and this machine can run, best first; the last
+/// one is "scalar", plain C++ without vectors. On x86: avx3 (AVX-512), avx2, sse4, ssse3, scalar.
 std::vector<std::string> simd_targets();
 
 /// The one in use.

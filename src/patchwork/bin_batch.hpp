@@ -43,7 +43,7 @@ class BinBatch {
   [[nodiscard]] std::size_t size(std::size_t i) const noexcept { return sizes_[i]; }
   /// The places they take.
   [[nodiscard]] std::size_t places(std::size_t i) const noexcept {
-    return (sizes_[i] + 15) / 16 * 16;
+    return (std::size_t{sizes_[i]} + 15) / 16 * 16;
   }
 
   /// Midway between the first and the last point, metres; near all of them, so that single

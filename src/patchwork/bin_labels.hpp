@@ -24,7 +24,7 @@ struct LabelCounts {
 class BinLabels {
  public:
   /// Makes room for bins of `points` points; may throw std::bad_alloc.
-  void reserve(std::size_t points) { packed_.reserve(points + 2 * 64); }
+  void reserve(std::size_t points) { packed_.reserve(points + 128); }
 
   /// Labels the points of bin `i` of the batch: ground if in the set, noise below it, nonground
   /// above.

@@ -3,6 +3,7 @@
 #include "patchwork/ground_sets.hpp"
 
 #include <algorithm>
+#include <array>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "patchwork/ground_sets.cpp"
@@ -20,6 +21,10 @@ using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespac
 
 /// Sums x, y, z, xx, xy, xz, yy, yz, zz, in the order of Moments.
 inline constexpr std::size_t sum_count = 9;
+
+/// Each of them in 16 lanes.
+template <class T>
+using LaneTable = std::array<std::array<T, lanes>, sum_count>;
 
 // A point outside of the set adds nothing: its coordinates count as 0, or, where an addition can
 // have a mask for free, it is not added. Both give the same sums.
@@ -78,18 +83,17 @@ class LaneSums {
     zz_ = add_if(ds, inside, zz_, hn::Mul(z, z));
   }
 
-  HWY_INLINE void store(hn::TFromD<SumTag> (&HWY_RESTRICT sums)[sum_count][lanes],
-                        std::size_t lane) const {
+  HWY_INLINE void store(LaneTable<hn::TFromD<SumTag>>& sums, std::size_t lane) const {
     const SumTag ds;
-    hn::StoreU(x_, ds, sums[0] + lane);
-    hn::StoreU(y_, ds, sums[1] + lane);
-    hn::StoreU(z_, ds, sums[2] + lane);
-    hn::StoreU(xx_, ds, sums[3] + lane);
-    hn::StoreU(xy_, ds, sums[4] + lane);
-    hn::StoreU(xz_, ds, sums[5] + lane);
-    hn::StoreU(yy_, ds, sums[6] + lane);
-    hn::StoreU(yz_, ds, sums[7] + lane);
-    hn::StoreU(zz_, ds, sums[8] + lane);
+    hn::StoreU(x_, ds, sums[0].data() + lane);
+    hn::StoreU(y_, ds, sums[1].data() + lane);
+    hn::StoreU(z_, ds, sums[2].data() + lane);
+    hn::StoreU(xx_, ds, sums[3].data() + lane);
+    hn::StoreU(xy_, ds, sums[4].data() + lane);
+    hn::StoreU(xz_, ds, sums[5].data() + lane);
+    hn::StoreU(yy_, ds, sums[6].data() + lane);
+    hn::StoreU(yz_, ds, sums[7].data() + lane);
+    hn::StoreU(zz_, ds, sums[8].data() + lane);
   }
 
  private:
@@ -108,12 +112,12 @@ HWY_INLINE hn::Vec<D> sum_of_quarters(D d, const hn::TFromD<D>* sums) {
 
 /// Adds the sums of the lanes to the totals.
 template <class T>
-HWY_INLINE void add_lanes(const T (&HWY_RESTRICT sums)[sum_count][lanes], double* totals) {
+HWY_INLINE void add_lanes(const LaneTable<T>& sums, std::array<double, sum_count>& totals) {
   const hn::CappedTag<T, 4> d;
   for (std::size_t k = 0; k < sum_count; ++k) {
-    T quarters[4];
+    std::array<T, 4> quarters;
     for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
-      hn::StoreU(sum_of_quarters(d, sums[k] + lane), d, quarters + lane);
+      hn::StoreU(sum_of_quarters(d, sums[k].data() + lane), d, quarters.data() + lane);
     }
     totals[k] += static_cast<double>((quarters[0] + quarters[2]) + (quarters[1] + quarters[3]));
   }
@@ -122,12 +126,12 @@ HWY_INLINE void add_lanes(const T (&HWY_RESTRICT sums)[sum_count][lanes], double
 #if HWY_TARGET != HWY_SCALAR
 
 /// The same, four sums at a time.
-HWY_INLINE void add_lanes(const float (&HWY_RESTRICT sums)[sum_count][lanes], double* totals) {
+HWY_INLINE void add_lanes(const LaneTable<float>& sums, std::array<double, sum_count>& totals) {
   const hn::CappedTag<float, 4> d;
-  float sums_of_lanes[4 * 3];
+  std::array<float, 12> sums_of_lanes;
   for (std::size_t k = 0; k < sum_count; k += 4) {
     const auto of = [&](std::size_t i) HWY_ATTR {
-      return sum_of_quarters(d, sums[std::min(k + i, sum_count - 1)]);
+      return sum_of_quarters(d, sums[std::min(k + i, sum_count - 1)].data());
     };
     const auto halves = [&](std::size_t i) HWY_ATTR {  // lanes: of(i), of(i + 1), and again
       const auto a = of(i);
@@ -137,7 +141,7 @@ HWY_INLINE void add_lanes(const float (&HWY_RESTRICT sums)[sum_count][lanes], do
     const auto low = halves(0);
     const auto high = halves(2);
     hn::StoreU(hn::Add(hn::ConcatLowerLower(d, high, low), hn::ConcatUpperUpper(d, high, low)), d,
-               sums_of_lanes + k);
+               sums_of_lanes.data() + k);
   }
   for (std::size_t k = 0; k < sum_count; ++k) totals[k] += static_cast<double>(sums_of_lanes[k]);
 }
@@ -157,10 +161,10 @@ HWY_INLINE void sum_bin(const BinBatch& batch, std::size_t bin, MomentsBatch& mo
   constexpr std::size_t most_places = 64 * lanes;  // of sums in single precision
   const std::size_t places = batch.places(bin);
   std::size_t count = 0;
-  double totals[sum_count] = {};
+  std::array<double, sum_count> totals{};
   for (std::size_t begin = 0; begin < places; begin += most_places) {
     const std::size_t end = std::min(begin + most_places, places);
-    HWY_ALIGN hn::TFromD<SumTag> sums[sum_count][lanes];
+    HWY_ALIGN LaneTable<hn::TFromD<SumTag>> sums;
     for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(ds)) {
       LaneSums<SumTag> lane_sums;
       for (std::size_t i = begin + lane; i < end; i += lanes) {

@@ -18,7 +18,7 @@ class SeedHeights {
   explicit SeedHeights(std::size_t seed_count) noexcept : seed_count_(seed_count) {}
 
   /// Makes room for bins of `points` points; may throw std::bad_alloc.
-  void reserve(std::size_t points) { heights_.reserve(points + 2 * 16); }
+  void reserve(std::size_t points) { heights_.reserve(points + 32); }
 
   /// For each bin the mean height of its N_seed lowest points that are not below `floors[i]`; 0
   /// where there are none, as in the public code. Metres. The sum is taken from the lowest up, so
