@@ -42,9 +42,13 @@ add_library(flagstone_highway INTERFACE)
 # Vectors whose length is known at run time only cannot be members of our structs. The plain build is always
 # there, whatever the compiler is told of the processor.
 target_compile_definitions(
-  flagstone_highway
-  INTERFACE HWY_COMPILE_ALL_ATTAINABLE
-            "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)")
+  flagstone_highway INTERFACE "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^wasm")
+  # Highway 1.0.3 has no vectors of doubles for it.
+  target_compile_definitions(flagstone_highway INTERFACE HWY_COMPILE_ONLY_SCALAR)
+else()
+  target_compile_definitions(flagstone_highway INTERFACE HWY_COMPILE_ALL_ATTAINABLE)
+endif()
 if(NOT TARGET hwy)
   target_link_libraries(flagstone_highway INTERFACE hwy::hwy)
 else()
