@@ -22,10 +22,10 @@
 #include <utility>
 #include <vector>
 
+#include "bench/allocation_count.hpp"
 #include "clouds.hpp"
 #include "core/simd_target.hpp"
 #include "eval/machine.hpp"
-#include "live_memory.hpp"
 #include "terminal.hpp"
 #include "timing.hpp"
 
@@ -68,17 +68,17 @@ Json growth_with_points(const Cloud& dense, std::size_t most) {
     if (size > most) break;
     say_on_terminal("points: " + std::to_string(size));
     Cloud cloud = resized(dense, size);
-    const std::size_t before = live_bytes();
+    const std::size_t before = bench::allocation_count().bytes;
     Worker worker;
     const Duration ordered = time_of_scan(worker, view_of(cloud));
-    const std::size_t held = live_bytes() - before;
+    const std::size_t held = bench::allocation_count().bytes - before;
     cloud = shuffled(std::move(cloud), random);
     const Duration scattered = time_of_scan(worker, view_of(cloud));
     rows.push_back({{"points", size},
                     {"ordered", to_json(ordered)},
                     {"shuffled", to_json(scattered)},
                     {"bytes_held", held},
-                    {"bytes_held_after_shuffled", live_bytes() - before}});
+                    {"bytes_held_after_shuffled", bench::allocation_count().bytes - before}});
   }
   return rows;
 }
@@ -113,12 +113,12 @@ Json time_of_layout(const std::string& name, const PatchworkConfig& config, cons
     rings += zone.ring_radii.size();
     bins += zone.ring_radii.size() * static_cast<std::size_t>(zone.sectors);
   }
-  const std::size_t before = live_bytes();
+  const std::size_t before = bench::allocation_count().bytes;
   Worker worker(config);
   const Duration time = time_of_scan(worker, view_of(cloud));
   return {{"layout", name},        {"rings", rings},
           {"bins", bins},          {"patches", worker.result.patches().size()},
-          {"time", to_json(time)}, {"bytes_held", live_bytes() - before}};
+          {"time", to_json(time)}, {"bytes_held", bench::allocation_count().bytes - before}};
 }
 
 Json growth_with_bins(const Cloud& cloud) {
