@@ -18,6 +18,9 @@ struct PrincipalAxes {
 /// Where the points do not fix a plane, the most upright one is taken: through points on a line
 /// (lambda_2 - lambda_3 at most 1e-6 of the trace) the plane that contains the line and leans
 /// least, through a single place the horizontal one.
+///
+/// The normal of an upright plane (z within 1e-6 of 0) is level; the larger of its x and y is
+/// positive, so that rounding does not decide which side is above.
 PrincipalAxes principal_axes(const Symmetric3& covariance) noexcept;
 
 }  // namespace flagstone

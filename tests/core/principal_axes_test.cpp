@@ -99,5 +99,20 @@ TEST(PrincipalAxes, OfOverflownCovariancesAreStillAPlane) {
   EXPECT_EQ(principal_axes({inf, 0, 0, 1, 0, 1}).normal, (Vector3{0, 0, 1}));
 }
 
+TEST(PrincipalAxes, OfAnUprightPlaneFaceTheSameWayWhateverRoundingSays) {
+  const Symmetric3 wall = {4, -4, 0, 4, 0, 2};  // along (1, -1, 0) and z
+  const double tilt = 1e-8;                     // what rounding may make of it
+  for (const double sign : {-1.0, 0.0, 1.0}) {
+    Symmetric3 covariance = wall;
+    covariance[2] = covariance[4] = sign * tilt;
+
+    const PrincipalAxes axes = principal_axes(covariance);
+
+    EXPECT_NEAR(axes.normal[0], std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(axes.normal[1], std::sqrt(0.5), 1e-6);
+    EXPECT_EQ(axes.normal[2], 0);
+  }
+}
+
 }  // namespace
 }  // namespace flagstone

@@ -78,7 +78,16 @@ Plane plane_of(CloudView cloud, const Indices& set) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(c);  // ascending
   plane.eigenvalues = solver.eigenvalues().reverse().cwiseMax(0);
   plane.normal = solver.eigenvectors().col(0);
-  if (plane.normal.z() < 0) plane.normal = -plane.normal;
+  if (std::abs(plane.normal.z()) <=
+      1e-6) {  // an upright plane, as the product's documentation has it
+    plane.normal.z() = 0;
+    const double larger = std::abs(plane.normal.y()) > std::abs(plane.normal.x())
+                              ? plane.normal.y()
+                              : plane.normal.x();
+    if (larger < 0) plane.normal = -plane.normal;
+  } else if (plane.normal.z() < 0) {
+    plane.normal = -plane.normal;
+  }
 
   // Points that fix no plane: the most upright one, as the product's documentation has it.
   const double trace = plane.eigenvalues.sum();

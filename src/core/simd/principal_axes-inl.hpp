@@ -59,10 +59,16 @@ HWY_INLINE Vectors3 longer(const Vectors3& a, const Vectors3& b) {
   return select(hn::Gt(squared_length(b), squared_length(a)), b, a);
 }
 
+/// Unit length, upward. A level vector has no up: where rounding alone would decide, the larger of
+/// x and y is made positive, and z is 0.
 HWY_INLINE Vectors3 unit_upward(const Vectors3& v) {
-  const DoubleVector sign = hn::IfThenElse(hn::Lt(v.z, number(0)), number(-1), number(1));
-  const DoubleVector scale = div(sign, hn::Sqrt(squared_length(v)));
-  return {mul(v.x, scale), mul(v.y, scale), mul(v.z, scale)};
+  const DoubleVector length = hn::Sqrt(squared_length(v));
+  const DoubleMask level = hn::Le(hn::Abs(v.z), mul(number(1e-6), length));
+  const DoubleVector larger = hn::IfThenElse(hn::Gt(hn::Abs(v.y), hn::Abs(v.x)), v.y, v.x);
+  const DoubleVector up = hn::IfThenElse(level, larger, v.z);
+  const DoubleVector scale =
+      div(hn::IfThenElse(hn::Lt(up, number(0)), number(-1), number(1)), length);
+  return {mul(v.x, scale), mul(v.y, scale), hn::IfThenElse(level, number(0), mul(v.z, scale))};
 }
 
 /// Smallest root of lambda^3 - lambda^2 + c1 lambda - c0, which has three roots in [0, 1]; 0 where
