@@ -105,6 +105,16 @@ Plane Plane::moved_by(const Vector3& origin) const noexcept {
   return moved;
 }
 
+void set_plane(const Plane& plane, Patch& patch) noexcept {
+  const auto to_floats = [](const Vector3& v) {
+    return std::array{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+  };
+  patch.mean = to_floats(plane.mean);
+  patch.normal = to_floats(plane.normal);
+  patch.d = static_cast<float>(plane.d);
+  patch.eigenvalues = to_floats(plane.eigenvalues);
+}
+
 Plane plane_of(const Moments& moments) noexcept {
   if (moments.count < 3) return {};
   const PrincipalAxes axes = principal_axes(moments.covariance());

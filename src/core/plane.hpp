@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/moments.hpp"
+#include "flagstone/patch.hpp"
 
 namespace flagstone {
 
@@ -27,6 +28,9 @@ struct Plane {
 /// The plane of least squares through the points of these moments; none if they are fewer than
 /// three.
 Plane plane_of(const Moments& moments) noexcept;
+
+/// Writes mean, normal, d and eigenvalues of a plane into a patch.
+void set_plane(const Plane& plane, Patch& patch) noexcept;
 
 /// Planes that are fitted together.
 inline constexpr std::size_t batch_size = 16;

@@ -31,8 +31,9 @@ LabelCounts label_bin(const BinBatch& batch, std::size_t bin, const GroundSet& s
     const auto in_set = hn::And(below_top, hn::Ge(h, hn::Set(d, set.bottom)));
     ground += hn::CountTrue(d, in_set);
     ground_or_noise += hn::CountTrue(d, below_top);
-    const IntVector below = hn::IfThenElse(hn::RebindMask(di, in_set), hn::Set(di, 1),
-                                           hn::Set(di, 2));  // ground, noise
+    const IntVector below =
+        hn::IfThenElse(hn::RebindMask(di, in_set), hn::Set(di, static_cast<int>(Label::ground)),
+                       hn::Set(di, static_cast<int>(Label::noise)));
     const IntVector label = hn::IfThenElseZero(hn::RebindMask(di, below_top), below);
     hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
   }

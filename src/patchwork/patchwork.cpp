@@ -53,10 +53,6 @@ unsigned checked(unsigned threads) {
                               ", allowed are 1 to 1024");
 }
 
-std::array<float, 3> to_floats(const Vector3& v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
 }  // namespace
 
 namespace patchwork {
@@ -209,10 +205,7 @@ struct Patchwork::Pipeline {
       return;
     }
     const Plane plane = fitted.judged[i].moved_by(fitted.origins[i]);
-    patch.mean = to_floats(plane.mean);
-    patch.normal = to_floats(plane.normal);
-    patch.d = static_cast<float>(plane.d);
-    patch.eigenvalues = to_floats(plane.eigenvalues);
+    set_plane(plane, patch);
     likelihood.judge(plane, ring, patch);
   }
 
