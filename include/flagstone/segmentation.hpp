@@ -9,6 +9,7 @@
 
 #include "flagstone/label.hpp"
 #include "flagstone/patch.hpp"
+#include "flagstone/surface.hpp"
 
 namespace flagstone {
 
@@ -24,6 +25,16 @@ class Segmentation {
   /// Empty for methods that do not work on patches.
   [[nodiscard]] std::span<const Patch> patches() const noexcept { return patches_; }
 
+  /// Height of each input point above the local ground, metres, in input order; NaN where no ground
+  /// is known and for points that are invalid or out of range. Empty for methods that make no
+  /// surface.
+  [[nodiscard]] std::span<const float> heights() const noexcept {
+    return {heights_.data(), height_count_};
+  }
+
+  /// The ground itself. Empty for methods that make no surface.
+  [[nodiscard]] const Surface& surface() const noexcept { return surface_; }
+
   /// How many points have this label. Over all labels the counts add up to labels().size().
   [[nodiscard]] std::size_t count(Label label) const noexcept {
     return counts_[static_cast<std::size_t>(label)];
@@ -33,10 +44,12 @@ class Segmentation {
   /// Buffers keep their capacity; growing them may throw std::bad_alloc.
   /// @{
 
-  /// No labels, no patches.
+  /// No labels, no patches, no heights, no surface.
   void clear() noexcept {
     patches_.clear();
     labels_.clear();
+    height_count_ = 0;
+    surface_.clear();
     counts_ = {};
   }
 
@@ -50,6 +63,16 @@ class Segmentation {
 
   /// The patches to fill.
   [[nodiscard]] std::vector<Patch>& mutable_patches() noexcept { return patches_; }
+
+  /// The heights to fill, one for each label; what they hold is left from before.
+  std::span<float> start_heights() {
+    if (heights_.size() < labels_.size()) heights_.resize(labels_.size());
+    height_count_ = labels_.size();
+    return {heights_.data(), height_count_};
+  }
+
+  /// The surface to fill.
+  [[nodiscard]] Surface& mutable_surface() noexcept { return surface_; }
 
   /// Counts the labels; call it once they are final.
   void finish() noexcept {
@@ -72,6 +95,9 @@ class Segmentation {
  private:
   std::vector<Label> labels_;
   std::vector<Patch> patches_;
+  std::vector<float> heights_;  // as many as the largest scan has had
+  std::size_t height_count_ = 0;
+  Surface surface_;
   std::array<std::size_t, label_count> counts_{};
 };
 
