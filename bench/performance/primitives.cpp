@@ -18,18 +18,20 @@
 #include "clouds.hpp"
 #include "core/plane.hpp"
 #include "core/simd_target.hpp"
-#include "patchwork/bin_batch.hpp"
-#include "patchwork/bin_groups.hpp"
+#include "patches/bin_batch.hpp"
+#include "patches/bin_groups.hpp"
+#include "patches/ground_sets.hpp"
+#include "patches/scan_points.hpp"
+#include "patches/seed_heights.hpp"
 #include "patchwork/bin_labels.hpp"
 #include "patchwork/concentric_zones.hpp"
-#include "patchwork/ground_sets.hpp"
-#include "patchwork/scan_points.hpp"
-#include "patchwork/seed_heights.hpp"
+#include "patchwork/read_scan.hpp"
 
 namespace flagstone::performance {
 namespace {
 
-using namespace flagstone::patchwork;  // NOLINT(google-build-using-namespace): what is measured
+using namespace flagstone::patches;    // NOLINT(google-build-using-namespace): what is measured
+using namespace flagstone::patchwork;  // NOLINT(google-build-using-namespace): the same
 
 /// A scan after every step, so that each can be done again.
 class Steps {
@@ -48,7 +50,7 @@ class Steps {
 
   void read(CloudView view) {
     for (std::size_t chunk = 0; chunk < ScanPoints::chunk_count(view.size()); ++chunk) {
-      scan.read(view, chunk, zones);
+      read_chunk(view, chunk, zones, scan);
     }
   }
 

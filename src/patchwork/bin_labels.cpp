@@ -9,15 +9,19 @@
 #define HWY_TARGET_INCLUDE "patchwork/bin_labels.cpp"
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
-#include "patchwork/ground_set-inl.hpp"
+#include "patches/ground_set-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace flagstone::patchwork::HWY_NAMESPACE {
 namespace {
 
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
+using namespace flagstone::patches::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): sets
+
 /// Labels of the points of a bin in their packed order, one byte for each place.
-LabelCounts label_bin(const BinBatch& batch, std::size_t bin, const GroundSet& set,
-                      std::uint8_t* HWY_RESTRICT labels) {
+LabelCounts label_bin(const patches::BinBatch& batch, std::size_t bin,
+                      const patches::GroundSet& set, std::uint8_t* HWY_RESTRICT labels) {
   const FloatTag d;
   const IntTag di;
   const hn::Rebind<std::uint8_t, FloatTag> d8;
@@ -76,8 +80,8 @@ HWY_INLINE void copy_run(const std::uint8_t* from, std::size_t count, std::uint8
 
 #endif
 
-void copy_runs(const std::uint8_t* from, std::span<const Run> runs, std::uint8_t* labels) {
-  for (const Run& run : runs) {
+void copy_runs(const std::uint8_t* from, std::span<const patches::Run> runs, std::uint8_t* labels) {
+  for (const patches::Run& run : runs) {
     copy_run(from, run.length, labels + run.begin);
     from += run.length;
   }
@@ -94,12 +98,13 @@ HWY_EXPORT(label_bin);
 HWY_EXPORT(copy_runs);
 }  // namespace
 
-LabelCounts BinLabels::write(const BinBatch& batch, std::size_t i, const GroundSet& set,
-                             const BinGroups& groups, std::span<Label> labels) noexcept {
+LabelCounts BinLabels::write(const patches::BinBatch& batch, std::size_t i,
+                             const patches::GroundSet& set, const patches::BinGroups& groups,
+                             std::span<Label> labels) noexcept {
   std::uint8_t* packed = packed_.data();
   const LabelCounts counts = HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, packed);
   if (groups.scattered()) {
-    for (const MovedPoint& point : groups.points(batch.bin(i))) {
+    for (const patches::MovedPoint& point : groups.points(batch.bin(i))) {
       labels[point.index] = static_cast<Label>(*packed++);
     }
   } else {
@@ -109,12 +114,12 @@ LabelCounts BinLabels::write(const BinBatch& batch, std::size_t i, const GroundS
   return counts;
 }
 
-std::uint32_t BinLabels::fill(const BinGroups& groups, std::uint32_t bin, Label label,
+std::uint32_t BinLabels::fill(const patches::BinGroups& groups, std::uint32_t bin, Label label,
                               std::span<Label> labels) noexcept {
   if (groups.scattered()) {
-    for (const MovedPoint& point : groups.points(bin)) labels[point.index] = label;
+    for (const patches::MovedPoint& point : groups.points(bin)) labels[point.index] = label;
   } else {
-    for (const Run& run : groups.runs(bin)) {
+    for (const patches::Run& run : groups.runs(bin)) {
       std::fill_n(labels.data() + run.begin, run.length, label);
     }
   }

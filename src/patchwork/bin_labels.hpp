@@ -8,9 +8,9 @@
 
 #include "core/buffer.hpp"
 #include "flagstone/label.hpp"
-#include "patchwork/bin_batch.hpp"
-#include "patchwork/bin_groups.hpp"
-#include "patchwork/ground_sets.hpp"
+#include "patches/bin_batch.hpp"
+#include "patches/bin_groups.hpp"
+#include "patches/ground_sets.hpp"
 
 namespace flagstone::patchwork {
 
@@ -28,12 +28,12 @@ class BinLabels {
 
   /// Labels the points of bin `i` of the batch: ground if in the set, noise below it, nonground
   /// above.
-  LabelCounts write(const BinBatch& batch, std::size_t i, const GroundSet& set,
-                    const BinGroups& groups, std::span<Label> labels) noexcept;
+  LabelCounts write(const patches::BinBatch& batch, std::size_t i, const patches::GroundSet& set,
+                    const patches::BinGroups& groups, std::span<Label> labels) noexcept;
 
   /// Gives all points of a bin one label.
   /// Returns how many they are.
-  static std::uint32_t fill(const BinGroups& groups, std::uint32_t bin, Label label,
+  static std::uint32_t fill(const patches::BinGroups& groups, std::uint32_t bin, Label label,
                             std::span<Label> labels) noexcept;
 
  private:

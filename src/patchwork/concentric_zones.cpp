@@ -7,7 +7,12 @@
 #include <cmath>
 #include <limits>
 
+#include "patches/scan_points.hpp"
+
 namespace flagstone::patchwork {
+
+static_assert(most_bins + 3 < 1U << patches::bin_bits);  // noise and the like included
+
 namespace {
 
 float squared(float radius) {

@@ -15,27 +15,29 @@
 #include "core/crew.hpp"
 #include "core/own_floating_point.hpp"
 #include "core/segment_scan.hpp"
-#include "patchwork/bin_batch.hpp"
-#include "patchwork/bin_groups.hpp"
+#include "patches/bin_batch.hpp"
+#include "patches/bin_groups.hpp"
+#include "patches/plane_fit.hpp"
+#include "patches/scan_points.hpp"
+#include "patches/stage_clock.hpp"
 #include "patchwork/bin_labels.hpp"
 #include "patchwork/concentric_zones.hpp"
 #include "patchwork/ground_likelihood.hpp"
-#include "patchwork/plane_fit.hpp"
-#include "patchwork/scan_points.hpp"
-#include "patchwork/stage_clock.hpp"
+#include "patchwork/read_scan.hpp"
 
 namespace flagstone {
 
-using patchwork::BinBatch;
-using patchwork::BinGroups;
+using patches::BinBatch;
+using patches::BinGroups;
+using patches::PlaneFit;
+using patches::ScanPoints;
+using patches::StageClock;
 using patchwork::BinLabels;
 using patchwork::ConcentricZones;
 using patchwork::GroundLikelihood;
 using patchwork::LabelCounts;
-using patchwork::PlaneFit;
+using patchwork::read_chunk;
 using patchwork::Ring;
-using patchwork::ScanPoints;
-using patchwork::StageClock;
 
 namespace {
 
@@ -102,7 +104,7 @@ struct Patchwork::Pipeline {
 
     // Concentric Zone Model (III-B)
     crew.run(ScanPoints::chunk_count(cloud.size()),
-             [&](std::size_t, std::size_t chunk) { scan.read(cloud, chunk, zones); });
+             [&](std::size_t, std::size_t chunk) { read_chunk(cloud, chunk, zones, scan); });
     clock.end(Stage::bin);
     groups.group(scan, cloud.size(), zones.group_count());
     for (patchwork::Fitter& fitter : fitters) fitter.totals = {};

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "core/buffer.hpp"
-#include "patchwork/scan_points.hpp"
+#include "patches/scan_points.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 
 /// Consecutive input points that share a bin.
 struct Run {
@@ -70,4 +70,4 @@ class BinGroups {
   bool scattered_ = false;
 };
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/bin_batch.hpp"
+#include "patches/bin_batch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "forced_target.hpp"
-#include "patchwork/sorted_scan.hpp"
+#include "patches/sorted_scan.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 namespace {
 
 /// The parameter is the instruction set.
@@ -95,4 +95,4 @@ TEST_P(BinBatchOn, HoldsABinOfAnySize) {
 }
 
 }  // namespace
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

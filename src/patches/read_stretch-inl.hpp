@@ -1,39 +1,34 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/scan_points.hpp"
+//
+// The one pass over a cloud: its coordinates, and where the bin changes from one point to the next,
+// for any way of finding a point's bin. Included once for each instruction set.
+
+// clang-format off
+#if defined(FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP
+#undef FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP
+#else
+#define FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP
+#endif
+// clang-format on
+
+#include <hwy/cache_control.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "patchwork/scan_points.cpp"
-#include <hwy/foreach_target.h>
-// The above includes this file once for each instruction set.
-#include <hwy/cache_control.h>
-
 #include "core/simd/lanes-inl.hpp"
-#include "patchwork/locate-inl.hpp"
-
-#ifndef FLAGSTONE_PATCHWORK_SCAN_POINTS_ONCE
-#define FLAGSTONE_PATCHWORK_SCAN_POINTS_ONCE
-namespace flagstone::patchwork {
-
-/// A stretch of a cloud to read and where to put it.
-struct Stretch {
-  CloudView cloud;
-  std::size_t begin, end;  ///< at most chunk_size points
-  float *x, *y, *z;        ///< of point `begin`; room for 16 more than there are
-  RunStart* starts;        ///< room for 17 more
-};
-
-}  // namespace flagstone::patchwork
-#endif
+#include "patches/scan_points.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace flagstone::patchwork::HWY_NAMESPACE {
+namespace flagstone::patches::HWY_NAMESPACE {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
 /// Writes down where the bin changes from one point to the next.
 class RunWriter {
@@ -77,9 +72,9 @@ HWY_INLINE void prefetch_block(const float* points) {
 }
 
 /// Reads sixteen points of `floats` floats each and finds their bins.
-template <std::size_t floats, bool few>
+template <std::size_t floats, class Locate>
 HWY_INLINE void read_block(const float* HWY_RESTRICT points, std::size_t index,
-                           const Stretch& stretch, const ConcentricZones& zones, RunWriter& runs) {
+                           const Stretch& stretch, const Locate& locate, RunWriter& runs) {
   const FloatTag d;
   for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
     FloatVector x, y, z;
@@ -87,7 +82,7 @@ HWY_INLINE void read_block(const float* HWY_RESTRICT points, std::size_t index,
     hn::StoreU(x, d, stretch.x + index + lane);
     hn::StoreU(y, d, stretch.y + index + lane);
     hn::StoreU(z, d, stretch.z + index + lane);
-    runs.add(locate<few>(x, y, z, zones));
+    runs.add(locate(x, y, z));
   }
 }
 
@@ -109,10 +104,14 @@ HWY_INLINE void copy_records_at_once(const std::byte* points, std::ptrdiff_t str
   }
 }
 
+/// Reads a stretch; returns how many runs it has. `locate(x, y, z)` gives the bins of a vector of
+/// points, each less than 1 << bin_bits, and takes any bit pattern; it is to be a struct whose
+/// operator() is HWY_INLINE, so that the tables it reads stay in registers.
+///
 /// Packed xyz and records of four floats are read where they lie, as long as no read can leave the
 /// cloud; all other layouts, and what the last point needs, by way of a copy.
-template <bool few>
-HWY_INLINE std::size_t read_with(const Stretch& stretch, const ConcentricZones& zones) {
+template <class Locate>
+HWY_INLINE std::size_t read_stretch(const Stretch& stretch, const Locate& locate) {
   const CloudView& cloud = stretch.cloud;
   const CloudLayout& layout = cloud.layout();
   const std::byte* first = static_cast<const std::byte*>(cloud.data()) + layout.x +
@@ -131,62 +130,29 @@ HWY_INLINE std::size_t read_with(const Stretch& stretch, const ConcentricZones& 
   if (aligned && layout.stride == 16) {
     for (; i < whole; i += lanes) {
       prefetch_block<4>(floats + 4 * i);
-      read_block<4, few>(floats + 4 * i, i, stretch, zones, runs);
+      read_block<4>(floats + 4 * i, i, stretch, locate, runs);
     }
   } else if (aligned && layout.stride == 12) {
     for (; i < whole; i += lanes) {
       prefetch_block<3>(floats + 3 * i);
-      read_block<3, few>(floats + 3 * i, i, stretch, zones, runs);
+      read_block<3>(floats + 3 * i, i, stretch, locate, runs);
     }
   }
   for (; i < whole; i += lanes) {
     copy_records_at_once(first + static_cast<std::ptrdiff_t>(i) * layout.stride, layout.stride,
                          records.data());
-    read_block<4, few>(records.data(), i, stretch, zones, runs);
+    read_block<4>(records.data(), i, stretch, locate, runs);
   }
   for (; i < count; i += lanes) {
     copy_records(cloud, stretch.begin + i, stretch.begin + std::min(count, i + lanes),
                  records.data());
-    read_block<4, few>(records.data(), i, stretch, zones, runs);
+    read_block<4>(records.data(), i, stretch, locate, runs);
   }
   return runs.close(count);
 }
 
-/// Reads a stretch; returns how many runs it has.
-std::size_t read_stretch(const Stretch& stretch, const ConcentricZones& zones) {
-  return zones.rings().size() <= RingTree::few ? read_with<true>(stretch, zones)
-                                               : read_with<false>(stretch, zones);
-}
-
 }  // namespace
-}  // namespace flagstone::patchwork::HWY_NAMESPACE
+}  // namespace flagstone::patches::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
-namespace flagstone::patchwork {
-namespace {
-HWY_EXPORT(read_stretch);
-}  // namespace
-
-void ScanPoints::reserve(std::size_t points) {
-  const std::size_t chunks = chunk_count(points);
-  for (Buffer<float>* coordinate : {&x_, &y_, &z_}) coordinate->reserve(points + 2 * slack);
-  starts_.reserve(chunks * (chunk_size + slack) + slack);
-  run_counts_.reserve(chunks);
-}
-
-void ScanPoints::read(CloudView cloud, std::size_t chunk, const ConcentricZones& zones) noexcept {
-  const std::size_t begin = chunk * chunk_size;
-  const Stretch stretch{.cloud = cloud,
-                        .begin = begin,
-                        .end = std::min(begin + chunk_size, cloud.size()),
-                        .x = x_.data() + begin,
-                        .y = y_.data() + begin,
-                        .z = z_.data() + begin,
-                        .starts = starts_.data() + chunk * (chunk_size + slack)};
-  run_counts_.data()[chunk] =
-      static_cast<std::uint32_t>(HWY_DYNAMIC_DISPATCH(read_stretch)(stretch, zones));
-}
-
-}  // namespace flagstone::patchwork
 #endif

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/seed_heights.hpp"
+#include "patches/seed_heights.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "forced_target.hpp"
-#include "patchwork/batch_of.hpp"
+#include "patches/batch_of.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 namespace {
 
 using Heights = std::vector<float>;
@@ -163,4 +163,4 @@ TEST_P(SeedHeightsOn, DoNotDependOnTheOrderOfThePoints) {
 }
 
 }  // namespace
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

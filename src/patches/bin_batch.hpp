@@ -8,10 +8,10 @@
 
 #include "core/buffer.hpp"
 #include "core/plane.hpp"
-#include "patchwork/bin_groups.hpp"
-#include "patchwork/scan_points.hpp"
+#include "patches/bin_groups.hpp"
+#include "patches/scan_points.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 
 /// Up to sixteen bins S_n that are fitted together, their points packed so that every pass of the
 /// fit reads contiguous memory.
@@ -72,4 +72,4 @@ class BinBatch {
   Buffer<float> z_;
 };
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/bin_groups.hpp"
+#include "patches/bin_groups.hpp"
 
 #include <algorithm>
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 namespace {
 
 /// Runs of fewer points than this on average are not worth keeping.
@@ -88,4 +88,4 @@ void BinGroups::sort(const ScanPoints& scan, std::size_t chunks, const Place& pl
   });
 }
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/batch_of.hpp"
+#include "patches/batch_of.hpp"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
 
-#include "patchwork/sorted_scan.hpp"
+#include "patches/sorted_scan.hpp"
 
 namespace flagstone::tests {
 
-patchwork::BinBatch batch_of(const std::vector<std::vector<float>>& heights) {
+patches::BinBatch batch_of(const std::vector<std::vector<float>>& heights) {
   std::mt19937 random(1);
   const auto unit = [&] { return static_cast<float>(random() >> 8U) / 16777216.0f; };
   std::vector<Point> cloud;
@@ -25,7 +25,7 @@ patchwork::BinBatch batch_of(const std::vector<std::vector<float>>& heights) {
   }
   const SortedScan sorted(cloud, sixteen_bins());
 
-  patchwork::BinBatch batch;
+  patches::BinBatch batch;
   batch.reserve(cloud.size());
   for (std::uint32_t bin = 0; bin < heights.size(); ++bin) {
     batch.add(bin, sorted.groups.size(bin));

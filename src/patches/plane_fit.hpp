@@ -9,12 +9,12 @@
 
 #include "core/plane.hpp"
 #include "flagstone/patchwork_config.hpp"
-#include "patchwork/bin_batch.hpp"
-#include "patchwork/ground_sets.hpp"
-#include "patchwork/seed_heights.hpp"
-#include "patchwork/stage_clock.hpp"
+#include "patches/bin_batch.hpp"
+#include "patches/ground_sets.hpp"
+#include "patches/seed_heights.hpp"
+#include "patches/stage_clock.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 
 /// Region-wise Ground Plane Fitting, section III-C, eqs. (3) to (6), for a batch of bins at a time.
 class PlaneFit {
@@ -56,4 +56,4 @@ class PlaneFit {
   MomentsBatch moments_{};
 };
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

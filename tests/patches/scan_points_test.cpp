@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/scan_points.hpp"
+#include "patches/scan_points.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -12,10 +12,15 @@
 
 #include "forced_target.hpp"
 #include "made_up_cloud.hpp"
+#include "patches/square_cells.hpp"
+#include "patchwork/concentric_zones.hpp"
+#include "patchwork/read_scan.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 namespace {
 
+using patchwork::ConcentricZones;
+using patchwork::read_chunk;
 using tests::view_of;
 
 /// The bin of each point, as ConcentricZones has it.
@@ -36,7 +41,7 @@ std::vector<std::uint32_t> located(const std::vector<Point>& cloud, const Concen
 void read_all(const std::vector<Point>& cloud, const ConcentricZones& zones, ScanPoints& scan) {
   scan.reserve(cloud.size());
   for (std::size_t chunk = 0; chunk < ScanPoints::chunk_count(cloud.size()); ++chunk) {
-    scan.read(view_of(cloud), chunk, zones);
+    read_chunk(view_of(cloud), chunk, zones, scan);
   }
 }
 
@@ -89,6 +94,23 @@ TEST_P(ScanPointsOn, RunsTellTheBinOfEveryPoint) {
   }));
 }
 
+TEST_P(ScanPointsOn, RunsTellTheBinWhateverFindsIt) {
+  constexpr tests::SquareCells cells{.cell = 0.25f, .width = 511};  // 261,122 bins: most that fit
+  for (const std::size_t size : {1U, 16U, 17U, 8193U, 20000U}) {
+    const std::vector<Point> cloud = tests::corrupted_cloud(size, 6);
+    ScanPoints scan;
+    scan.reserve(size);
+
+    for (std::size_t chunk = 0; chunk < ScanPoints::chunk_count(size); ++chunk) {
+      read_chunk(view_of(cloud), chunk, cells, scan);
+    }
+
+    std::vector<std::uint32_t> expected;
+    for (const Point& point : cloud) expected.push_back(cells.cell_of(point));
+    ASSERT_EQ(told_by_runs(scan, size), expected);
+  }
+}
+
 TEST_P(ScanPointsOn, RunsAreAsLongAsCanBe) {
   const ConcentricZones zones{PatchworkConfig{}};
   const std::vector<Point> cloud = tests::made_up_cloud(20000, 3);
@@ -130,7 +152,7 @@ TEST_P(ScanPointsOn, ChunksMayBeReadInAnyOrder) {
   ScanPoints scan;
   scan.reserve(cloud.size());
 
-  for (const std::size_t chunk : {3U, 1U, 0U, 2U}) scan.read(view_of(cloud), chunk, zones);
+  for (const std::size_t chunk : {3U, 1U, 0U, 2U}) read_chunk(view_of(cloud), chunk, zones, scan);
 
   EXPECT_EQ(told_by_runs(scan, cloud.size()), located(cloud, zones));
 }
@@ -143,4 +165,4 @@ TEST(ScanPoints, FewPointsTakeOneChunkAndNoneTakeNone) {
 }
 
 }  // namespace
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

@@ -1,20 +1,20 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/seed_heights.hpp"
+#include "patches/seed_heights.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "patchwork/seed_heights.cpp"
+#define HWY_TARGET_INCLUDE "patches/seed_heights.cpp"
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
 #include "core/simd/lanes-inl.hpp"
 
-#ifndef FLAGSTONE_PATCHWORK_SEED_HEIGHTS_ONCE
-#define FLAGSTONE_PATCHWORK_SEED_HEIGHTS_ONCE
-namespace flagstone::patchwork {
+#ifndef FLAGSTONE_PATCHES_SEED_HEIGHTS_ONCE
+#define FLAGSTONE_PATCHES_SEED_HEIGHTS_ONCE
+namespace flagstone::patches {
 
 /// Up to this many candidates of sixteen bins are sorted side by side.
 inline constexpr std::size_t most_candidates = 32;
@@ -44,11 +44,11 @@ inline constexpr auto sorting_network = [] {
 }();
 static_assert(sorting_network.back().high != 0);  // it is that long
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace flagstone::patchwork::HWY_NAMESPACE {
+namespace flagstone::patches::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -122,11 +122,11 @@ void mean_of_rows(const Candidates& rows, std::size_t seed_count, Batch& means) 
 }
 
 }  // namespace
-}  // namespace flagstone::patchwork::HWY_NAMESPACE
+}  // namespace flagstone::patches::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 namespace {
 HWY_EXPORT(sort_columns);
 HWY_EXPORT(lowest_of_lanes);
@@ -190,5 +190,5 @@ void SeedHeights::find(const BinBatch& batch, const std::array<float, batch_size
   HWY_DYNAMIC_DISPATCH(mean_of_rows)(rows, seed_count_, means);
 }
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches
 #endif

@@ -7,7 +7,7 @@
 
 #include "flagstone/stage_times.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 
 /// Books the time that passes on stages; does nothing where nobody asked for it.
 class StageClock {
@@ -32,4 +32,4 @@ class StageClock {
   Clock::time_point last_;
 };
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/ground_sets.hpp"
+#include "patches/ground_sets.hpp"
 
 #include <algorithm>
 #include <array>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "patchwork/ground_sets.cpp"
+#define HWY_TARGET_INCLUDE "patches/ground_sets.cpp"
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
 #include "core/simd/lanes-inl.hpp"
-#include "patchwork/ground_set-inl.hpp"
+#include "patches/ground_set-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace flagstone::patchwork::HWY_NAMESPACE {
+namespace flagstone::patches::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -220,11 +220,11 @@ void sum_bins(const BinBatch& batch, const GroundSets& sets, BinMask wanted, Pre
 }
 
 }  // namespace
-}  // namespace flagstone::patchwork::HWY_NAMESPACE
+}  // namespace flagstone::patches::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 namespace {
 HWY_EXPORT(sum_bins);
 HWY_EXPORT(sum_first_bins);
@@ -240,5 +240,5 @@ void sum_first_moments(BinBatch& batch, const std::array<FirstSet, batch_size>& 
   HWY_DYNAMIC_DISPATCH(sum_first_bins)(batch, sets, moments);
 }
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches
 #endif

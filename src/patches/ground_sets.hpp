@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "core/plane.hpp"
-#include "patchwork/bin_batch.hpp"
+#include "patches/bin_batch.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 
 /// The points G of a bin with bottom <= n . p < top, metres: eqs. (5) and (6) with p as the batch
 /// has it and n = (normal_x, normal_y, normal_z). With n = (0, 0, 1) a set of eq. (4).
@@ -47,4 +47,4 @@ struct FirstSet {
 void sum_first_moments(BinBatch& batch, const std::array<FirstSet, batch_size>& sets,
                        MomentsBatch& moments) noexcept;
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/ground_sets.hpp"
+#include "patches/ground_sets.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "forced_target.hpp"
-#include "patchwork/batch_of.hpp"
+#include "patches/batch_of.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -203,4 +203,4 @@ TEST_P(SumMomentsOn, OfFirstSetsAreThoseOfTheHeightsThatTheyLeave) {
 }
 
 }  // namespace
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

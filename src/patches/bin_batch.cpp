@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/bin_batch.hpp"
+#include "patches/bin_batch.hpp"
 
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "patchwork/bin_batch.cpp"
+#define HWY_TARGET_INCLUDE "patches/bin_batch.cpp"
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
 #include "core/simd/lanes-inl.hpp"
 
-#ifndef FLAGSTONE_PATCHWORK_BIN_BATCH_ONCE
-#define FLAGSTONE_PATCHWORK_BIN_BATCH_ONCE
-namespace flagstone::patchwork {
+#ifndef FLAGSTONE_PATCHES_BIN_BATCH_ONCE
+#define FLAGSTONE_PATCHES_BIN_BATCH_ONCE
+namespace flagstone::patches {
 
 /// Where the points of one bin go. What lies behind them may be written up to the next multiple of
 /// 16, and 16 places beyond.
@@ -21,11 +21,11 @@ struct PackedBin {
   float *x, *y, *z;
 };
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace flagstone::patchwork::HWY_NAMESPACE {
+namespace flagstone::patches::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -80,11 +80,11 @@ void gather_points(std::span<const MovedPoint> points, const PackedBin& bin) {
 }
 
 }  // namespace
-}  // namespace flagstone::patchwork::HWY_NAMESPACE
+}  // namespace flagstone::patches::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 namespace {
 HWY_EXPORT(gather_runs);
 HWY_EXPORT(gather_points);
@@ -121,5 +121,5 @@ void BinBatch::gather(const ScanPoints& scan, const BinGroups& groups) noexcept 
   }
 }
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches
 #endif

@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "made_up_cloud.hpp"
-#include "patchwork/bin_batch.hpp"
-#include "patchwork/bin_groups.hpp"
+#include "patches/bin_batch.hpp"
+#include "patches/bin_groups.hpp"
+#include "patches/scan_points.hpp"
 #include "patchwork/concentric_zones.hpp"
-#include "patchwork/scan_points.hpp"
+#include "patchwork/read_scan.hpp"
 
 namespace flagstone::tests {
 
@@ -18,26 +19,26 @@ namespace flagstone::tests {
 struct SortedScan {
   SortedScan(const std::vector<Point>& cloud, const PatchworkConfig& config) : zones(config) {
     scan.reserve(cloud.size());
-    for (std::size_t i = 0; i < patchwork::ScanPoints::chunk_count(cloud.size()); ++i) {
-      scan.read(view_of(cloud), i, zones);
+    for (std::size_t i = 0; i < patches::ScanPoints::chunk_count(cloud.size()); ++i) {
+      patchwork::read_chunk(view_of(cloud), i, zones, scan);
     }
     groups.reserve(cloud.size(), zones.group_count());
     groups.group(scan, cloud.size(), zones.group_count());
   }
 
   patchwork::ConcentricZones zones;
-  patchwork::ScanPoints scan;
-  patchwork::BinGroups groups;
+  patches::ScanPoints scan;
+  patches::BinGroups groups;
 };
 
 /// Indices of the points of a bin, whichever way the groups list them.
-inline std::vector<std::uint32_t> points_of(const patchwork::BinGroups& groups, std::uint32_t bin) {
+inline std::vector<std::uint32_t> points_of(const patches::BinGroups& groups, std::uint32_t bin) {
   std::vector<std::uint32_t> points;
   if (groups.scattered()) {
-    for (const patchwork::MovedPoint& p : groups.points(bin)) points.push_back(p.index);
+    for (const patches::MovedPoint& p : groups.points(bin)) points.push_back(p.index);
     return points;
   }
-  for (const patchwork::Run& run : groups.runs(bin)) {
+  for (const patches::Run& run : groups.runs(bin)) {
     for (std::uint32_t i = 0; i < run.length; ++i) points.push_back(run.begin + i);
   }
   return points;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/bin_groups.hpp"
+#include "patches/bin_groups.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -11,10 +11,13 @@
 #include <vector>
 
 #include "made_up_cloud.hpp"
-#include "patchwork/sorted_scan.hpp"
+#include "patches/sorted_scan.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 namespace {
+
+using patchwork::ConcentricZones;
+using patchwork::read_chunk;
 
 using Lists = std::vector<std::vector<std::uint32_t>>;  ///< indices of the points of each bin
 
@@ -97,7 +100,7 @@ TEST(BinGroups, ForgetTheScanBefore) {
   tests::SortedScan sorted(first, {});
 
   for (std::size_t i = 0; i < ScanPoints::chunk_count(second.size()); ++i) {
-    sorted.scan.read(tests::view_of(second), i, sorted.zones);
+    read_chunk(tests::view_of(second), i, sorted.zones, sorted.scan);
   }
   sorted.groups.group(sorted.scan, second.size(), sorted.zones.group_count());
 
@@ -106,4 +109,4 @@ TEST(BinGroups, ForgetTheScanBefore) {
 }
 
 }  // namespace
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

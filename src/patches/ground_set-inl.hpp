@@ -4,19 +4,19 @@
 // Which points belong to a ground set, eqs. (4) to (6). Included once for each instruction set.
 
 // clang-format off
-#if defined(FLAGSTONE_PATCHWORK_GROUND_SET_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef FLAGSTONE_PATCHWORK_GROUND_SET_INL_HPP
-#undef FLAGSTONE_PATCHWORK_GROUND_SET_INL_HPP
+#if defined(FLAGSTONE_PATCHES_GROUND_SET_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef FLAGSTONE_PATCHES_GROUND_SET_INL_HPP
+#undef FLAGSTONE_PATCHES_GROUND_SET_INL_HPP
 #else
-#define FLAGSTONE_PATCHWORK_GROUND_SET_INL_HPP
+#define FLAGSTONE_PATCHES_GROUND_SET_INL_HPP
 #endif
 // clang-format on
 
 #include "core/simd/lanes-inl.hpp"
-#include "patchwork/ground_sets.hpp"
+#include "patches/ground_sets.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace flagstone::patchwork::HWY_NAMESPACE {
+namespace flagstone::patches::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -38,7 +38,7 @@ HWY_INLINE hn::Mask<D> in_set(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> z, con
 }
 
 }  // namespace
-}  // namespace flagstone::patchwork::HWY_NAMESPACE
+}  // namespace flagstone::patches::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

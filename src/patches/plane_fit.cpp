@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "patchwork/plane_fit.hpp"
+#include "patches/plane_fit.hpp"
 
 #include <cmath>
 #include <limits>
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 namespace {
 
 /// The least float that is not below `value`.
@@ -105,4 +105,4 @@ void PlaneFit::choose_next_sets(const PlaneBatch& planes, GroundSets& sets) cons
   }
 }
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

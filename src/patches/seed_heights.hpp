@@ -7,9 +7,9 @@
 
 #include "core/buffer.hpp"
 #include "core/plane.hpp"
-#include "patchwork/bin_batch.hpp"
+#include "patches/bin_batch.hpp"
 
-namespace flagstone::patchwork {
+namespace flagstone::patches {
 
 /// z-bar_init of eq. (4) for the bins of a batch.
 class SeedHeights {
@@ -31,4 +31,4 @@ class SeedHeights {
   Buffer<float> heights_;
 };
 
-}  // namespace flagstone::patchwork
+}  // namespace flagstone::patches

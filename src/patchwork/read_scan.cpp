@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "patchwork/read_scan.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "patchwork/read_scan.cpp"
+#include <hwy/foreach_target.h>
+// The above includes this file once for each instruction set.
+#include "patches/read_stretch-inl.hpp"
+#include "patchwork/locate-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::patchwork::HWY_NAMESPACE {
+namespace {
+
+template <bool few>
+struct Locate {
+  HWY_INLINE IntVector operator()(FloatVector x, FloatVector y, FloatVector z) const {
+    return locate<few>(x, y, z, zones);
+  }
+  const ConcentricZones& zones;
+};
+
+std::size_t read_zones(const patches::Stretch& stretch, const ConcentricZones& zones) {
+  return zones.rings().size() <= RingTree::few
+             ? patches::HWY_NAMESPACE::read_stretch(stretch, Locate<true>{zones})
+             : patches::HWY_NAMESPACE::read_stretch(stretch, Locate<false>{zones});
+}
+
+}  // namespace
+}  // namespace flagstone::patchwork::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace flagstone::patchwork {
+namespace {
+HWY_EXPORT(read_zones);
+}  // namespace
+
+void read_chunk(CloudView cloud, std::size_t chunk, const ConcentricZones& zones,
+                patches::ScanPoints& scan) noexcept {
+  scan.read(cloud, chunk, [&](const patches::Stretch& stretch) {
+    return HWY_DYNAMIC_DISPATCH(read_zones)(stretch, zones);
+  });
+}
+
+}  // namespace flagstone::patchwork
+#endif
