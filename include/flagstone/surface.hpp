@@ -12,17 +12,19 @@ namespace flagstone {
 /// What the ground is like at one place.
 struct GroundAt {
   float height = 0;               ///< z of the ground, metres, sensor frame; NaN: not known here
-  std::array<float, 3> normal{};  ///< unit length, z > 0; NaN where the height is
-  float slope = 0;                ///< angle between normal and z axis, radians, 0 to pi/2; NaN too
-  float confidence = 0;           ///< 0 (not known) to 1 (measured right here)
+  std::array<float, 3> normal{};  ///< unit length, z > 0; NaN: not known here
+  float slope = 0;       ///< angle between normal and z axis, radians, 0 to pi/2, or NaN too
+  float confidence = 0;  ///< 0 (not known) to 1 (measured right here)
 };
 
 /// The ground of a scan as one continuous surface, z = height(x, y) in the sensor frame, made by
 /// methods that join patches to one (`surface`).
 ///
 /// It is a nest of square grids around the sensor, finer towards it. A grid holds heights at the
-/// centres of its cells, between which they are bilinear; a place belongs to the finest grid that
-/// covers it.
+/// centres of its cells, between which they are bilinear. A place belongs to the finest grid that
+/// covers it: the surface is continuous within a grid, not from one to the next. In the outer half
+/// of a grid's outermost cells, beyond the last centres, the ground is as at the nearest place
+/// between centres.
 class Surface {
  public:
   /// A square grid of heights, centred on the sensor.
@@ -48,7 +50,8 @@ class Surface {
   [[nodiscard]] float resolution(float x, float y) const noexcept;
 
   /// The ground at (x, y), metres. Not known outside of the extent and far from any measured
-  /// ground. Any bit pattern is allowed.
+  /// ground: its height is NaN if one of the four around it is and has a share in it, and its
+  /// normal and slope if one of the four is. Any bit pattern is allowed.
   [[nodiscard]] GroundAt at(float x, float y) const noexcept;
 
   /// at(x, y).height, in less time.
