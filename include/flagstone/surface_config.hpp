@@ -4,13 +4,89 @@
 
 namespace flagstone {
 
+/// Which patches are believed to be ground.
+struct PatchAcceptance {
+  /// Smallest angle between the normal and the x-y plane, degrees, 0 to 90. The larger, the
+  /// stricter: steep banks are lost.
+  float upright_angle = 53.0f;
+
+  /// As many points as this share of those within 12.5 cm of the plane may lie 19 to 89 cm above
+  /// it; 0 to 1,000, or infinity for no limit. A wall or bush has as many just above its foot as in
+  /// it, ground has not.
+  float contrast = 0.6f;
+
+  /// Ground is believed up to this height above -h_s, or up to `rise` times the range if that is
+  /// more; metres, 0 to 1,000.
+  float height = 1.5f;
+  /// Metres a metre, 0 to 10.
+  float rise = 0.35f;
+
+  /// How far a patch may lie above what nearer patches let expect (0.3 m more below it), next to
+  /// them; metres, 0 to 100, or infinity for no limit.
+  float step = 0.5f;
+  /// How much more for each metre to the nearest of them, up to 15 m; metres a metre, 0 to 10.
+  float step_growth = 0.15f;
+};
+
+/// How the surface follows the points closer than the patches do.
+struct Refinement {
+  /// Levels of cells of 2, 1, 0.5 and 0.25 m that refine it, 0 to 4. Fewer take less time.
+  int levels = 4;
+
+  /// Points within this of the surface say where it really is, in cells of 2 m; metres, above 0, up
+  /// to 10. A wider gate follows rougher ground, and more of what stands on it.
+  float gate = 0.4f;
+  /// What the gate of one level is of that of the one before; above 0, up to 1.
+  float gate_factor = 0.65f;
+  /// Added to every gate for each metre of range; metres a metre, 0 to 1.
+  float gate_growth = 0.004f;
+
+  /// In a cell, as many points as this share of those at the surface may lie 18 to 88 cm above it;
+  /// 0 to 1,000, or infinity for no limit. Where there are more, something stands there, and the
+  /// cell says only that the ground is not above its lowest point.
+  float contrast = 0.5f;
+
+  /// Weight of that lower bound beside a measured cell's 1; 0 to 1, 0 for none.
+  float lower_bound_weight = 0.1f;
+};
+
+/// When a point is ground.
+struct PointRule {
+  /// Points lower than this above the surface are ground; metres, 0 to 10.
+  float margin = 0.2f;
+
+  /// The same where something stands: in cells of 0.5 m with a point `standing_height` to 2.5 m
+  /// above the surface. Metres, 0 to 10. Smaller keeps feet of walls out, and loses ground beside
+  /// them.
+  float margin_at_obstacles = 0.06f;
+  /// Metres, 0 to 2.5.
+  float standing_height = 0.8f;
+
+  /// Points farther below the surface are noise; metres, 0 to 1,000.
+  float noise_depth = 1.0f;
+  /// Added to that for each metre of range; metres a metre, 0 to 10.
+  float noise_growth = 0.06f;
+};
+
 /// Settings of the method `surface`. They are the same for every sensor but for its height.
 struct SurfaceConfig {
-  /// h_s: height of the sensor above the ground, metres, -100 to 100.
+  /// h_s: height of the sensor above the ground, metres, -100 to 100. The surface finds its height
+  /// by itself; this says where to begin. 0.3 m off costs nothing.
   float sensor_height = 1.73f;
 
-  /// Points farther away than this are out of range; metres, 8 to 200.
+  /// Points farther away than this, seen from above, are out of range; metres, 8 to 200.
   float max_range = 100.0f;
+
+  /// Points lower than -h_s - noise_depth - noise_slope * range are noise before all else. Metres,
+  /// 0 to 1,000.
+  float noise_depth = 2.0f;
+  /// Steepest descent of ground from below the sensor that is still believed, metres a metre, 0 to
+  /// 10.
+  float noise_slope = 0.35f;
+
+  PatchAcceptance acceptance{};
+  Refinement refinement{};
+  PointRule point{};
 
   /// Throws std::invalid_argument naming the field, its value and the range allowed, for the first
   /// value out of range.

@@ -1,0 +1,287 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "surface/cell_observations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "surface/cell_observations.cpp"
+#include <hwy/foreach_target.h>
+// The above includes this file once for each instruction set.
+#include "core/simd/lanes-inl.hpp"
+
+#ifndef FLAGSTONE_SURFACE_CELL_OBSERVATIONS_ONCE
+#define FLAGSTONE_SURFACE_CELL_OBSERVATIONS_ONCE
+namespace flagstone::surface {
+
+/// Cells that are observed side by side, and the most points of a cell that are looked at.
+inline constexpr std::size_t tile_cells = 16;
+inline constexpr std::size_t half_samples = 16;
+inline constexpr std::size_t most_samples = 2 * half_samples;
+
+/// Heights above the surface, metres, of sixteen points of sixteen cells; infinite where a cell has
+/// no more.
+using HeightBlock = std::array<float, tile_cells * half_samples>;
+
+// Points this far below and above the gate are looked at, metres.
+inline constexpr float depth_below_gate = 1.5f;
+inline constexpr float height_above_gate = 1.0f;
+
+/// Half width of the window whose mean is the surface, metres.
+inline constexpr float window = 0.12f;
+
+// The slab above the surface that holds what stands there, metres above the mean.
+inline constexpr float slab_bottom = 0.18f;
+inline constexpr float slab_top = 0.88f;
+
+/// Points of a cell farther below the mean than this may be no more than a twentieth, metres.
+inline constexpr float below_window = 0.144f;
+inline constexpr float most_below = 0.05f;
+
+/// A cell is observed from as many points on, counts fully from as many, and has a lowest point
+/// worth the name from as many on.
+inline constexpr float fewest_points = 3;
+inline constexpr float points_of_full_weight = 10;
+inline constexpr float fewest_for_lower_bound = 8;
+
+/// A lower bound is worth it where it lies below the surface by this, metres.
+inline constexpr float least_lowering = 0.03f;
+
+}  // namespace flagstone::surface
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::surface::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
+
+/// The surface within a cell: a plane.
+struct CellPlane {
+  float x, y;              ///< centre of the cell, metres
+  float z;                 ///< there
+  float slope_x, slope_y;  ///< metres a metre
+};
+
+CellPlane plane_in(const Grid& grid, const OccupiedCell& cell) {
+  const std::size_t last = grid.width - 1;
+  const float* HWY_RESTRICT row = grid.heights + cell.row * grid.width;
+  const std::size_t left = cell.column > 0 ? cell.column - 1 : 0;
+  const std::size_t right = std::min<std::size_t>(cell.column + 1, last);
+  const std::size_t before = cell.row > 0 ? cell.row - 1 : 0;
+  const std::size_t after = std::min<std::size_t>(cell.row + 1, last);
+  const float per_two_cells = 0.5f / grid.cell;
+  return {.x = grid.center(cell.column),
+          .y = grid.center(cell.row),
+          .z = row[cell.column],
+          .slope_x = (row[right] - row[left]) * per_two_cells,
+          .slope_y = (grid.heights[after * grid.width + cell.column] -
+                      grid.heights[before * grid.width + cell.column]) *
+                     per_two_cells};
+}
+
+/// Heights above the plane of up to sixteen points, one after the other.
+HWY_INLINE void measure(const patches::MovedPoint* points, std::size_t count,
+                        const CellPlane& plane, float* heights) {
+  const FloatTag d;
+  for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
+    FloatVector x, y, z;
+    load_points<4>(&points[lane].x, x, y, z);
+    const FloatVector along_x =
+        hn::Mul(hn::Sub(x, hn::Set(d, plane.x)), hn::Set(d, plane.slope_x));
+    const FloatVector along_y =
+        hn::Mul(hn::Sub(y, hn::Set(d, plane.y)), hn::Set(d, plane.slope_y));
+    const FloatVector height =
+        hn::Sub(hn::Sub(hn::Sub(z, hn::Set(d, plane.z)), along_x), along_y);
+    const auto there = hn::Lt(hn::Iota(d, static_cast<float>(lane)),
+                              hn::Set(d, static_cast<float>(count)));
+    hn::StoreU(hn::IfThenElse(there, height, hn::Set(d, std::numeric_limits<float>::infinity())), d,
+               heights + lane);
+  }
+}
+
+/// What was one cell after another becomes one point after another, all cells side by side: twice
+/// sorting into four, as a number of four digits is turned around by half.
+void transpose(HeightBlock& block) {
+  const FloatTag d;
+  HWY_ALIGN HeightBlock turned;
+  const auto turn = [&](const float* from, float* to) HWY_ATTR {
+    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+      for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
+        FloatVector v0, v1, v2, v3;
+        hn::LoadInterleaved4(d, from + 64 * quarter + 4 * lane, v0, v1, v2, v3);
+        float* const there = to + 16 * quarter + lane;
+        hn::StoreU(v0, d, there);
+        hn::StoreU(v1, d, there + 64);
+        hn::StoreU(v2, d, there + 128);
+        hn::StoreU(v3, d, there + 192);
+      }
+    }
+  };
+  turn(block.data(), turned.data());
+  turn(turned.data(), block.data());
+}
+
+/// The observation of cells side by side, one a lane; `rows` heights of each.
+HWY_INLINE void observe_lanes(const float* HWY_RESTRICT heights, std::size_t rows, FloatVector gate,
+                              const Observations& o, FloatVector& correction, FloatVector& weight) {
+  const FloatTag d;
+  const FloatVector zero = hn::Zero(d);
+  const FloatVector one = hn::Set(d, 1.0f);
+  const FloatVector none = hn::Set(d, std::numeric_limits<float>::infinity());
+  const FloatVector bottom = hn::Neg(hn::Add(gate, hn::Set(d, depth_below_gate)));
+  const FloatVector top = hn::Add(gate, hn::Set(d, height_above_gate));
+
+  // How many points there are, how many within the gate, the lowest of both.
+  FloatVector seen = zero;
+  FloatVector gated = zero;
+  FloatVector lowest = none;
+  FloatVector first = none;
+  FloatVector second = none;
+  FloatVector third = none;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const FloatVector h = hn::Load(d, heights + row * tile_cells);
+    const auto is_seen = hn::And(hn::Gt(h, bottom), hn::Lt(h, top));
+    const auto is_gated = hn::Le(hn::Abs(h), gate);
+    seen = hn::Add(seen, hn::IfThenElseZero(is_seen, one));
+    gated = hn::Add(gated, hn::IfThenElseZero(is_gated, one));
+    lowest = hn::Min(lowest, hn::IfThenElse(is_seen, h, none));
+    const FloatVector candidate = hn::IfThenElse(is_gated, h, none);
+    const FloatVector not_first = hn::Max(first, candidate);
+    first = hn::Min(first, candidate);
+    const FloatVector not_second = hn::Max(second, not_first);
+    second = hn::Min(second, not_first);
+    third = hn::Min(third, not_second);
+  }
+
+  // A mode of the heights near the low end: means of a window that moves to its mean.
+  FloatVector mean = hn::IfThenElse(hn::Lt(gated, hn::Set(d, 10.0f)), second, third);
+  mean = hn::IfThenElse(hn::Lt(gated, hn::Set(d, 5.0f)), first, mean);
+  for (int step = 0; step < 2; ++step) {
+    FloatVector sum = zero;
+    FloatVector count = zero;
+    for (std::size_t row = 0; row < rows; ++row) {
+      const FloatVector h = hn::Load(d, heights + row * tile_cells);
+      const auto inside = hn::And(hn::Le(hn::Abs(h), gate),
+                                  hn::Le(hn::Abs(hn::Sub(h, mean)), hn::Set(d, window)));
+      sum = hn::Add(sum, hn::IfThenElseZero(inside, h));
+      count = hn::Add(count, hn::IfThenElseZero(inside, one));
+    }
+    mean = hn::Div(sum, hn::Max(count, one));
+  }
+
+  FloatVector at_surface = zero;
+  FloatVector above = zero;
+  FloatVector below = zero;
+  const FloatVector slab_low = hn::Add(mean, hn::Set(d, slab_bottom));
+  const FloatVector slab_high = hn::Min(hn::Add(mean, hn::Set(d, slab_top)), top);
+  const FloatVector too_low = hn::Sub(mean, hn::Set(d, below_window));
+  const FloatVector gate_below = hn::Neg(gate);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const FloatVector h = hn::Load(d, heights + row * tile_cells);
+    const auto inside = hn::And(hn::Le(hn::Abs(h), gate),
+                                hn::Le(hn::Abs(hn::Sub(h, mean)), hn::Set(d, window)));
+    at_surface = hn::Add(at_surface, hn::IfThenElseZero(inside, one));
+    const auto is_above = hn::And(hn::Gt(h, slab_low), hn::Lt(h, slab_high));
+    above = hn::Add(above, hn::IfThenElseZero(is_above, one));
+    const auto is_below = hn::And(hn::Ge(h, gate_below), hn::Lt(h, too_low));
+    below = hn::Add(below, hn::IfThenElseZero(is_below, one));
+  }
+
+  const FloatVector fewest = hn::Set(d, fewest_points);
+  const auto has_mode = hn::And(hn::Ge(gated, fewest), hn::Ge(at_surface, fewest));
+  const auto something_stands =
+      hn::Gt(above, hn::Mul(hn::Set(d, o.contrast), at_surface));
+  const auto is_mode =
+      hn::And(hn::AndNot(something_stands, has_mode),
+              hn::Le(below, hn::Mul(hn::Set(d, most_below), at_surface)));
+  const auto only_below = hn::And(hn::Lt(gated, fewest), hn::Lt(lowest, gate_below));
+  const auto is_bound =
+      hn::And(hn::And(hn::Or(only_below, hn::And(has_mode, something_stands)),
+                      hn::Ge(seen, hn::Set(d, fewest_for_lower_bound))),
+              hn::Lt(lowest, hn::Set(d, -least_lowering)));
+
+  const FloatVector mode_weight =
+      hn::Min(one, hn::Mul(at_surface, hn::Set(d, 1 / points_of_full_weight)));
+  weight = hn::IfThenElse(
+      is_mode, mode_weight,
+      hn::IfThenElseZero(is_bound, hn::Set(d, o.lower_bound_weight)));
+  correction = hn::IfThenElse(is_mode, mean, hn::IfThenElseZero(is_bound, lowest));
+}
+
+void observe_cells(const Observations& o, const OccupiedCell* cells, std::size_t count) {
+  const FloatTag d;
+  HWY_ALIGN std::array<HeightBlock, 2> blocks;
+  HWY_ALIGN std::array<float, tile_cells> gates{};
+  HWY_ALIGN std::array<float, tile_cells> corrections;
+  HWY_ALIGN std::array<float, tile_cells> weights;
+  for (std::size_t begin = 0; begin < count; begin += tile_cells) {
+    const std::size_t in_tile = std::min(tile_cells, count - begin);
+    std::size_t rows = half_samples;
+    for (std::size_t i = 0; i < in_tile; ++i) {
+      if (cells[begin + i].count > half_samples) rows = most_samples;
+    }
+    for (std::size_t i = 0; i < tile_cells; ++i) {
+      float* const low = blocks[0].data() + i * half_samples;
+      float* const high = blocks[1].data() + i * half_samples;
+      if (i >= in_tile) {
+        std::fill_n(low, half_samples, std::numeric_limits<float>::infinity());
+        std::fill_n(high, half_samples, std::numeric_limits<float>::infinity());
+        continue;
+      }
+      const OccupiedCell& cell = cells[begin + i];
+      const CellPlane plane = plane_in(*o.surface, cell);
+      gates[i] = o.gate + o.gate_growth * std::sqrt(plane.x * plane.x + plane.y * plane.y);
+      const patches::MovedPoint* points = o.points + cell.first;
+      std::array<patches::MovedPoint, most_samples> picked;
+      std::size_t samples = cell.count;
+      if (samples > most_samples) {  // evenly from all of them
+        for (std::size_t j = 0; j < most_samples; ++j) picked[j] = points[j * samples / most_samples];
+        points = picked.data();
+        samples = most_samples;
+      }
+      measure(points, samples, plane, low);
+      if (samples > half_samples) {
+        measure(points + half_samples, samples - half_samples, plane, high);
+      } else if (rows > half_samples) {
+        std::fill_n(high, half_samples, std::numeric_limits<float>::infinity());
+      }
+    }
+    transpose(blocks[0]);
+    if (rows > half_samples) transpose(blocks[1]);
+    for (std::size_t lane = 0; lane < tile_cells; lane += hn::Lanes(d)) {
+      FloatVector correction, weight;
+      observe_lanes(blocks[0].data() + lane, rows, hn::Load(d, gates.data() + lane), o, correction,
+                    weight);
+      hn::Store(correction, d, corrections.data() + lane);
+      hn::Store(weight, d, weights.data() + lane);
+    }
+    for (std::size_t i = 0; i < in_tile; ++i) {
+      if (weights[i] <= 0) continue;
+      const std::size_t place = cells[begin + i].row * o.surface->width + cells[begin + i].column;
+      o.corrections[place] = corrections[i];
+      o.weights[place] = weights[i];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flagstone::surface::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace flagstone::surface {
+namespace {
+HWY_EXPORT(observe_cells);
+}  // namespace
+
+void observe(const Observations& observations, std::span<const OccupiedCell> cells) noexcept {
+  HWY_DYNAMIC_DISPATCH(observe_cells)(observations, cells.data(), cells.size());
+}
+
+}  // namespace flagstone::surface
+#endif

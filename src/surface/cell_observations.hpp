@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "flagstone/surface_config.hpp"
+#include "patches/moved_points.hpp"
+#include "surface/grid.hpp"
+
+namespace flagstone::surface {
+
+/// A cell of a grid and its points.
+struct OccupiedCell {
+  std::uint32_t first;  ///< of its points, an index
+  std::uint32_t count;
+  std::uint32_t row, column;
+};
+
+/// What the points of a level's cells say about the surface there: how far it lies above where it
+/// was before.
+struct Observations {
+  const patches::MovedPoint* points;  ///< of the scan, cell by cell; 16 more may be read
+  const Grid* surface;                ///< as it was before
+  float gate;                         ///< metres, see Refinement
+  float gate_growth;
+  float contrast;
+  float lower_bound_weight;
+  float* corrections;  ///< by cell, row by row: metres; only written where the weight is
+  float* weights;      ///< by cell: 0 to 1; only written where something is known
+};
+
+/// Observes cells.
+void observe(const Observations& observations, std::span<const OccupiedCell> cells) noexcept;
+
+}  // namespace flagstone::surface
