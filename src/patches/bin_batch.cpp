@@ -105,7 +105,7 @@ void BinBatch::gather(const ScanPoints& scan, const BinGroups& groups) noexcept 
   for (std::size_t i = 0; i < count_; ++i) {
     firsts_[i] = first;
     PackedBin packed{.origin = {}, .x = x(i), .y = y(i), .z = z(i)};
-    if (groups.scattered()) {
+    if (groups.moved()) {
       const std::span<const MovedPoint> points = groups.points(bins_[i]);
       packed.origin = midway(points.front().x, points.front().y, points.back().x, points.back().y);
       HWY_DYNAMIC_DISPATCH(gather_points)(points, packed);

@@ -53,7 +53,7 @@ TEST(BinGroups, HoldEveryPointOfEveryBinInInputOrder) {
 
     const tests::SortedScan sorted(cloud, {});
 
-    RC_TAG(sorted.groups.scattered() ? "scattered" : "runs");
+    RC_TAG(sorted.groups.moved() ? "scattered" : "runs");
     const Lists expected = naive(sorted.scan, size, sorted.zones);
     RC_ASSERT(listed(sorted.groups, sorted.zones.group_count()) == expected);
     for (std::uint32_t bin = 0; bin < expected.size(); ++bin) {
@@ -63,11 +63,11 @@ TEST(BinGroups, HoldEveryPointOfEveryBinInInputOrder) {
 }
 
 TEST(BinGroups, OfAScanInOrderAreRuns) {
-  EXPECT_FALSE(tests::SortedScan(tests::made_up_cloud(100000, 1), {}).groups.scattered());
+  EXPECT_FALSE(tests::SortedScan(tests::made_up_cloud(100000, 1), {}).groups.moved());
 }
 
 TEST(BinGroups, OfACloudInNoOrderAreScattered) {
-  EXPECT_TRUE(tests::SortedScan(shuffled(tests::made_up_cloud(100000, 1)), {}).groups.scattered());
+  EXPECT_TRUE(tests::SortedScan(shuffled(tests::made_up_cloud(100000, 1)), {}).groups.moved());
 }
 
 /// `run_length` points by turns in two bins opposite each other.
@@ -87,7 +87,7 @@ TEST(BinGroups, AreRightWhereRunsAreJustLongEnoughToKeep) {
 
     const tests::SortedScan sorted(cloud, {});
 
-    EXPECT_EQ(sorted.groups.scattered(), run_length < 4) << run_length;
+    EXPECT_EQ(sorted.groups.moved(), run_length < 4) << run_length;
     EXPECT_EQ(listed(sorted.groups, sorted.zones.group_count()),
               naive(sorted.scan, cloud.size(), sorted.zones))
         << run_length;

@@ -34,7 +34,7 @@ struct SortedScan {
 /// Indices of the points of a bin, whichever way the groups list them.
 inline std::vector<std::uint32_t> points_of(const patches::BinGroups& groups, std::uint32_t bin) {
   std::vector<std::uint32_t> points;
-  if (groups.scattered()) {
+  if (groups.moved()) {
     for (const patches::MovedPoint& p : groups.points(bin)) points.push_back(p.index);
     return points;
   }
