@@ -63,9 +63,11 @@ class Steps {
   void find_seeds() {
     std::array<float, batch_size> floors{};
     floors.fill(-1.1f * config.sensor_height);
+    std::array<std::uint32_t, batch_size> counts{};
+    counts.fill(static_cast<std::uint32_t>(config.seed_count));
     Batch means;
     for (const BinBatch& batch : batches) {
-      heights.find(batch, floors, means);
+      heights.find(batch, floors, counts, means);
       benchmark::DoNotOptimize(means);
     }
   }
@@ -128,7 +130,7 @@ class Steps {
                                     .normal_z = 1,
                                     .bottom = -std::numeric_limits<float>::infinity(),
                                     .top = -1.43f};
-  SeedHeights heights{20};
+  SeedHeights heights;
   BinLabels bin_labels;
   std::vector<Label> labels;
   std::vector<MomentsBatch> moments;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "patches/bin_batch.hpp"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -19,6 +21,19 @@ namespace flagstone::patches {
 struct PackedBin {
   BinBatch::Origin origin;
   float *x, *y, *z;
+};
+
+/// Some of many points, spread evenly over them.
+struct Sample {
+  Sample(std::span<const MovedPoint> points, std::size_t count)
+      : first(points.data()), size(count), stride(((points.size() << 32U) + count - 1) / count) {}
+
+  /// Number j * n / size of n points: with j < size < 2^16 the stride, rounded up, changes none.
+  const MovedPoint& operator[](std::size_t j) const { return first[j * stride >> 32U]; }
+
+  const MovedPoint* first;
+  std::size_t size;
+  std::uint64_t stride;  ///< n / size, in 2^-32
 };
 
 }  // namespace flagstone::patches
@@ -64,19 +79,37 @@ void gather_runs(const ScanPoints& scan, std::span<const Run> runs, const Packed
   pad(bin, size);
 }
 
-void gather_points(std::span<const MovedPoint> points, const PackedBin& bin) {
+/// Packs points from place `first` on.
+HWY_INLINE void pack(const MovedPoint* points, std::size_t count, const PackedBin& bin,
+                     std::size_t first) {
   const FloatTag d;
   const FloatVector origin_x = hn::Set(d, bin.origin.x);
   const FloatVector origin_y = hn::Set(d, bin.origin.y);
-  const float* records = &points.front().x;
-  for (std::size_t i = 0; i < points.size(); i += hn::Lanes(d)) {
+  const float* records = &points->x;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     FloatVector x, y, z;
     load_points<4>(records + 4 * i, x, y, z);
-    hn::StoreU(hn::Sub(x, origin_x), d, bin.x + i);
-    hn::StoreU(hn::Sub(y, origin_y), d, bin.y + i);
-    hn::StoreU(z, d, bin.z + i);
+    hn::StoreU(hn::Sub(x, origin_x), d, bin.x + first + i);
+    hn::StoreU(hn::Sub(y, origin_y), d, bin.y + first + i);
+    hn::StoreU(z, d, bin.z + first + i);
   }
+}
+
+void gather_points(std::span<const MovedPoint> points, const PackedBin& bin) {
+  pack(points.data(), points.size(), bin, 0);
   pad(bin, points.size());
+}
+
+/// Records are copied in rounds of which the first have long been written when they are read as
+/// vectors: from single stores a vector cannot be loaded before they are in the cache.
+void gather_sample(const Sample& sample, const PackedBin& bin) {
+  HWY_ALIGN std::array<MovedPoint, 4 * lanes> round{};
+  for (std::size_t begin = 0; begin < sample.size; begin += round.size()) {
+    const std::size_t count = std::min(round.size(), sample.size - begin);
+    for (std::size_t k = 0; k < count; ++k) round[k] = sample[begin + k];
+    pack(round.data(), count, bin, begin);
+  }
+  pad(bin, sample.size);
 }
 
 }  // namespace
@@ -88,6 +121,7 @@ namespace flagstone::patches {
 namespace {
 HWY_EXPORT(gather_runs);
 HWY_EXPORT(gather_points);
+HWY_EXPORT(gather_sample);
 
 BinBatch::Origin midway(float x1, float y1, float x2, float y2) {
   return {(x1 + x2) / 2, (y1 + y2) / 2};
@@ -101,11 +135,9 @@ void BinBatch::reserve(std::size_t points) {
 }
 
 void BinBatch::gather(const ScanPoints& scan, const BinGroups& groups) noexcept {
-  std::size_t first = 0;
   for (std::size_t i = 0; i < count_; ++i) {
-    firsts_[i] = first;
     PackedBin packed{.origin = {}, .x = x(i), .y = y(i), .z = z(i)};
-    if (groups.scattered()) {
+    if (groups.moved()) {
       const std::span<const MovedPoint> points = groups.points(bins_[i]);
       packed.origin = midway(points.front().x, points.front().y, points.back().x, points.back().y);
       HWY_DYNAMIC_DISPATCH(gather_points)(points, packed);
@@ -117,7 +149,22 @@ void BinBatch::gather(const ScanPoints& scan, const BinGroups& groups) noexcept 
       HWY_DYNAMIC_DISPATCH(gather_runs)(scan, runs, packed);
     }
     origins_[i] = packed.origin;
-    first += places(i);
+  }
+}
+
+void BinBatch::add_sample(std::uint32_t bin, std::span<const MovedPoint> points,
+                          std::size_t most) noexcept {
+  const std::size_t i = count_;
+  const Sample sample(points, std::min(points.size(), most));
+  add(bin, static_cast<std::uint32_t>(sample.size));
+  const MovedPoint& first = sample[0];
+  const MovedPoint& last = sample[sample.size - 1];
+  origins_[i] = midway(first.x, first.y, last.x, last.y);
+  const PackedBin packed{.origin = origins_[i], .x = x(i), .y = y(i), .z = z(i)};
+  if (sample.size == points.size()) {
+    HWY_DYNAMIC_DISPATCH(gather_points)(points, packed);
+  } else {
+    HWY_DYNAMIC_DISPATCH(gather_sample)(sample, packed);
   }
 }
 

@@ -5,16 +5,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/buffer.hpp"
 #include "core/plane.hpp"
 #include "patches/bin_groups.hpp"
+#include "patches/moved_points.hpp"
 #include "patches/scan_points.hpp"
 
 namespace flagstone::patches {
 
 /// Up to sixteen bins S_n that are fitted together, their points packed so that every pass of the
-/// fit reads contiguous memory.
+/// fit reads contiguous memory. All are added by add() and then gathered, or all by add_sample().
 ///
 /// A bin takes a multiple of 16 places. Behind its points z is infinite: such places are above any
 /// plane and need no special case.
@@ -30,11 +32,17 @@ class BinBatch {
   void add(std::uint32_t bin, std::uint32_t size) noexcept {
     bins_[count_] = bin;
     sizes_[count_] = size;
+    firsts_[count_] = count_ == 0 ? 0 : firsts_[count_ - 1] + places(count_ - 1);
     ++count_;
   }
 
   /// Packs the points of the bins: x and y as seen from `origin(i)`, z as it is.
   void gather(const ScanPoints& scan, const BinGroups& groups) noexcept;
+
+  /// Adds a bin that has these points and packs them likewise. Of n points, where those are more
+  /// than `most`, 1 to 65,535, it takes numbers j * n / most for all j < most. 16 points behind the
+  /// last may be read.
+  void add_sample(std::uint32_t bin, std::span<const MovedPoint> points, std::size_t most) noexcept;
 
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
   [[nodiscard]] std::uint32_t bin(std::size_t i) const noexcept { return bins_[i]; }
@@ -46,7 +54,7 @@ class BinBatch {
     return (std::size_t{sizes_[i]} + 15) / 16 * 16;
   }
 
-  /// Midway between the first and the last point, metres; near all of them, so that single
+  /// Midway between the first and the last point packed, metres; near all of them, so that single
   /// precision is enough for what is seen from there.
   struct Origin {
     float x, y;

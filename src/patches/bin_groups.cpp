@@ -3,12 +3,16 @@
 #include "patches/bin_groups.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace flagstone::patches {
 namespace {
 
-/// Runs of fewer points than this on average are not worth keeping.
-constexpr std::size_t shortest_mean_run = 4;
+/// Runs of fewer points than this on average are not worth sorting, to be kept or to move points
+/// by.
+constexpr std::size_t shortest_mean_run(Listing listing) {
+  return listing == Listing::runs ? 4 : 2;
+}
 
 /// How far ahead of the next moved point memory is asked for: two cache lines.
 constexpr std::size_t prefetch_distance = 8;
@@ -30,61 +34,85 @@ void for_each_run(const ScanPoints& scan, std::size_t chunks, const Work& work) 
 }  // namespace
 
 void BinGroups::reserve(std::size_t points, std::size_t bins) {
-  tallies_.reserve(bins);
-  firsts_.reserve(bins + 1);
-  next_.reserve(bins);
-  runs_.reserve(points / shortest_mean_run + 1);
+  const std::size_t blocks = bins / block_size + 1;
+  if (blocks > blocks_) {
+    blocks_ = 0;
+    tallies_.reserve(blocks * block_size);
+    block_firsts_.reserve(blocks + 1);
+    block_marks_.reserve(blocks);
+    blocks_ = blocks;
+    std::fill_n(tallies_.data(), blocks * block_size, Tally{});
+    std::fill_n(block_firsts_.data(), blocks + 1, Tally{});
+    std::fill_n(block_marks_.data(), blocks, std::uint8_t{0});
+  }
+  runs_.reserve(points / shortest_mean_run(listing_) + 1);
   points_.reserve(points + 16);
 }
 
 void BinGroups::group(const ScanPoints& scan, std::size_t point_count,
                       std::uint32_t groups) noexcept {
   const std::size_t chunks = ScanPoints::chunk_count(point_count);
-  tally(scan, chunks, groups);
-  if (scattered_) {
-    sort(scan, chunks, [&](std::uint32_t& next, std::uint32_t begin, std::uint32_t length) {
+  tally(scan, chunks);
+  const Tally all = sum_up(groups);
+  const bool short_runs = std::size_t{all.runs()} * shortest_mean_run(listing_) > all.points();
+  moved_ = short_runs || listing_ == Listing::points;
+  if (short_runs) {
+    sort(scan, chunks, [&](Tally place, std::uint32_t begin, std::uint32_t length) {
+      MovedPoint* to = points_.data() + place.points();
       for (std::uint32_t i = begin; i < begin + length; ++i) {
         // Every bin is a stream of its own, more than the processor follows by itself.
-        __builtin_prefetch(points_.data() + next + prefetch_distance, 1);
-        points_.data()[next++] = {scan.x()[i], scan.y()[i], scan.z()[i], i};
+        __builtin_prefetch(to + prefetch_distance, 1);
+        *to++ = {scan.x()[i], scan.y()[i], scan.z()[i], i};
       }
     });
   } else {
-    sort(scan, chunks, [&](std::uint32_t& next, std::uint32_t begin, std::uint32_t length) {
-      runs_.data()[next++] = {begin, length};
+    sort(scan, chunks, [&](Tally place, std::uint32_t begin, std::uint32_t length) {
+      runs_.data()[place.runs()] = {begin, length};
     });
+    if (moved_) move_points(scan, {runs_.data(), all.runs()}, points_.data());
   }
 }
 
-void BinGroups::tally(const ScanPoints& scan, std::size_t chunks, std::uint32_t groups) noexcept {
-  std::uint64_t* tallies = tallies_.data();
-  std::fill_n(tallies, groups, 0);
+/// Counts what each bin holds, and marks the blocks that hold anything.
+void BinGroups::tally(const ScanPoints& scan, std::size_t chunks) noexcept {
+  Tally* tallies = tallies_.data();
+  for (std::size_t block = 0; block < used_blocks_; ++block) {  // what the scan before left
+    if (is_empty(block)) continue;
+    std::fill_n(tallies + block * block_size, block_size, Tally{});
+  }
+  std::uint8_t* marks = block_marks_.data();
   for_each_run(scan, chunks, [=](std::uint32_t bin, std::uint32_t, std::uint32_t length) {
-    tallies[bin] += (static_cast<std::uint64_t>(length) << 32U) | 1U;
+    tallies[bin].add(Tally::run_of(length));
+    marks[bin / block_size] = 1;
   });
-
-  std::uint64_t points = 0;
-  std::uint64_t runs = 0;
-  for (std::uint32_t bin = 0; bin < groups; ++bin) {
-    points += tallies[bin] >> 32U;
-    runs += static_cast<std::uint32_t>(tallies[bin]);
-  }
-  scattered_ = runs * shortest_mean_run > points;
-
-  std::uint32_t first = 0;
-  for (std::uint32_t bin = 0; bin < groups; ++bin) {
-    firsts_.data()[bin] = next_.data()[bin] = first;
-    first += scattered_ ? static_cast<std::uint32_t>(tallies[bin] >> 32U)
-                        : static_cast<std::uint32_t>(tallies[bin]);
-  }
-  firsts_.data()[groups] = first;
 }
 
+/// From what each bin holds to what precedes it; returns what all hold.
+BinGroups::Tally BinGroups::sum_up(std::uint32_t groups) noexcept {
+  used_blocks_ = groups / block_size + 1;
+  Tally sum;
+  Tally* tallies = tallies_.data();
+  for (std::size_t block = 0; block < used_blocks_; ++block) {
+    block_firsts_.data()[block] = sum;
+    if (std::exchange(block_marks_.data()[block], std::uint8_t{0}) == 0) continue;
+    for (std::size_t bin = block * block_size; bin < (block + 1) * block_size; ++bin) {
+      const Tally held = std::exchange(tallies[bin], sum);
+      sum.add(held);
+    }
+  }
+  block_firsts_.data()[used_blocks_] = sum;
+  return sum;
+}
+
+/// Puts each run in its place; what preceded the next run of a bin in the end precedes the bin
+/// after it.
 template <class Place>
 void BinGroups::sort(const ScanPoints& scan, std::size_t chunks, const Place& place) noexcept {
-  std::uint32_t* next = next_.data();
+  Tally* next = tallies_.data();
   for_each_run(scan, chunks, [&](std::uint32_t bin, std::uint32_t begin, std::uint32_t length) {
-    place(next[bin], begin, length);
+    const Tally before = next[bin];
+    next[bin].add(Tally::run_of(length));
+    place(before, begin, length);
   });
 }
 

@@ -5,10 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <limits>
 
 #include "core/plane.hpp"
-#include "flagstone/patchwork_config.hpp"
 #include "patches/bin_batch.hpp"
 #include "patches/ground_sets.hpp"
 #include "patches/seed_heights.hpp"
@@ -16,10 +15,28 @@
 
 namespace flagstone::patches {
 
+/// What is the same for all bins that are fitted.
+struct FitSettings {
+  double seed_height;  ///< z_seed: how far above the seeds' mean the first set reaches, metres
+  /// How far below it, metres.
+  double seed_depth = std::numeric_limits<double>::infinity();
+  double distance_margin;  ///< M_d: later sets reach so far above the plane before, metres
+  double noise_margin;     ///< and so far below it, metres
+  int iterations;          ///< planes fitted one after another, at least 1
+  bool keep_below_floor;   ///< may the first set hold points lower than any seed may be?
+  bool judge_final_set;    ///< fit once more, to the set that the last plane chooses?
+};
+
+/// The seeds of the bins of a batch.
+struct Seeds {
+  Batch floors;                                    ///< no seed lies below, metres
+  std::array<std::uint32_t, batch_size> counts{};  ///< N_seed: the lowest so many, at least 1
+};
+
 /// Region-wise Ground Plane Fitting, section III-C, eqs. (3) to (6), for a batch of bins at a time.
 class PlaneFit {
  public:
-  explicit PlaneFit(const PatchworkConfig& config);
+  explicit PlaneFit(const FitSettings& settings) noexcept : settings_(settings) {}
 
   /// Makes room for bins of `points` points; may throw std::bad_alloc.
   void reserve(std::size_t points) { seed_heights_.reserve(points); }
@@ -35,23 +52,15 @@ class PlaneFit {
     std::array<Vector3, batch_size> origins{};
   };
 
-  /// Fits the planes of the bins. `zones[i]` is the zone m - 1 of bin i. Changes the batch: heights
-  /// are seen from `origins` afterwards.
-  void fit(BinBatch& batch, const std::array<std::uint16_t, batch_size>& zones, StageClock& clock,
-           Result& result) noexcept;
+  /// Fits the planes of the bins. Changes the batch: heights are seen from `origins` afterwards.
+  void fit(BinBatch& batch, const Seeds& seeds, StageClock& clock, Result& result) noexcept;
 
  private:
   [[nodiscard]] BinMask fit_sets(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
                                  StageClock& clock, PlaneBatch& planes) noexcept;
   void choose_next_sets(const PlaneBatch& planes, GroundSets& sets) const noexcept;
 
-  std::vector<double> seed_cuts_;  // M_h * h_s of each zone, metres
-  double seed_height_;             // z_seed
-  double distance_margin_;         // M_d
-  double noise_margin_;
-  int iterations_;
-  bool keep_below_margin_;
-  bool judge_final_set_;
+  FitSettings settings_;
   SeedHeights seed_heights_;
   MomentsBatch moments_{};
 };

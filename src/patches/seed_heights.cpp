@@ -104,16 +104,20 @@ std::size_t copy_between(const float* HWY_RESTRICT z, std::size_t places, float 
   return count;
 }
 
-/// Means of the first `seed_count` rows, where they are heights.
-void mean_of_rows(const Candidates& rows, std::size_t seed_count, Batch& means) {
+/// Means of the first `seed_counts[i]` rows of each column, where they are heights. `most` is the
+/// largest of these counts.
+void mean_of_rows(const Candidates& rows, const Batch& seed_counts, std::size_t most,
+                  Batch& means) {
   const DoubleTag d;
   const hn::Rebind<float, DoubleTag> df;
   for (std::size_t lane = 0; lane < batch_size; lane += hn::Lanes(d)) {
     DoubleVector sum = hn::Zero(d);
     DoubleVector count = hn::Zero(d);
-    for (std::size_t row = 0; row < seed_count; ++row) {
+    const DoubleVector wanted = hn::Load(d, seed_counts.data() + lane);
+    for (std::size_t row = 0; row < most; ++row) {
       const DoubleVector height = hn::PromoteTo(d, hn::Load(df, rows[row].data() + lane));
-      const auto there = hn::Lt(height, hn::Set(d, 1e30));
+      const auto there = hn::And(hn::Lt(height, hn::Set(d, 1e30)),
+                                 hn::Lt(hn::Set(d, static_cast<double>(row)), wanted));
       sum = hn::Add(sum, hn::IfThenElseZero(there, height));
       count = hn::Add(count, hn::IfThenElseZero(there, hn::Set(d, 1.0)));
     }
@@ -158,36 +162,42 @@ double mean_of_lowest(float* heights, std::size_t count, std::size_t seed_count)
 /// for the N_seed-th lowest point, and few points lie below it: these are sorted, sixteen bins side
 /// by side. Where they are not few, or N_seed is large, bins are sorted one by one.
 void SeedHeights::find(const BinBatch& batch, const std::array<float, batch_size>& floors,
-                       Batch& means) noexcept {
+                       const std::array<std::uint32_t, batch_size>& counts, Batch& means) noexcept {
   means = {};
   float* heights = heights_.data();
-  if (seed_count_ > most_candidates) {
-    for (std::size_t i = 0; i < batch.count(); ++i) {
-      const std::size_t count = HWY_DYNAMIC_DISPATCH(copy_between)(batch.z(i), batch.places(i),
-                                                                   floors[i], highest, heights);
-      means[i] = mean_of_lowest(heights, count, seed_count_);
-    }
-    return;
-  }
-
   Candidates rows{};
+  Batch few{};  // N_seed where that is not large
+  std::size_t most = 0;
   for (std::size_t i = 0; i < batch.count(); ++i) {
+    if (counts[i] > most_candidates) continue;
+    few[i] = counts[i];
+    most = std::max<std::size_t>(most, counts[i]);
     HWY_DYNAMIC_DISPATCH(lowest_of_lanes)(batch.z(i), batch.places(i), floors[i], heights);
     set_column(rows, i, heights, most_candidates);
   }
-  HWY_DYNAMIC_DISPATCH(sort_columns)(rows);
-  const std::array<float, batch_size> bounds = rows[seed_count_ - 1];
+
+  if (most > 0) {
+    HWY_DYNAMIC_DISPATCH(sort_columns)(rows);
+    for (std::size_t i = 0; i < batch.count(); ++i) {
+      if (counts[i] > most_candidates) continue;
+      const float bound = std::min(rows[counts[i] - 1][i], highest);
+      const std::size_t count = HWY_DYNAMIC_DISPATCH(copy_between)(batch.z(i), batch.places(i),
+                                                                   floors[i], bound, heights);
+      if (count > most_candidates) {
+        std::nth_element(heights, heights + (counts[i] - 1), heights + count);
+      }
+      set_column(rows, i, heights, count > most_candidates ? counts[i] : count);
+    }
+    HWY_DYNAMIC_DISPATCH(sort_columns)(rows);
+    HWY_DYNAMIC_DISPATCH(mean_of_rows)(rows, few, most, means);
+  }
 
   for (std::size_t i = 0; i < batch.count(); ++i) {
-    const std::size_t count = HWY_DYNAMIC_DISPATCH(copy_between)(
-        batch.z(i), batch.places(i), floors[i], std::min(bounds[i], highest), heights);
-    if (count > most_candidates) {
-      std::nth_element(heights, heights + (seed_count_ - 1), heights + count);
-    }
-    set_column(rows, i, heights, count > most_candidates ? seed_count_ : count);
+    if (counts[i] <= most_candidates) continue;
+    const std::size_t count = HWY_DYNAMIC_DISPATCH(copy_between)(batch.z(i), batch.places(i),
+                                                                 floors[i], highest, heights);
+    means[i] = mean_of_lowest(heights, count, counts[i]);
   }
-  HWY_DYNAMIC_DISPATCH(sort_columns)(rows);
-  HWY_DYNAMIC_DISPATCH(mean_of_rows)(rows, seed_count_, means);
 }
 
 }  // namespace flagstone::patches

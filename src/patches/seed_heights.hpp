@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/buffer.hpp"
 #include "core/plane.hpp"
@@ -14,20 +15,16 @@ namespace flagstone::patches {
 /// z-bar_init of eq. (4) for the bins of a batch.
 class SeedHeights {
  public:
-  /// `seed_count` is N_seed, at least 1.
-  explicit SeedHeights(std::size_t seed_count) noexcept : seed_count_(seed_count) {}
-
   /// Makes room for bins of `points` points; may throw std::bad_alloc.
   void reserve(std::size_t points) { heights_.reserve(points + 32); }
 
-  /// For each bin the mean height of its N_seed lowest points that are not below `floors[i]`; 0
-  /// where there are none, as in the public code. Metres. The sum is taken from the lowest up, so
-  /// that it does not depend on the order of the points.
+  /// For each bin the mean height of its `counts[i]` lowest points, N_seed, at least 1, that are
+  /// not below `floors[i]`; 0 where there are none, as in the public code. Metres. The sum is taken
+  /// from the lowest up, so that it does not depend on the order of the points.
   void find(const BinBatch& batch, const std::array<float, batch_size>& floors,
-            Batch& means) noexcept;
+            const std::array<std::uint32_t, batch_size>& counts, Batch& means) noexcept;
 
  private:
-  std::size_t seed_count_;
   Buffer<float> heights_;
 };
 

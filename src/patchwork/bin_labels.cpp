@@ -103,7 +103,7 @@ LabelCounts BinLabels::write(const patches::BinBatch& batch, std::size_t i,
                              std::span<Label> labels) noexcept {
   std::uint8_t* packed = packed_.data();
   const LabelCounts counts = HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, packed);
-  if (groups.scattered()) {
+  if (groups.moved()) {
     for (const patches::MovedPoint& point : groups.points(batch.bin(i))) {
       labels[point.index] = static_cast<Label>(*packed++);
     }
@@ -116,7 +116,7 @@ LabelCounts BinLabels::write(const patches::BinBatch& batch, std::size_t i,
 
 std::uint32_t BinLabels::fill(const patches::BinGroups& groups, std::uint32_t bin, Label label,
                               std::span<Label> labels) noexcept {
-  if (groups.scattered()) {
+  if (groups.moved()) {
     for (const patches::MovedPoint& point : groups.points(bin)) labels[point.index] = label;
   } else {
     for (const patches::Run& run : groups.runs(bin)) {

@@ -22,6 +22,7 @@
 #include "patches/stage_clock.hpp"
 #include "patchwork/bin_labels.hpp"
 #include "patchwork/concentric_zones.hpp"
+#include "patchwork/fit_settings.hpp"
 #include "patchwork/ground_likelihood.hpp"
 #include "patchwork/read_scan.hpp"
 
@@ -61,7 +62,9 @@ namespace patchwork {
 
 /// What one thread needs to fit bins.
 struct Fitter {
-  explicit Fitter(const PatchworkConfig& config) : fit(config) {}
+  explicit Fitter(const PatchworkConfig& config) : fit(fit_settings(config)) {
+    seeds.counts.fill(static_cast<std::uint32_t>(config.seed_count));
+  }
 
   void reserve(std::size_t point_count) {
     batch.reserve(point_count);
@@ -70,7 +73,7 @@ struct Fitter {
   }
 
   BinBatch batch;
-  std::array<std::uint16_t, batch_size> zones{};  ///< of the bins in the batch
+  patches::Seeds seeds{};
   PlaneFit fit;
   PlaneFit::Result fitted;
   BinLabels bin_labels;
@@ -86,6 +89,7 @@ struct Patchwork::Pipeline {
       : config(checked(std::move(settings))),
         zones(config),
         likelihood(config, zones.rings()),
+        seed_floors(patchwork::seed_floors(config)),
         crew(checked(threads)) {
     for (std::size_t i = 0; i < crew.size(); ++i) fitters.emplace_back(config);
   }
@@ -171,14 +175,14 @@ struct Patchwork::Pipeline {
     fitter.batch.clear();
     for (std::size_t i = 0; i < bins.size(); ++i) {
       const Patch& patch = patches[bins[i].patch];
-      fitter.zones[i] = patch.zone;
+      fitter.seeds.floors[i] = seed_floors[patch.zone];
       fitter.batch.add(bins[i].bin, patch.point_count);
     }
 
     // Region-wise Ground Plane Fitting (III-C)
     fitter.batch.gather(scan, groups);
     clock.end(Stage::gather);
-    fitter.fit.fit(fitter.batch, fitter.zones, clock, fitter.fitted);
+    fitter.fit.fit(fitter.batch, fitter.seeds, clock, fitter.fitted);
 
     // Ground Likelihood Estimation (III-D)
     for (std::size_t i = 0; i < bins.size(); ++i) {
@@ -220,6 +224,7 @@ struct Patchwork::Pipeline {
   PatchworkConfig config;
   ConcentricZones zones;
   GroundLikelihood likelihood;
+  std::vector<double> seed_floors;  ///< of each zone, metres
   ScanPoints scan;
   BinGroups groups;
   Buffer<FittedBin> fitted_bins;

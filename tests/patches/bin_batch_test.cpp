@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,15 @@ class BinBatchOn : public testing::TestWithParam<std::string> {
     EXPECT_GT(gathered, 0U);
   }
 
+  static void expect_padded(const BinBatch& batch, std::size_t i) {
+    ASSERT_EQ(batch.places(i) % 16, 0U);
+    for (std::size_t k = batch.size(i); k < batch.places(i); ++k) {
+      ASSERT_EQ(batch.x(i)[k], 0);
+      ASSERT_EQ(batch.y(i)[k], 0);
+      ASSERT_EQ(batch.z(i)[k], std::numeric_limits<float>::infinity());
+    }
+  }
+
  private:
   static void expect_gathered(const tests::SortedScan& sorted, const BinBatch& batch, std::size_t i,
                               const std::vector<Point>& cloud) {
@@ -53,12 +64,7 @@ class BinBatchOn : public testing::TestWithParam<std::string> {
       ASSERT_EQ(batch.y(i)[k], cloud[points[k]].y - batch.origin(i).y);
       ASSERT_EQ(batch.z(i)[k], cloud[points[k]].z);
     }
-    ASSERT_EQ(batch.places(i) % 16, 0U);
-    for (std::size_t k = points.size(); k < batch.places(i); ++k) {
-      ASSERT_EQ(batch.x(i)[k], 0);
-      ASSERT_EQ(batch.y(i)[k], 0);
-      ASSERT_EQ(batch.z(i)[k], std::numeric_limits<float>::infinity());
-    }
+    expect_padded(batch, i);
   }
 
   tests::ForcedTarget forced{GetParam()};
@@ -91,6 +97,50 @@ TEST_P(BinBatchOn, HoldsABinOfAnySize) {
       cloud.push_back({6.5f + 0.01f * step, 0.7f, -1.7f - 0.01f * step});
     }
     expect_gathered(cloud);
+  }
+}
+
+/// Points of a patch from `first` on, as they are after a sort.
+std::vector<MovedPoint> moved(std::size_t count, float first) {
+  std::vector<MovedPoint> points(count + 16, {1e9f, 1e9f, 1e9f, 0});  // what may be read behind
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto step = static_cast<float>(i);
+    points[i] = {first + 0.01f * step, 7 - 0.02f * step, -1.7f + 0.001f * step, 0};
+  }
+  return points;
+}
+
+TEST_P(BinBatchOn, HoldsASampleOfEachPatchAtEvenSteps) {
+  for (const std::size_t most : {1U, 2U, 16U, 63U, 64U, 65U, 128U}) {
+    // As many points as are taken at most, fewer, and more, by a little and by far.
+    const std::vector<std::size_t> sizes = {
+        1, 2, 15, 16, 17, most, most + 1, 2 * most, 2 * most + 1, 127, 128, 129, 1000, 70001};
+    ASSERT_LE(sizes.size(), batch_size);
+    BinBatch batch;
+    batch.reserve(batch_size * most);
+    batch.clear();
+    std::vector<std::vector<MovedPoint>> patches;
+    for (const std::size_t size : sizes) {
+      patches.push_back(moved(size, static_cast<float>(size % 50)));
+      batch.add_sample(static_cast<std::uint32_t>(100 + size),
+                       std::span(patches.back()).first(size), most);
+    }
+
+    ASSERT_EQ(batch.count(), sizes.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const std::size_t taken = std::min(sizes[i], most);
+      const auto number = [&](std::size_t j) { return patches[i][j * sizes[i] / taken]; };
+      ASSERT_EQ(batch.bin(i), 100 + sizes[i]);
+      ASSERT_EQ(batch.size(i), taken);
+      ASSERT_EQ(batch.origin(i).x, (number(0).x + number(taken - 1).x) / 2);
+      ASSERT_EQ(batch.origin(i).y, (number(0).y + number(taken - 1).y) / 2);
+      for (std::size_t j = 0; j < taken; ++j) {
+        ASSERT_EQ(batch.x(i)[j], number(j).x - batch.origin(i).x) << j << " of " << sizes[i];
+        ASSERT_EQ(batch.y(i)[j], number(j).y - batch.origin(i).y) << j << " of " << sizes[i];
+        ASSERT_EQ(batch.z(i)[j], number(j).z) << j << " of " << sizes[i];
+      }
+      expect_padded(batch, i);
+    }
   }
 }
 

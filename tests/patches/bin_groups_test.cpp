@@ -6,10 +6,15 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <random>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "forced_target.hpp"
 #include "made_up_cloud.hpp"
 #include "patches/sorted_scan.hpp"
 
@@ -53,7 +58,7 @@ TEST(BinGroups, HoldEveryPointOfEveryBinInInputOrder) {
 
     const tests::SortedScan sorted(cloud, {});
 
-    RC_TAG(sorted.groups.scattered() ? "scattered" : "runs");
+    RC_TAG(sorted.groups.moved() ? "moved" : "runs");
     const Lists expected = naive(sorted.scan, size, sorted.zones);
     RC_ASSERT(listed(sorted.groups, sorted.zones.group_count()) == expected);
     for (std::uint32_t bin = 0; bin < expected.size(); ++bin) {
@@ -63,11 +68,11 @@ TEST(BinGroups, HoldEveryPointOfEveryBinInInputOrder) {
 }
 
 TEST(BinGroups, OfAScanInOrderAreRuns) {
-  EXPECT_FALSE(tests::SortedScan(tests::made_up_cloud(100000, 1), {}).groups.scattered());
+  EXPECT_FALSE(tests::SortedScan(tests::made_up_cloud(100000, 1), {}).groups.moved());
 }
 
-TEST(BinGroups, OfACloudInNoOrderAreScattered) {
-  EXPECT_TRUE(tests::SortedScan(shuffled(tests::made_up_cloud(100000, 1)), {}).groups.scattered());
+TEST(BinGroups, OfACloudInNoOrderAreMovedPoints) {
+  EXPECT_TRUE(tests::SortedScan(shuffled(tests::made_up_cloud(100000, 1)), {}).groups.moved());
 }
 
 /// `run_length` points by turns in two bins opposite each other.
@@ -87,7 +92,7 @@ TEST(BinGroups, AreRightWhereRunsAreJustLongEnoughToKeep) {
 
     const tests::SortedScan sorted(cloud, {});
 
-    EXPECT_EQ(sorted.groups.scattered(), run_length < 4) << run_length;
+    EXPECT_EQ(sorted.groups.moved(), run_length < 4) << run_length;
     EXPECT_EQ(listed(sorted.groups, sorted.zones.group_count()),
               naive(sorted.scan, cloud.size(), sorted.zones))
         << run_length;
@@ -106,6 +111,121 @@ TEST(BinGroups, ForgetTheScanBefore) {
 
   EXPECT_EQ(listed(sorted.groups, sorted.zones.group_count()),
             naive(sorted.scan, second.size(), sorted.zones));
+}
+
+/// What must not depend on how points are moved; the parameter is the instruction set.
+class MovedPointsOn : public testing::TestWithParam<std::string> {
+  tests::ForcedTarget forced{GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(Target, MovedPointsOn, testing::ValuesIn(simd_targets()),
+                         [](const auto& target) { return target.param; });
+
+/// The indices of the points in the order of their cells, and where each cell begins.
+struct NaiveOrder {
+  explicit NaiveOrder(const std::vector<Point>& cloud, const tests::SquareCells& cells) {
+    Lists lists(cells.group_count());
+    for (std::uint32_t i = 0; i < cloud.size(); ++i) lists[cells.cell_of(cloud[i])].push_back(i);
+    for (const std::vector<std::uint32_t>& list : lists) {
+      firsts.push_back(indices.size());
+      indices.insert(indices.end(), list.begin(), list.end());
+    }
+    firsts.push_back(indices.size());
+  }
+
+  /// Of the cells from `begin` on, less than `end`.
+  [[nodiscard]] std::vector<std::uint32_t> range(std::uint32_t begin, std::uint32_t end) const {
+    const auto at = [&](std::size_t i) {
+      return indices.begin() + static_cast<std::ptrdiff_t>(firsts[i]);
+    };
+    return {at(begin), at(end)};
+  }
+
+  std::vector<std::uint32_t> indices;
+  std::vector<std::size_t> firsts;
+};
+
+std::vector<std::uint32_t> indices_of(std::span<const MovedPoint> points) {
+  std::vector<std::uint32_t> indices;
+  for (const MovedPoint& point : points) indices.push_back(point.index);
+  return indices;
+}
+
+TEST_P(MovedPointsOn, OfAnyRangeOfBinsLieTogetherInInputOrderWithinABin) {
+  EXPECT_TRUE(rc::check([] {
+    const auto size = *rc::gen::oneOf(rc::gen::inRange<std::size_t>(1, 200),
+                                      rc::gen::inRange<std::size_t>(8000, 20000));
+    const auto seed = *rc::gen::inRange<std::uint32_t>(0, 1000);
+    std::vector<Point> cloud = *rc::gen::arbitrary<bool>() ? tests::corrupted_cloud(size, seed)
+                                                           : tests::made_up_cloud(size, seed);
+    if (*rc::gen::arbitrary<bool>()) cloud = shuffled(std::move(cloud));
+    // Mostly full, a tenth full, and nearly empty blocks of bins.
+    const auto cells = *rc::gen::element(tests::SquareCells{.cell = 20, .width = 5},
+                                         tests::SquareCells{.cell = 1, .width = 100},
+                                         tests::SquareCells{.cell = 0.25f, .width = 511});
+
+    const tests::CellPoints moved(cloud, cells);
+
+    const NaiveOrder expected(cloud, cells);
+    const std::uint32_t groups = cells.group_count();
+    RC_ASSERT(moved.groups.moved());
+    RC_ASSERT(indices_of(moved.groups.points(0, groups)) == expected.indices);
+    for (std::uint32_t bin = 0; bin < groups; ++bin) {
+      RC_ASSERT(moved.groups.size(bin) == expected.firsts[bin + 1] - expected.firsts[bin]);
+    }
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      const auto begin = *rc::gen::inRange<std::uint32_t>(0, groups + 1);
+      const auto end = *rc::gen::inRange<std::uint32_t>(begin, groups + 1);
+      RC_ASSERT(indices_of(moved.groups.points(begin, end)) == expected.range(begin, end));
+    }
+  }));
+}
+
+TEST_P(MovedPointsOn, KeepTheirCoordinatesBitForBit) {
+  for (std::vector<Point> cloud :
+       {tests::corrupted_cloud(20000, 8), shuffled(tests::corrupted_cloud(20000, 9))}) {
+    const tests::CellPoints moved(cloud, {.cell = 0.5f, .width = 300});
+
+    for (const MovedPoint& point : moved.groups.points(0, moved.cells.group_count())) {
+      const Point& original = cloud[point.index];
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(point.x), std::bit_cast<std::uint32_t>(original.x));
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(point.y), std::bit_cast<std::uint32_t>(original.y));
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(point.z), std::bit_cast<std::uint32_t>(original.z));
+    }
+  }
+}
+
+TEST_P(MovedPointsOn, ForgetTheScanBeforeAndItsBins) {
+  const std::vector<Point> first = shuffled(tests::corrupted_cloud(20000, 2));
+  tests::CellPoints moved(first, {.cell = 1, .width = 150});
+  // Fewer bins, then more than ever, then fewer again.
+  for (const tests::SquareCells& cells :
+       {tests::SquareCells{.cell = 2, .width = 40}, tests::SquareCells{.cell = 0.5f, .width = 400},
+        tests::SquareCells{.cell = 5, .width = 10}}) {
+    const std::vector<Point> cloud = tests::made_up_cloud(9000, cells.width);
+    moved.cells = cells;
+
+    moved.group(cloud);
+
+    const NaiveOrder expected(cloud, cells);
+    EXPECT_EQ(indices_of(moved.groups.points(0, cells.group_count())), expected.indices);
+    for (std::uint32_t bin = 0; bin < cells.group_count(); ++bin) {
+      ASSERT_EQ(indices_of(moved.groups.points(bin)), expected.range(bin, bin + 1));
+    }
+  }
+}
+
+TEST_P(MovedPointsOn, AreRightWhereRunsAreJustLongEnoughToSort) {
+  for (const std::size_t run_length : {1U, 2U, 3U, 8U, 9U, 16U, 17U}) {
+    const std::vector<Point> cloud = by_turns(20000, run_length);
+    const tests::SquareCells cells{.cell = 1, .width = 20};
+
+    const tests::CellPoints moved(cloud, cells);
+
+    EXPECT_EQ(indices_of(moved.groups.points(0, cells.group_count())),
+              NaiveOrder(cloud, cells).indices)
+        << run_length;
+  }
 }
 
 }  // namespace

@@ -35,17 +35,25 @@ double naive(Heights heights, float floor, std::size_t seed_count) {
 }
 
 /// What the product says of these bins, all with one floor.
-Batch found(const std::vector<Heights>& bins, float floor, std::size_t seed_count) {
+Batch found(const std::vector<Heights>& bins, float floor,
+            const std::array<std::uint32_t, batch_size>& seed_counts) {
   std::size_t points = 0;
   for (const Heights& heights : bins) points += heights.size();
   const BinBatch batch = tests::batch_of(bins);
   std::array<float, batch_size> floors{};
   floors.fill(floor);
-  SeedHeights seed_heights(seed_count);
+  SeedHeights seed_heights;
   seed_heights.reserve(points);
   Batch means;
-  seed_heights.find(batch, floors, means);
+  seed_heights.find(batch, floors, seed_counts, means);
   return means;
+}
+
+/// The same with one number of seeds.
+Batch found(const std::vector<Heights>& bins, float floor, std::size_t seed_count) {
+  std::array<std::uint32_t, batch_size> seed_counts{};
+  seed_counts.fill(static_cast<std::uint32_t>(seed_count));
+  return found(bins, floor, seed_counts);
 }
 
 /// Heights of -3 to 1 m, `levels` different ones.
@@ -159,6 +167,22 @@ TEST_P(SeedHeightsOn, DoNotDependOnTheOrderOfThePoints) {
       std::ranges::shuffle(heights, random);
       EXPECT_EQ(found({heights}, -infinity, seed_count)[0], mean);
     }
+  }
+}
+
+TEST_P(SeedHeightsOn, MayBeOfANumberOfSeedsOfItsOwnInEachBin) {
+  std::mt19937 random(4);
+  std::vector<Heights> bins;
+  std::array<std::uint32_t, batch_size> counts{};
+  for (std::size_t i = 0; i < batch_size; ++i) {
+    bins.push_back(any_heights(20 + 30 * i, 1U << 20U, random));
+    counts.at(i) = static_cast<std::uint32_t>(seed_counts.at(i % seed_counts.size()));
+  }
+
+  const Batch means = found(bins, -2.5f, counts);
+
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    EXPECT_EQ(means[i], naive(bins[i], -2.5f, counts.at(i))) << counts.at(i) << " seeds";
   }
 }
 

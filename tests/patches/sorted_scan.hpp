@@ -10,6 +10,7 @@
 #include "patches/bin_batch.hpp"
 #include "patches/bin_groups.hpp"
 #include "patches/scan_points.hpp"
+#include "patches/square_cells.hpp"
 #include "patchwork/concentric_zones.hpp"
 #include "patchwork/read_scan.hpp"
 
@@ -31,10 +32,31 @@ struct SortedScan {
   patches::BinGroups groups;
 };
 
+/// A cloud whose points were moved to square cells.
+struct CellPoints {
+  CellPoints(const std::vector<Point>& cloud, const SquareCells& square_cells)
+      : cells(square_cells) {
+    group(cloud);
+  }
+
+  void group(const std::vector<Point>& cloud) {
+    scan.reserve(cloud.size());
+    for (std::size_t i = 0; i < patches::ScanPoints::chunk_count(cloud.size()); ++i) {
+      read_chunk(view_of(cloud), i, cells, scan);
+    }
+    groups.reserve(cloud.size(), cells.group_count());
+    groups.group(scan, cloud.size(), cells.group_count());
+  }
+
+  SquareCells cells;
+  patches::ScanPoints scan;
+  patches::BinGroups groups{patches::Listing::points};
+};
+
 /// Indices of the points of a bin, whichever way the groups list them.
 inline std::vector<std::uint32_t> points_of(const patches::BinGroups& groups, std::uint32_t bin) {
   std::vector<std::uint32_t> points;
-  if (groups.scattered()) {
+  if (groups.moved()) {
     for (const patches::MovedPoint& p : groups.points(bin)) points.push_back(p.index);
     return points;
   }
