@@ -15,6 +15,8 @@ enum class Verdict : std::uint16_t {
   no_plane,        ///< fewer than three points survived the fit
   not_upright,     ///< the normal leans too far: a wall, a hedge, a trunk
   too_high,        ///< lies above where ground can be at that range, and is not flat enough
+  mixed,           ///< `surface`: as many points just above the plane as in it: a wall, a bush
+  off_surface,     ///< `surface`: above or below what ground nearer to the sensor lets expect
 };
 
 /// Name of a verdict, e.g. "not_upright".
@@ -26,6 +28,8 @@ constexpr const char* to_string(Verdict verdict) noexcept {
     case Verdict::no_plane: return "no_plane";
     case Verdict::not_upright: return "not_upright";
     case Verdict::too_high: return "too_high";
+    case Verdict::mixed: return "mixed";
+    case Verdict::off_surface: return "off_surface";
   }
   return "unknown";
 }

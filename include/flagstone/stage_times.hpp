@@ -16,11 +16,14 @@ enum class Stage : std::uint8_t {
   seed,     ///< mean height of the lowest points, eq. (4)
   moments,  ///< sums over the ground sets, eqs. (5) and (6)
   solve,    ///< planes and their likelihood, eqs. (3), (7) to (11)
+  join,     ///< which patches are ground, and one surface of them; `surface` alone
+  refine,   ///< the residual pyramid; `surface` alone
+  measure,  ///< heights of points above the surface; `surface` alone
   label,    ///< write labels
 };
 
 /// Number of stages.
-inline constexpr std::size_t stage_count = 7;
+inline constexpr std::size_t stage_count = 10;
 
 /// Name of a stage, e.g. "gather".
 constexpr const char* to_string(Stage stage) noexcept {
@@ -31,6 +34,9 @@ constexpr const char* to_string(Stage stage) noexcept {
     case Stage::seed: return "seed";
     case Stage::moments: return "moments";
     case Stage::solve: return "solve";
+    case Stage::join: return "join";
+    case Stage::refine: return "refine";
+    case Stage::measure: return "measure";
     case Stage::label: return "label";
   }
   return "unknown";

@@ -26,8 +26,8 @@ struct PatchColumns {
 /// Sums over neighbours.
 struct NeighbourSums {
   float trust;
-  float continued;           ///< trust times expected height, by the neighbours' planes
-  float curved;              ///< the same by curves
+  float continued;  ///< trust times expected height, by the neighbours' planes
+  float curved;     ///< the same by curves
   float least_squared_distance;
 };
 
@@ -77,16 +77,15 @@ void sum_neighbours(const PatchColumns& columns, const FittedPatch& patch, float
       const FloatVector nearness = hn::Add(one, squared);
       const FloatVector weight = hn::IfThenElseZero(
           near, hn::Div(hn::Load(d, columns.trust + i), hn::Mul(nearness, nearness)));
-      const FloatVector theirs =
-          hn::Add(hn::Mul(dx, hn::Load(d, columns.slope_x + i)),
-                  hn::Mul(dy, hn::Load(d, columns.slope_y + i)));
-      const FloatVector its = hn::Add(hn::Mul(dx, hn::Set(d, patch.slope_x)),
-                                      hn::Mul(dy, hn::Set(d, patch.slope_y)));
+      const FloatVector theirs = hn::Add(hn::Mul(dx, hn::Load(d, columns.slope_x + i)),
+                                         hn::Mul(dy, hn::Load(d, columns.slope_y + i)));
+      const FloatVector its =
+          hn::Add(hn::Mul(dx, hn::Set(d, patch.slope_x)), hn::Mul(dy, hn::Set(d, patch.slope_y)));
       const FloatVector z = hn::Load(d, columns.z + i);
       const FloatVector believed = hn::Set(d, believed_slope);
       const FloatVector straight = hn::Add(z, hn::Mul(believed, theirs));
-      const FloatVector bent = hn::Add(
-          z, hn::Mul(hn::Mul(hn::Set(d, 0.5f), believed), hn::Add(theirs, its)));
+      const FloatVector bent =
+          hn::Add(z, hn::Mul(hn::Mul(hn::Set(d, 0.5f), believed), hn::Add(theirs, its)));
       trust = hn::Add(trust, weight);
       continued = hn::Add(continued, hn::Mul(weight, straight));
       curved = hn::Add(curved, hn::Mul(weight, bent));
@@ -125,8 +124,7 @@ void AcceptedPatches::reserve(std::size_t count) {
 void AcceptedPatches::add(const FittedPatch& patch) noexcept {
   float* const x = columns_.data();
   const std::array<float, column_count> row = {
-      patch.x,       patch.y,       patch.z,
-      patch.slope_x, patch.slope_y, patch.points / (patch.points + 20)};
+      patch.x, patch.y, patch.z, patch.slope_x, patch.slope_y, patch.points / (patch.points + 20)};
   if (count_ % 16 == 0) {
     for (std::size_t column = 0; column < column_count; ++column) {
       std::fill_n(x + column * capacity_ + count_, 16, column < 2 ? far_away : 0.0f);
@@ -152,9 +150,10 @@ AcceptedPatches::Fit AcceptedPatches::fit(const FittedPatch& patch, float radius
   if (sums.trust <= 0) return {.has_neighbour = false, .distance = 0, .step = 0};
   const float above_straight = patch.z - sums.continued / sums.trust;
   const float above_curved = patch.z - sums.curved / sums.trust;
-  return {.has_neighbour = true,
-          .distance = std::sqrt(sums.least_squared_distance),
-          .step = std::abs(above_curved) < std::abs(above_straight) ? above_curved : above_straight};
+  return {
+      .has_neighbour = true,
+      .distance = std::sqrt(sums.least_squared_distance),
+      .step = std::abs(above_curved) < std::abs(above_straight) ? above_curved : above_straight};
 }
 
 }  // namespace flagstone::surface

@@ -10,9 +10,9 @@ namespace flagstone::surface {
 
 /// A patch as seen by its neighbours: a point of its plane and how it rises from there.
 struct FittedPatch {
-  float x, y, z;         ///< mean of its ground set, metres
+  float x, y, z;           ///< mean of its ground set, metres
   float slope_x, slope_y;  ///< metres a metre
-  float points;          ///< in its ground set
+  float points;            ///< in its ground set
 };
 
 /// The patches found to be ground so far, and what they let expect elsewhere.

@@ -91,14 +91,11 @@ HWY_INLINE void measure(const patches::MovedPoint* points, std::size_t count,
   for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
     FloatVector x, y, z;
     load_points<4>(&points[lane].x, x, y, z);
-    const FloatVector along_x =
-        hn::Mul(hn::Sub(x, hn::Set(d, plane.x)), hn::Set(d, plane.slope_x));
-    const FloatVector along_y =
-        hn::Mul(hn::Sub(y, hn::Set(d, plane.y)), hn::Set(d, plane.slope_y));
-    const FloatVector height =
-        hn::Sub(hn::Sub(hn::Sub(z, hn::Set(d, plane.z)), along_x), along_y);
-    const auto there = hn::Lt(hn::Iota(d, static_cast<float>(lane)),
-                              hn::Set(d, static_cast<float>(count)));
+    const FloatVector along_x = hn::Mul(hn::Sub(x, hn::Set(d, plane.x)), hn::Set(d, plane.slope_x));
+    const FloatVector along_y = hn::Mul(hn::Sub(y, hn::Set(d, plane.y)), hn::Set(d, plane.slope_y));
+    const FloatVector height = hn::Sub(hn::Sub(hn::Sub(z, hn::Set(d, plane.z)), along_x), along_y);
+    const auto there =
+        hn::Lt(hn::Iota(d, static_cast<float>(lane)), hn::Set(d, static_cast<float>(count)));
     hn::StoreU(hn::IfThenElse(there, height, hn::Set(d, std::numeric_limits<float>::infinity())), d,
                heights + lane);
   }
@@ -166,8 +163,8 @@ HWY_INLINE void observe_lanes(const float* HWY_RESTRICT heights, std::size_t row
     FloatVector count = zero;
     for (std::size_t row = 0; row < rows; ++row) {
       const FloatVector h = hn::Load(d, heights + row * tile_cells);
-      const auto inside = hn::And(hn::Le(hn::Abs(h), gate),
-                                  hn::Le(hn::Abs(hn::Sub(h, mean)), hn::Set(d, window)));
+      const auto inside =
+          hn::And(hn::Le(hn::Abs(h), gate), hn::Le(hn::Abs(hn::Sub(h, mean)), hn::Set(d, window)));
       sum = hn::Add(sum, hn::IfThenElseZero(inside, h));
       count = hn::Add(count, hn::IfThenElseZero(inside, one));
     }
@@ -183,8 +180,8 @@ HWY_INLINE void observe_lanes(const float* HWY_RESTRICT heights, std::size_t row
   const FloatVector gate_below = hn::Neg(gate);
   for (std::size_t row = 0; row < rows; ++row) {
     const FloatVector h = hn::Load(d, heights + row * tile_cells);
-    const auto inside = hn::And(hn::Le(hn::Abs(h), gate),
-                                hn::Le(hn::Abs(hn::Sub(h, mean)), hn::Set(d, window)));
+    const auto inside =
+        hn::And(hn::Le(hn::Abs(h), gate), hn::Le(hn::Abs(hn::Sub(h, mean)), hn::Set(d, window)));
     at_surface = hn::Add(at_surface, hn::IfThenElseZero(inside, one));
     const auto is_above = hn::And(hn::Gt(h, slab_low), hn::Lt(h, slab_high));
     above = hn::Add(above, hn::IfThenElseZero(is_above, one));
@@ -194,22 +191,18 @@ HWY_INLINE void observe_lanes(const float* HWY_RESTRICT heights, std::size_t row
 
   const FloatVector fewest = hn::Set(d, fewest_points);
   const auto has_mode = hn::And(hn::Ge(gated, fewest), hn::Ge(at_surface, fewest));
-  const auto something_stands =
-      hn::Gt(above, hn::Mul(hn::Set(d, o.contrast), at_surface));
-  const auto is_mode =
-      hn::And(hn::AndNot(something_stands, has_mode),
-              hn::Le(below, hn::Mul(hn::Set(d, most_below), at_surface)));
+  const auto something_stands = hn::Gt(above, hn::Mul(hn::Set(d, o.contrast), at_surface));
+  const auto is_mode = hn::And(hn::AndNot(something_stands, has_mode),
+                               hn::Le(below, hn::Mul(hn::Set(d, most_below), at_surface)));
   const auto only_below = hn::And(hn::Lt(gated, fewest), hn::Lt(lowest, gate_below));
-  const auto is_bound =
-      hn::And(hn::And(hn::Or(only_below, hn::And(has_mode, something_stands)),
-                      hn::Ge(seen, hn::Set(d, fewest_for_lower_bound))),
-              hn::Lt(lowest, hn::Set(d, -least_lowering)));
+  const auto is_bound = hn::And(hn::And(hn::Or(only_below, hn::And(has_mode, something_stands)),
+                                        hn::Ge(seen, hn::Set(d, fewest_for_lower_bound))),
+                                hn::Lt(lowest, hn::Set(d, -least_lowering)));
 
   const FloatVector mode_weight =
       hn::Min(one, hn::Mul(at_surface, hn::Set(d, 1 / points_of_full_weight)));
-  weight = hn::IfThenElse(
-      is_mode, mode_weight,
-      hn::IfThenElseZero(is_bound, hn::Set(d, o.lower_bound_weight)));
+  weight = hn::IfThenElse(is_mode, mode_weight,
+                          hn::IfThenElseZero(is_bound, hn::Set(d, o.lower_bound_weight)));
   correction = hn::IfThenElse(is_mode, mean, hn::IfThenElseZero(is_bound, lowest));
 }
 
@@ -240,7 +233,8 @@ void observe_cells(const Observations& o, const OccupiedCell* cells, std::size_t
       std::array<patches::MovedPoint, most_samples> picked;
       std::size_t samples = cell.count;
       if (samples > most_samples) {  // evenly from all of them
-        for (std::size_t j = 0; j < most_samples; ++j) picked[j] = points[j * samples / most_samples];
+        for (std::size_t j = 0; j < most_samples; ++j)
+          picked[j] = points[j * samples / most_samples];
         points = picked.data();
         samples = most_samples;
       }

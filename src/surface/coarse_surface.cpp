@@ -17,10 +17,10 @@ namespace flagstone::surface {
 
 /// A plane as nodes see it, and the nodes it reaches.
 struct PlaneOnGrid {
-  float x, y, z;           ///< a point of it, metres
-  float slope_x, slope_y;  ///< metres a metre
-  float trust;             ///< 0 to 1
-  float variance;          ///< of its height at that point, m^2
+  float x, y, z;                                               ///< a point of it, metres
+  float slope_x, slope_y;                                      ///< metres a metre
+  float trust;                                                 ///< 0 to 1
+  float variance;                                              ///< of its height at that point, m^2
   std::size_t first_row, last_row, first_column, last_column;  ///< the last ones included
 };
 
@@ -109,7 +109,8 @@ void CoarseSurface::add(const Plane& plane, float size) noexcept {
       .slope_x = static_cast<float>(-plane.normal[0] / plane.normal[2]),
       .slope_y = static_cast<float>(-plane.normal[1] / plane.normal[2]),
       .trust = static_cast<float>(std::min(1.0, plane.count / points_of_full_trust)),
-      .variance = least_deviation * least_deviation + static_cast<float>(std::max(plane.eigenvalues[2], 0.0)),
+      .variance = least_deviation * least_deviation +
+                  static_cast<float>(std::max(plane.eigenvalues[2], 0.0)),
       .first_row = first(y),
       .last_row = last(y),
       .first_column = first(x),

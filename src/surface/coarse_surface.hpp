@@ -10,8 +10,8 @@
 
 namespace flagstone::surface {
 
-/// Joins accepted patches to a surface on a grid: near a patch its plane counts, the more the closer
-/// and the better it fits; between patches what lies around.
+/// Joins accepted patches to a surface on a grid: near a patch its plane counts, the more the
+/// closer and the better it fits; between patches what lies around.
 class CoarseSurface {
  public:
   /// On `grid`, whose cells it fills; foot: the ground below the sensor is expected at height

@@ -8,9 +8,9 @@ namespace flagstone::surface {
 
 /// A square grid of heights centred on the sensor, in working memory; see Surface::Grid.
 struct Grid {
-  float cell = 0;            ///< side of a cell, metres
-  std::size_t width = 0;     ///< cells along a side, even
-  float* heights = nullptr;  ///< metres, row by row
+  float cell = 0;                ///< side of a cell, metres
+  std::size_t width = 0;         ///< cells along a side, even
+  float* heights = nullptr;      ///< metres, row by row
   float* confidences = nullptr;  ///< 0 to 1
 
   [[nodiscard]] float extent() const noexcept { return static_cast<float>(width) * cell / 2; }

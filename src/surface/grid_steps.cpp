@@ -23,7 +23,8 @@ inline constexpr std::size_t fading = 2;
 
 void upsample_values(const float* coarse, std::size_t coarse_width, float* fine,
                      std::size_t fine_width) {
-  const std::size_t margin = (coarse_width - fine_width / 2) / 2;  // coarse cells beside the fine grid
+  const std::size_t margin =
+      (coarse_width - fine_width / 2) / 2;  // coarse cells beside the fine grid
   const std::size_t last = coarse_width - 1;
   const auto beside = [&](std::size_t fine_index) {  // the coarse cell next nearest
     const std::size_t here = margin + fine_index / 2;

@@ -104,8 +104,8 @@ HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z, const S
   const IntTag di;
   const auto good = is_good(x, y, z, cells);
   const FloatVector range = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-  const FloatVector lowest = hn::Sub(hn::Set(d, cells.noise_height()),
-                                     hn::Mul(hn::Set(d, cells.noise_slope()), range));
+  const FloatVector lowest =
+      hn::Sub(hn::Set(d, cells.noise_height()), hn::Mul(hn::Set(d, cells.noise_slope()), range));
   IntVector found = cell_of(hn::IfThenElseZero(good, x), hn::IfThenElseZero(good, y), cells);
   found = hn::IfThenElse(hn::RebindMask(di, hn::Lt(z, lowest)), all_lanes(cells.noise()), found);
   if (HWY_UNLIKELY(!hn::AllTrue(d, good))) {

@@ -45,8 +45,7 @@ Verdict PatchJudge::judge_alone(const Plane& plane, const SlabCounts& counts) co
 Verdict PatchJudge::judge_step(const FittedPatch& patch,
                                const AcceptedPatches& nearer) const noexcept {
   const float range = std::sqrt(patch.x * patch.x + patch.y * patch.y);
-  AcceptedPatches::Fit fit =
-      nearer.fit(patch, std::max(neighbour_metres, neighbour_share * range));
+  AcceptedPatches::Fit fit = nearer.fit(patch, std::max(neighbour_metres, neighbour_share * range));
   if (!fit.has_neighbour) {
     fit = {.has_neighbour = false,
            .distance = range,
@@ -54,7 +53,7 @@ Verdict PatchJudge::judge_step(const FittedPatch& patch,
   }
   const float allowed = step_ + step_growth_ * std::min(fit.distance, longest_gap);
   return fit.step <= allowed && fit.step >= -(allowed + extra_step_down) ? Verdict::ground
-                                                                        : Verdict::off_surface;
+                                                                         : Verdict::off_surface;
 }
 
 }  // namespace flagstone::surface

@@ -19,8 +19,8 @@ class PatchJudge {
   /// The plane is in the sensor frame.
   [[nodiscard]] Verdict judge_alone(const Plane& plane, const SlabCounts& counts) const noexcept;
 
-  /// By those nearer to the sensor: close to where they let expect ground, or, where there are none,
-  /// to the sensor's height. `ground`, or `off_surface`.
+  /// By those nearer to the sensor: close to where they let expect ground, or, where there are
+  /// none, to the sensor's height. `ground`, or `off_surface`.
   [[nodiscard]] Verdict judge_step(const FittedPatch& patch,
                                    const AcceptedPatches& nearer) const noexcept;
 

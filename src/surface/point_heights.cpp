@@ -56,8 +56,8 @@ HWY_INLINE Between between(FloatVector coordinate, FloatVector per_cell, FloatVe
   const FloatVector one = hn::Set(d, 1.0f);
   const FloatVector center = hn::Add(hn::Mul(coordinate, per_cell), middle);
   // Not a number becomes 0.
-  const FloatVector inside = hn::Min(hn::IfThenElseZero(hn::Gt(center, hn::Zero(d)), center),
-                                     hn::Sub(width, one));
+  const FloatVector inside =
+      hn::Min(hn::IfThenElseZero(hn::Gt(center, hn::Zero(d)), center), hn::Sub(width, one));
   const IntVector first = whole_part(hn::Min(inside, hn::Sub(width, hn::Add(one, one))));
   return {first, hn::Sub(inside, hn::ConvertTo(d, first))};
 }
@@ -82,8 +82,8 @@ HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables
   const Between column = between(x, per_cell, middle, width);
   const Between row = between(y, per_cell, middle, width);
   // In floats, all of them whole and below 2^24.
-  const FloatVector row_first = hn::Add(hn::Mul(hn::ConvertTo(d, row.first), width),
-                                        lookup_8(tables.firsts.data(), grid));
+  const FloatVector row_first =
+      hn::Add(hn::Mul(hn::ConvertTo(d, row.first), width), lookup_8(tables.firsts.data(), grid));
   const IntVector near = hn::Add(whole_part(row_first), column.first);
   const IntVector far = hn::Add(near, whole_part(width));
   const IntVector next = hn::Set(di, 1);
@@ -91,8 +91,8 @@ HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables
   const FloatVector near_right = hn::GatherIndex(d, tables.heights, hn::Add(near, next));
   const FloatVector far_left = hn::GatherIndex(d, tables.heights, far);
   const FloatVector far_right = hn::GatherIndex(d, tables.heights, hn::Add(far, next));
-  return blend(blend(near_left, near_right, column.share),
-               blend(far_left, far_right, column.share), row.share);
+  return blend(blend(near_left, near_right, column.share), blend(far_left, far_right, column.share),
+               row.share);
 }
 
 /// The cell of 0.5 m that a point within the extent lies in.
@@ -123,19 +123,18 @@ void measure_points(const MeasuredPoints& points, const GridTables& tables,
     if (HWY_UNLIKELY(i + hn::Lanes(d) > points.count)) {
       good = hn::And(good, hn::FirstN(d, points.count - i));
     }
-    const FloatVector height =
-        hn::IfThenElse(good, hn::Sub(z, surface_at(x, y, tables)), unknown);
+    const FloatVector height = hn::IfThenElse(good, hn::Sub(z, surface_at(x, y, tables)), unknown);
     if (HWY_LIKELY(i + hn::Lanes(d) <= points.count)) {
       hn::StoreU(height, d, points.heights + i);
     } else {
       hn::Store(height, d, rest.data());
       std::copy_n(rest.data(), points.count - i, points.heights + i);
     }
-    const auto stands = hn::And(hn::Gt(height, hn::Set(d, standing_height)),
-                                hn::Lt(height, hn::Set(d, overhang)));
+    const auto stands =
+        hn::And(hn::Gt(height, hn::Set(d, standing_height)), hn::Lt(height, hn::Set(d, overhang)));
     if (hn::AllFalse(d, stands)) continue;
-    const std::size_t count = compress_store(standing_cell(x, y, standing),
-                                             hn::RebindMask(di, stands), marked.data());
+    const std::size_t count =
+        compress_store(standing_cell(x, y, standing), hn::RebindMask(di, stands), marked.data());
     for (std::size_t k = 0; k < count; ++k) {
       // Other threads may say the same.
       std::atomic_ref<std::uint8_t>(marks[marked[k]]).store(1, std::memory_order_relaxed);
@@ -149,9 +148,8 @@ void label_points(const MeasuredPoints& points, const PointRule& rule, const Squ
   const FloatTag d;
   const IntTag di;
   const hn::Rebind<std::uint8_t, FloatTag> d8;
-  const auto label_lanes = [&](Label label) HWY_ATTR {
-    return hn::Set(di, static_cast<std::int32_t>(label));
-  };
+  const auto label_lanes = [&](Label label)
+                               HWY_ATTR { return hn::Set(di, static_cast<std::int32_t>(label)); };
   std::size_t ground_count = 0;
   std::size_t noise_count = 0;
   std::size_t far_count = 0;
@@ -174,23 +172,20 @@ void label_points(const MeasuredPoints& points, const PointRule& rule, const Squ
     if (HWY_UNLIKELY(!whole)) there = hn::FirstN(d, points.count - i);
     const auto good = hn::And(is_good(x, y, z, cells), there);
 
-    const IntVector cell = hn::IfThenElseZero(hn::RebindMask(di, good),
-                                              standing_cell(x, y, standing));
+    const IntVector cell =
+        hn::IfThenElseZero(hn::RebindMask(di, good), standing_cell(x, y, standing));
     const IntVector word = hn::GatherIndex(
         di, reinterpret_cast<const std::int32_t*>(standing.words), hn::ShiftRight<2>(cell));
     const IntVector shift = hn::ShiftLeft<3>(hn::And(cell, hn::Set(di, 3)));
-    const auto stands =
-        hn::Ne(hn::And(hn::Shr(word, shift), hn::Set(di, 1)), hn::Zero(di));
-    const FloatVector margin =
-        hn::IfThenElse(hn::RebindMask(d, stands), hn::Set(d, rule.margin_at_obstacles),
-                       hn::Set(d, rule.margin));
+    const auto stands = hn::Ne(hn::And(hn::Shr(word, shift), hn::Set(di, 1)), hn::Zero(di));
+    const FloatVector margin = hn::IfThenElse(
+        hn::RebindMask(d, stands), hn::Set(d, rule.margin_at_obstacles), hn::Set(d, rule.margin));
     const FloatVector range = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
     const FloatVector deepest = hn::Neg(
         hn::Add(hn::Set(d, rule.noise_depth), hn::Mul(hn::Set(d, rule.noise_growth), range)));
-    const FloatVector lowest = hn::Sub(hn::Set(d, cells.noise_height()),
-                                       hn::Mul(hn::Set(d, cells.noise_slope()), range));
-    const auto noise =
-        hn::And(good, hn::Or(hn::Le(height, deepest), hn::Lt(z, lowest)));
+    const FloatVector lowest =
+        hn::Sub(hn::Set(d, cells.noise_height()), hn::Mul(hn::Set(d, cells.noise_slope()), range));
+    const auto noise = hn::And(good, hn::Or(hn::Le(height, deepest), hn::Lt(z, lowest)));
     const auto ground = hn::AndNot(noise, hn::And(good, hn::Lt(height, margin)));
 
     IntVector label = hn::IfThenElseZero(hn::RebindMask(di, ground), label_lanes(Label::ground));

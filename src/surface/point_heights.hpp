@@ -19,8 +19,8 @@ namespace flagstone::surface {
 /// Points by label, as Segmentation::finish takes them.
 using LabelTotals = std::array<std::size_t, label_count>;
 
-/// The grids of a surface as tables, an entry for each; a place belongs to the last one that reaches
-/// it.
+/// The grids of a surface as tables, an entry for each; a place belongs to the last one that
+/// reaches it.
 struct GridTables {
   std::array<float, 8> extents;   ///< metres
   std::array<float, 8> per_cell;  ///< 1 / cell, 1/metre

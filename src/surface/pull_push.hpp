@@ -17,9 +17,9 @@ class PullPush {
   /// For grids of up to `width` x `width` cells, an even number. May throw std::bad_alloc.
   explicit PullPush(std::size_t width);
 
-  /// Replaces the values, row by row, by filled ones. A cell whose weight is `full` or more keeps its
-  /// value; one with less takes the rest from around it, one with none all. Without any weight all
-  /// values become 0.
+  /// Replaces the values, row by row, by filled ones. A cell whose weight is `full` or more keeps
+  /// its value; one with less takes the rest from around it, one with none all. Without any weight
+  /// all values become 0.
   ///
   /// Weights become confidences: 1 where a cell keeps its value, half of what the coarser grid has
   /// where it has none of its own.

@@ -75,9 +75,8 @@ void ResidualPyramid::plan_level(std::size_t level, const SquareCells& cells) {
               .column = static_cast<std::uint16_t>(static_cast<std::uint32_t>(column) * along + x)};
         }
       }
-      plan.blocks.push_back({.cells = block,
-                             .first = first,
-                             .last = static_cast<std::uint32_t>(plan.cells.size())});
+      plan.blocks.push_back(
+          {.cells = block, .first = first, .last = static_cast<std::uint32_t>(plan.cells.size())});
     }
   }
 }

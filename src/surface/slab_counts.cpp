@@ -36,8 +36,8 @@ void count_bins(const patches::BinBatch& batch, const PlaneBatch& planes,
                           hn::Mul(nz, hn::Load(d, z + i))),
                   offset);
       within += hn::CountTrue(d, hn::Lt(hn::Abs(distance), hn::Set(d, 0.125f)));
-      above += hn::CountTrue(d, hn::And(hn::Gt(distance, hn::Set(d, 0.1875f)),
-                                        hn::Lt(distance, hn::Set(d, 0.8875f))));
+      above += hn::CountTrue(
+          d, hn::And(hn::Gt(distance, hn::Set(d, 0.1875f)), hn::Lt(distance, hn::Set(d, 0.8875f))));
     }
     counts[bin] = {.within = static_cast<std::uint32_t>(within),
                    .above = static_cast<std::uint32_t>(above)};

@@ -67,11 +67,13 @@ CellRange SquareCells::block(int column, int row) const noexcept {
   const auto distance = [&](int index) {
     return index < half_blocks_ ? half_blocks_ - 1 - index : index - half_blocks_;
   };
-  const auto ring = static_cast<std::size_t>(std::min(std::max(distance(column), distance(row)), 7));
+  const auto ring =
+      static_cast<std::size_t>(std::min(std::max(distance(column), distance(row)), 7));
   const float first =
-      class_bases_[ring] +
-      cells_per_block_[ring] * (static_cast<float>(row) * class_widths_[ring] + static_cast<float>(column));
-  return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(first + cells_per_block_[ring])};
+      class_bases_[ring] + cells_per_block_[ring] * (static_cast<float>(row) * class_widths_[ring] +
+                                                     static_cast<float>(column));
+  return {static_cast<std::uint32_t>(first),
+          static_cast<std::uint32_t>(first + cells_per_block_[ring])};
 }
 
 }  // namespace flagstone::surface

@@ -54,7 +54,9 @@ class SquareCells {
   [[nodiscard]] std::uint32_t group_count() const noexcept { return cell_count_ + 3; }
 
   /// The cells cover |x| < extent() and |y| < extent(), metres: whole blocks.
-  [[nodiscard]] float extent() const noexcept { return static_cast<float>(half_blocks_ * block_size); }
+  [[nodiscard]] float extent() const noexcept {
+    return static_cast<float>(half_blocks_ * block_size);
+  }
 
   /// Blocks from the sensor to the edge.
   [[nodiscard]] int half_blocks() const noexcept { return half_blocks_; }

@@ -32,7 +32,8 @@ SquarePatches::SquarePatches(const SurfaceConfig& config, const SquareCells& cel
       const std::uint32_t quarter = (block.last - block.first) / 4;  // along the Z-order curve
       for (std::uint32_t i = 0; i < 4; ++i) {
         add({block.first + i * quarter, block.first + (i + 1) * quarter},
-            2 * row + static_cast<int>(i / 2), 2 * column + static_cast<int>(i % 2), block_size / 2);
+            2 * row + static_cast<int>(i / 2), 2 * column + static_cast<int>(i % 2),
+            block_size / 2);
       }
     }
   }
