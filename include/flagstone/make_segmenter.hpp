@@ -14,13 +14,14 @@
 #include "flagstone/baselines/ransac.hpp"
 #include "flagstone/patchwork_config.hpp"
 #include "flagstone/segmenter.hpp"
+#include "flagstone/surface_config.hpp"
 
 /// Methods by name; the target is flagstone::baselines.
 namespace flagstone {
 
 /// The configuration of any method.
-using MethodConfig =
-    std::variant<PatchworkConfig, RansacConfig, GpfConfig, LineFitConfig, CascadedConfig>;
+using MethodConfig = std::variant<PatchworkConfig, SurfaceConfig, RansacConfig, GpfConfig,
+                                  LineFitConfig, CascadedConfig>;
 
 /// What `make_segmenter` knows, in the order of the paper's Table I:
 /// - `ransac`, `gpf`, `line_fit`, `cascaded`, `r_gpf`: what Patchwork is compared with;

@@ -10,13 +10,14 @@
 #include <string>
 
 #include "flagstone/patchwork.hpp"
+#include "flagstone/surface_segmenter.hpp"
 
 namespace flagstone {
 namespace {
 
-constexpr std::array<std::string_view, 10> names = {"ransac",    "gpf",      "line_fit", "cascaded",
-                                                    "r_gpf",     "r_gpf+u",  "czm+u",    "czm+u+e",
-                                                    "czm+u+e+f", "patchwork"};
+constexpr std::array<std::string_view, 11> names = {
+    "ransac", "gpf",     "line_fit",  "cascaded",  "r_gpf",  "r_gpf+u",
+    "czm+u",  "czm+u+e", "czm+u+e+f", "patchwork", "surface"};
 
 /// A configuration with the terms of the ground likelihood that come after the first plus sign of
 /// `name`, "czm+u+e", and no others.
@@ -30,6 +31,9 @@ PatchworkConfig with_terms_of(std::string_view name, PatchworkConfig config) {
 
 std::unique_ptr<Segmenter> make(const PatchworkConfig& config) {
   return std::make_unique<Patchwork>(config);
+}
+std::unique_ptr<Segmenter> make(const SurfaceConfig& config) {
+  return std::make_unique<SurfaceSegmenter>(config);
 }
 std::unique_ptr<Segmenter> make(const RansacConfig& config) {
   return std::make_unique<Ransac>(config);
@@ -54,6 +58,7 @@ MethodConfig default_config(std::string_view name, const PatchworkConfig& patchw
   if (name == "line_fit") return LineFitConfig{};
   if (name == "cascaded") return CascadedConfig{};
   if (name == "patchwork") return patchwork;
+  if (name == "surface") return SurfaceConfig{};
   if (std::ranges::find(names, name) == names.end()) {
     std::ostringstream message;
     message << "no method is named \"" << name << "\"; there are";

@@ -7,6 +7,7 @@
 #include "core/patchwork_settings.hpp"
 #include "core/setting.hpp"
 #include "flagstone/make_segmenter.hpp"
+#include "surface/surface_settings.hpp"
 
 namespace flagstone {
 

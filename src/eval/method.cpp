@@ -9,7 +9,7 @@
 namespace flagstone::eval {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> titles = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 11> titles = {{
     {"ransac", "RANSAC"},
     {"gpf", "GPF"},
     {"line_fit", "LineFit"},
@@ -20,6 +20,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> titles =
     {"czm+u+e", "CZM + U + E"},
     {"czm+u+e+f", "CZM + U + E + F"},
     {"patchwork", "Patchwork"},
+    {"surface", "Surface"},
 }};
 
 }  // namespace
