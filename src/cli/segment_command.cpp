@@ -45,7 +45,7 @@ struct SegmentOptions {
   bool tint_patches = false;
   bool heights = false;
   bool surface = false;
-  double surface_resolution = 0;
+  std::optional<double> surface_resolution;
   unsigned threads = 0;
   bool json = false;
 };
@@ -134,6 +134,12 @@ bool makes_surface(const MethodConfig& config) {
 }
 
 void check_surface(const SegmentOptions& options, const MethodConfig& config) {
+  const double resolution = options.surface_resolution.value_or(1);
+  const bool is_allowed = resolution >= 0.1 && resolution <= 10;  // not NaN, as CLI::Range has it
+  if (!is_allowed) {
+    throw std::invalid_argument(
+        fmt::format("--surface-resolution {}: not within 0.1 to 10 metres a cell", resolution));
+  }
   if (makes_surface(config)) return;
   for (const auto& [asked, option] :
        {std::pair{options.heights, "--heights"}, std::pair{options.surface, "--surface"}}) {
@@ -154,7 +160,7 @@ int segment(const SegmentOptions& options) {
                     .tint_patches = options.tint_patches,
                     .heights = options.heights,
                     .surface = options.surface,
-                    .surface_resolution = options.surface_resolution,
+                    .surface_resolution = options.surface_resolution.value_or(0),
                     .reference = options.reference};
   check_tint(options, job.config);
   check_surface(options, job.config);
@@ -247,8 +253,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
                         "where it lies, .png, a map");
   command
       ->add_option("--surface-resolution", options->surface_resolution,
-                   "Metres a cell of that grid. Default: the surface's finest")
-      ->check(CLI::Range(0.1, 10.0))
+                   "Metres a cell of that grid, 0.1 to 10. Default: the surface's finest")
       ->needs(surface)
       ->type_name("M");
   command->add_option("--threads", options->threads, "Scans worked on at once. Default: all cores")

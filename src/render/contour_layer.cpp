@@ -170,8 +170,7 @@ void draw_contours(const Canvas& canvas, const TopView& view, const HeightMap& m
   cairo_set_line_width(context, bold_contour * unit);
   for (const Index& index : indices) stroke(context, index.path);
   // The longest lines have the first choice.
-  std::ranges::stable_sort(indices, std::greater(),
-                           [](const Index& i) { return length_of(i.path); });
+  std::ranges::sort(indices, std::greater(), [](const Index& i) { return length_of(i.path); });
   LabelPlacer placer(view.panel(), unit);
   for (const Index& index : indices) {
     const double width = text_width(context, index.text, font) + 12 * unit;

@@ -115,7 +115,8 @@ class Tracer {
     const double there = heights_[sample + (is_along_row ? 1 : width_)];
     const double share = (level_ - here) / (there - here);
     const auto column = static_cast<double>(sample % width_);
-    const auto row = static_cast<double>(sample / width_);
+    const Side whole_rows = sample / width_;
+    const auto row = static_cast<double>(whole_rows);
     return is_along_row ? GridPlace{column + share, row} : GridPlace{column, row + share};
   }
 
