@@ -7,14 +7,17 @@
 #include <array>
 #include <cstdint>
 #include <exception>
+#include <span>
 #include <system_error>
 #include <vector>
 
 #include "core/stopwatch.hpp"
 #include "eval/protocol.hpp"
 #include "io/load_bytes.hpp"
+#include "io/npy.hpp"
 #include "io/write_cloud.hpp"
 #include "render/birds_eye.hpp"
+#include "render/surface_picture.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;
@@ -117,7 +120,6 @@ Status ScanWorker::work(const ScanInput& input, const ScanInput* later, ScanRepo
   report.write_ms = watch.lap();
   if (!status.ok()) return status;
 
-  if (!job_.picture && job_.reference.empty()) return {};
   return score_and_draw(input, report);
 }
 
@@ -131,13 +133,20 @@ Status ScanWorker::write(const ScanInput& input, ScanReport& report) {
         fmt::format("{}: cannot be made: {}", stem.parent_path().string(), error.message()));
   }
 
-  if (job_.format == OutputFormat::split) return write_split(input, report);
+  Status status =
+      job_.format == OutputFormat::split ? write_split(input, report) : write_labels(input, report);
+  if (status.ok() && job_.heights) status = write_heights(input, report);
+  if (status.ok() && job_.surface) status = write_surface(input, report);
+  return status;
+}
+
+Status ScanWorker::write_labels(const ScanInput& input, ScanReport& report) {
   const char* extension = job_.format == OutputFormat::label ? ".label"
                           : job_.format == OutputFormat::u8  ? ".label.npy"
                           : job_.format == OutputFormat::npy ? ".npy"
                           : job_.format == OutputFormat::pcd ? ".pcd"
                                                              : ".ply";
-  const fs::path file = with_suffix(stem, extension);
+  const fs::path file = with_suffix(job_.output / input.output_stem, extension);
   for (const fs::path& source : {input.file, reference_file(job_.reference, input)}) {
     if (Status status = check_spares(file, source); !status.ok()) return status;
   }
@@ -149,7 +158,10 @@ Status ScanWorker::write(const ScanInput& input, ScanReport& report) {
     return label_writer_.write_label_npy(file, result_.labels());
   }
   io::Cloud labelled;
-  const Status status = io::with_labels(reader_.cloud(), result_.labels(), labelled);
+  Status status = io::with_labels(reader_.cloud(), result_.labels(), labelled);
+  if (status.ok() && job_.heights) {
+    status = io::with_heights(labelled, result_.heights(), labelled);
+  }
   return status.ok() ? io::write_cloud(file, labelled) : status;
 }
 
@@ -170,6 +182,43 @@ Status ScanWorker::write_split(const ScanInput& input, ScanReport& report) {
   return {};
 }
 
+Status ScanWorker::write_heights(const ScanInput& input, ScanReport& report) {
+  const fs::path file = with_suffix(job_.output / input.output_stem, ".heights.npy");
+  if (Status status = check_spares(file, input.file); !status.ok()) return status;
+  const std::span<const float> heights = result_.heights();
+  Status status = io::write_npy_file(file, heights, std::array{heights.size()});
+  if (status.ok()) report.outputs.push_back(file);
+  return status;
+}
+
+SurfaceFiles ScanWorker::surface_files(const ScanInput& input) const {
+  return {.stem = job_.output / input.output_stem,
+          .scan = input.file.filename().string(),
+          .resolution = job_.surface_resolution};
+}
+
+Status ScanWorker::write_surface(const ScanInput& input, ScanReport& report) {
+  if (result_.surface().empty()) {
+    return Status(StatusCode::invalid_argument,
+                  fmt::format("{}: no surface can be made of it, {} points", input.file.string(),
+                              report.points));
+  }
+  const SurfaceFiles files = surface_files(input);
+  if (Status status = check_spares(files.grid(), input.file); !status.ok()) return status;
+  Status status = files.write(result_.surface());
+  if (status.ok()) report.outputs.insert(report.outputs.end(), {files.grid(), files.frame()});
+  return status;
+}
+
+Status ScanWorker::draw_surface(const ScanInput& input, ScanReport& report) {
+  const fs::path picture = surface_files(input).picture();
+  const render::SurfacePicture options{.title = input.file.filename().string(),
+                                       .subtitle = "ground as a surface; " + subtitle(report)};
+  Status status = render::draw_surface(picture, result_.surface(), options);
+  if (status.ok()) report.outputs.push_back(picture);
+  return status;
+}
+
 Status ScanWorker::score_and_draw(const ScanInput& input, ScanReport& report) {
   std::vector<Truth> truth;  // under the first protocol
   if (!job_.reference.empty()) {
@@ -183,9 +232,16 @@ Status ScanWorker::score_and_draw(const ScanInput& input, ScanReport& report) {
       if (truth.empty()) truth = std::move(under);
     }
   }
-  if (!job_.picture) return {};
-
   Stopwatch watch;
+  Status status;
+  if (job_.picture) status = draw_birds_eye(input, report, truth);
+  if (status.ok() && job_.surface) status = draw_surface(input, report);
+  if (job_.picture || job_.surface) report.picture_ms = watch.lap();
+  return status;
+}
+
+Status ScanWorker::draw_birds_eye(const ScanInput& input, ScanReport& report,
+                                  std::span<const Truth> truth) {
   render::BirdsEye options;
   options.title = input.file.filename().string();
   options.subtitle = subtitle(report);
@@ -194,7 +250,6 @@ Status ScanWorker::score_and_draw(const ScanInput& input, ScanReport& report) {
   options.reference = truth;
   const fs::path picture = with_suffix(job_.output / input.output_stem, ".png");
   Status status = render::draw_birds_eye(picture, reader_.cloud().view(), result_, options);
-  report.picture_ms = watch.lap();
   if (status.ok()) report.outputs.push_back(picture);
   return status;
 }

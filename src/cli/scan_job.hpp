@@ -3,10 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "cli/scan_inputs.hpp"
 #include "cli/scan_report.hpp"
+#include "cli/surface_files.hpp"
+#include "core/truth.hpp"
 #include "eval/method_runner.hpp"
 #include "io/cloud_reader.hpp"
 #include "io/label_files.hpp"
@@ -18,7 +21,7 @@ namespace flagstone::cli {
 enum class OutputFormat {
   label,  ///< STEM.label, one uint32 per point
   u8,     ///< STEM.label.npy, one uint8 per point
-  npy,    ///< STEM.npy, the cloud with a field `label`
+  npy,    ///< STEM.npy, the cloud with a field `label`, with heights also `height`
   pcd,    ///< STEM.pcd, likewise
   ply,    ///< STEM.ply, likewise
   split,  ///< STEM.ground.EXT and STEM.nonground.EXT in the format of the input
@@ -34,6 +37,9 @@ struct ScanJob {
   io::LabelMap label_map = io::LabelMap::flagstone;
   bool picture = false;
   bool tint_patches = false;
+  bool heights = false;             ///< STEM.heights.npy, and a field `height` in labelled clouds
+  bool surface = false;             ///< STEM.surface.npy, .json and .png
+  double surface_resolution = 0;    ///< metres a cell of STEM.surface.npy; 0: the surface's finest
   std::filesystem::path reference;  ///< a label file, or a folder of them; empty for none
 };
 
@@ -54,7 +60,13 @@ class ScanWorker {
   Status work(const ScanInput& input, const ScanInput* later, ScanReport& report);
   Status write(const ScanInput& input, ScanReport& report);
   Status write_split(const ScanInput& input, ScanReport& report);
+  Status write_labels(const ScanInput& input, ScanReport& report);
+  Status write_heights(const ScanInput& input, ScanReport& report);
+  Status write_surface(const ScanInput& input, ScanReport& report);
   Status score_and_draw(const ScanInput& input, ScanReport& report);
+  Status draw_birds_eye(const ScanInput& input, ScanReport& report, std::span<const Truth> truth);
+  Status draw_surface(const ScanInput& input, ScanReport& report);
+  [[nodiscard]] SurfaceFiles surface_files(const ScanInput& input) const;
 
   const ScanJob& job_;
   io::CloudReader reader_;

@@ -15,6 +15,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -27,6 +28,7 @@
 #include "cli/scan_job.hpp"
 #include "cli/throughput.hpp"
 #include "core/stopwatch.hpp"
+#include "flagstone/surface_config.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -41,6 +43,9 @@ struct SegmentOptions {
   std::string reference;
   bool picture = false;
   bool tint_patches = false;
+  bool heights = false;
+  bool surface = false;
+  std::optional<double> surface_resolution;
   unsigned threads = 0;
   bool json = false;
 };
@@ -123,6 +128,27 @@ void check_tint(const SegmentOptions& options, const MethodConfig& config) {
                   options.method.method));
 }
 
+bool makes_surface(const MethodConfig& config) {
+  return std::visit(
+      []<class Config>(const Config&) { return std::is_same_v<Config, SurfaceConfig>; }, config);
+}
+
+void check_surface(const SegmentOptions& options, const MethodConfig& config) {
+  const double resolution = options.surface_resolution.value_or(1);
+  const bool is_allowed = resolution >= 0.1 && resolution <= 10;  // not NaN, as CLI::Range has it
+  if (!is_allowed) {
+    throw std::invalid_argument(
+        fmt::format("--surface-resolution {}: not within 0.1 to 10 metres a cell", resolution));
+  }
+  if (makes_surface(config)) return;
+  for (const auto& [asked, option] :
+       {std::pair{options.heights, "--heights"}, std::pair{options.surface, "--surface"}}) {
+    if (!asked) continue;
+    throw std::invalid_argument(fmt::format("{}: method {} makes no surface; --method surface does",
+                                            option, options.method.method));
+  }
+}
+
 int segment(const SegmentOptions& options) {
   const ScanJob job{.method = options.method.method,
                     .config = options.method.resolve(),
@@ -132,8 +158,12 @@ int segment(const SegmentOptions& options) {
                     .label_map = options.label_map,
                     .picture = options.picture,
                     .tint_patches = options.tint_patches,
+                    .heights = options.heights,
+                    .surface = options.surface,
+                    .surface_resolution = options.surface_resolution.value_or(0),
                     .reference = options.reference};
   check_tint(options, job.config);
+  check_surface(options, job.config);
   const std::vector<ScanInput> scans = list_scans(options.scans);
 
   catch_interrupts();
@@ -214,6 +244,18 @@ void add_segment_command(CLI::App& app, int& exit_code) {
       ->add_flag("--tint-patches", options->tint_patches,
                  "In the picture, tint every patch by its verdict")
       ->needs(picture);
+  command->add_flag("--heights", options->heights,
+                    "Write each point's height above the ground: STEM.heights.npy, and with "
+                    "--format npy, pcd or ply a field 'height'");
+  CLI::Option* const surface =
+      command->add_flag("--surface", options->surface,
+                        "Write the ground itself: STEM.surface.npy, a grid of heights, .json, "
+                        "where it lies, .png, a map");
+  command
+      ->add_option("--surface-resolution", options->surface_resolution,
+                   "Metres a cell of that grid, 0.1 to 10. Default: the surface's finest")
+      ->needs(surface)
+      ->type_name("M");
   command->add_option("--threads", options->threads, "Scans worked on at once. Default: all cores")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

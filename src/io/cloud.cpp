@@ -25,6 +25,29 @@ void convert_to_float(std::span<const std::byte> rows, std::size_t stride, const
   });
 }
 
+/// `cloud` with another field behind the others, `values` of it one after the other; one of that
+/// name that was there is dropped.
+Status with_field(const Cloud& cloud, Field added, std::span<const std::byte> values, Cloud& out) {
+  const Field* const old = cloud.find(added.name);
+  std::vector<Field> fields(cloud.fields().begin(), cloud.fields().end());
+  if (old != nullptr) fields.erase(fields.begin() + (old - cloud.fields().data()));
+
+  const std::size_t size = added.size();
+  const std::size_t before = old != nullptr ? old->offset : cloud.stride();
+  const std::size_t after = old != nullptr ? cloud.stride() - old->offset - old->size() : 0;
+  const std::size_t stride = before + after + size;
+  std::vector<std::byte> rows(cloud.size() * stride);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const std::byte* from = cloud.bytes().data() + i * cloud.stride();
+    std::byte* to = rows.data() + i * stride;
+    std::memcpy(to, from, before);
+    std::memcpy(to + before, from + cloud.stride() - after, after);
+    std::memcpy(to + before + after, values.data() + i * size, size);
+  }
+  fields.push_back(std::move(added));
+  return Cloud::from_rows(std::move(fields), std::move(rows), out);
+}
+
 }  // namespace
 
 std::size_t size_of(FieldType type) noexcept {
@@ -126,23 +149,18 @@ Status with_labels(const Cloud& cloud, std::span<const Label> labels, Cloud& out
     if (labels.size() != cloud.size()) {
       return invalid("{} labels for {} points (one a point)", labels.size(), cloud.size());
     }
-    std::vector<Field> fields(cloud.fields().begin(), cloud.fields().end());
-    const Field* old = cloud.find(label_name);
-    if (old != nullptr) fields.erase(fields.begin() + (old - cloud.fields().data()));
-    fields.push_back({std::string(label_name), FieldType::uint8});
+    return with_field(cloud, {std::string(label_name), FieldType::uint8}, std::as_bytes(labels),
+                      out);
+  });
+}
 
-    const std::size_t before = old != nullptr ? old->offset : cloud.stride();
-    const std::size_t after = old != nullptr ? cloud.stride() - old->offset - old->size() : 0;
-    const std::size_t stride = before + after + 1;
-    std::vector<std::byte> rows(cloud.size() * stride);
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const std::byte* from = cloud.bytes().data() + i * cloud.stride();
-      std::byte* to = rows.data() + i * stride;
-      std::memcpy(to, from, before);
-      std::memcpy(to + before, from + cloud.stride() - after, after);
-      to[before + after] = static_cast<std::byte>(labels[i]);
+Status with_heights(const Cloud& cloud, std::span<const float> heights, Cloud& out) {
+  return within_memory([&] {
+    if (heights.size() != cloud.size()) {
+      return invalid("{} heights for {} points (one a point)", heights.size(), cloud.size());
     }
-    return Cloud::from_rows(std::move(fields), std::move(rows), out);
+    return with_field(cloud, {std::string(height_name), FieldType::float32}, std::as_bytes(heights),
+                      out);
   });
 }
 

@@ -128,6 +128,12 @@ inline constexpr std::string_view label_name = "label";
 /// invalid_argument where labels.size() is not cloud.size(); out_of_memory. `out` may be `cloud`.
 Status with_labels(const Cloud& cloud, std::span<const Label> labels, Cloud& out);
 
+/// The name of the field with_heights() adds.
+inline constexpr std::string_view height_name = "height";
+
+/// `cloud` with a height for each point as last field: `height`, float32. As with_labels().
+Status with_heights(const Cloud& cloud, std::span<const float> heights, Cloud& out);
+
 /// The points of `cloud` at `indices`, in that order, with all fields.
 /// invalid_argument where an index is not below cloud.size(); out_of_memory. `out` may be `cloud`.
 Status select(const Cloud& cloud, std::span<const std::size_t> indices, Cloud& out);

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/npy.hpp"
 
+#include <fmt/ranges.h>
+
 #include <string>
 #include <utility>
 
+#include "io/atomic_file.hpp"
 #include "io/binary_rows.hpp"
 #include "io/message.hpp"
 #include "io/npy_header.hpp"
@@ -82,6 +85,27 @@ Status write_npy(const Cloud& cloud, std::vector<std::byte>& out) {
     out = std::move(file);
     return Status();
   });
+}
+
+Status write_npy_file(const std::filesystem::path& path, std::span<const float> values,
+                      std::span<const std::size_t> shape) {
+  std::vector<std::byte> file;
+  Status status = within_memory([&] {
+    std::size_t count = 1;
+    for (const std::size_t length : shape) count *= length;
+    if (count != values.size()) {
+      return invalid("{} numbers for an array of {}", values.size(), fmt::join(shape, " x "));
+    }
+    const std::string header = npy_header(FieldType::float32, shape);
+    const auto head = std::as_bytes(std::span(header));
+    const auto items = std::as_bytes(values);
+    file.reserve(head.size() + items.size());
+    file.assign(head.begin(), head.end());
+    file.insert(file.end(), items.begin(), items.end());
+    return Status();
+  });
+  if (!status.ok()) return with_path(path, std::move(status));
+  return write_file(path, file);
 }
 
 }  // namespace flagstone::io

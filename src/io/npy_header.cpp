@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/npy_header.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -245,9 +247,10 @@ std::string with_preamble(std::string dictionary) {
   return header + dictionary;
 }
 
-std::string with_preamble(std::string_view descr, std::size_t count) {
-  return with_preamble(
-      fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({},), }}", descr, count));
+std::string with_preamble(std::string_view descr, std::span<const std::size_t> shape) {
+  // Python's tuples: a comma behind the number where there is only one.
+  return with_preamble(fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({}{}), }}",
+                                   descr, fmt::join(shape, ", "), shape.size() == 1 ? "," : ""));
 }
 
 }  // namespace
@@ -286,12 +289,16 @@ std::string npy_header(std::span<const Field> fields, std::size_t count) {
     descr += fmt::format("('{}', '{}{}'", field.name, order, code_of(field.type));
     descr += field.count == 1 ? "), " : fmt::format(", ({},)), ", field.count);
   }
-  return with_preamble(descr + "]", count);
+  return with_preamble(descr + "]", std::array{count});
+}
+
+std::string npy_header(FieldType type, std::span<const std::size_t> shape) {
+  const char order = size_of(type) == 1 ? '|' : '<';
+  return with_preamble(fmt::format("'{}{}'", order, code_of(type)), shape);
 }
 
 std::string npy_header(FieldType type, std::size_t count) {
-  const char order = size_of(type) == 1 ? '|' : '<';
-  return with_preamble(fmt::format("'{}{}'", order, code_of(type)), count);
+  return npy_header(type, std::array{count});
 }
 
 }  // namespace flagstone::io

@@ -36,7 +36,10 @@ Status read_npy_header(std::string_view text, NpyHeader& out);
 /// The header of an array of `count` records.
 std::string npy_header(std::span<const Field> fields, std::size_t count);
 
-/// The header of a plain array of `count` numbers.
+/// The header of a plain array of numbers, by rows: as many along each dimension as `shape` says.
+std::string npy_header(FieldType type, std::span<const std::size_t> shape);
+
+/// The same with one dimension.
 std::string npy_header(FieldType type, std::size_t count);
 
 }  // namespace flagstone::io

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/read_cloud.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "io/cloud_reader.hpp"
@@ -23,8 +25,11 @@ std::optional<CloudFormat> format_of(const std::filesystem::path& path) noexcept
 
 bool is_scan_name(const std::filesystem::path& path) noexcept {
   const std::string_view name = file_name(path);
-  const bool is_label_file = ends_with(name, "_lidarseg.bin") || ends_with(name, ".label.npy");
-  return format_of(path) && !name.starts_with('.') && !is_label_file;
+  constexpr std::array<std::string_view, 4> beside_scans = {"_lidarseg.bin", ".label.npy",
+                                                            ".heights.npy", ".surface.npy"};
+  return format_of(path) && !name.starts_with('.') &&
+         std::ranges::none_of(beside_scans,
+                              [&](std::string_view ending) { return ends_with(name, ending); });
 }
 
 Status parse_cloud(std::span<const std::byte> bytes, CloudFormat format,

@@ -127,7 +127,7 @@ void draw_beyond_note(const Canvas& canvas, const Layout& layout, std::size_t be
   const double width = text_width(context, note, font) + 32 * unit;
   const Rectangle box{layout.panel.center_x() - width / 2, layout.panel.bottom() - 56 * unit, width,
                       40 * unit};
-  draw_backing(context, box, unit);
+  draw_backing(context, box, unit, panel_color);
   draw_text(context, box.center_x(), box.y + 27 * unit, note, font, Align::center);
 }
 

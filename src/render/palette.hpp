@@ -22,5 +22,13 @@ inline constexpr Color muted_text_color{92, 100, 110};
 inline constexpr Color panel_text_color{232, 236, 240};
 inline constexpr Color range_ring_color{150, 160, 172};
 inline constexpr Color zone_line_color{235, 240, 245};
+inline constexpr Color contour_color{88, 58, 38};
+
+/// What is written and drawn on top of a panel: its colour and that of the edge or box around it.
+struct PanelInk {
+  Color ink, backing;
+};
+inline constexpr PanelInk dark_panel_ink{panel_text_color, panel_color};
+inline constexpr PanelInk map_ink{text_color, page_color};
 
 }  // namespace flagstone::render

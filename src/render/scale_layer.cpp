@@ -26,8 +26,8 @@ int decimals(std::span<const double> distances) noexcept {
 // Captions stand ahead and to the right, where a straight road leaves the fewest points; those that
 // would touch the sensor's mark, another caption or the panel's edge are left out.
 void draw_captions(cairo_t* context, const TopView& view, std::span<const double> radii,
-                   double unit) {
-  const Font font{.size = 22 * unit, .bold = false, .color = panel_text_color};
+                   double unit, const PanelInk& ink) {
+  const Font font{.size = 22 * unit, .bold = false, .color = ink.ink};
   const int places = decimals(radii);
   double last = view.panel().center_x();
   for (const double radius : radii) {
@@ -36,8 +36,8 @@ void draw_captions(cairo_t* context, const TopView& view, std::span<const double
     const double row = view.row(along);
     if (column - last < 40 * unit) continue;
     if (column > view.panel().right() - 60 * unit || row < view.panel().y + 40 * unit) return;
-    draw_text_over_points(context, column, row + font.size * 0.36,
-                          fmt::format("{:.{}f} m", radius, places), font, Align::center);
+    draw_edged_text(context, column, row + font.size * 0.36,
+                    fmt::format("{:.{}f} m", radius, places), font, ink.backing, Align::center);
     last = column;
   }
 }
@@ -62,27 +62,28 @@ void draw_arrow(cairo_t* context, double x, double y, double to_x, double to_y,
   cairo_fill(context);
 }
 
-void draw_axes(cairo_t* context, const Rectangle& panel, double unit) {
+void draw_axes(cairo_t* context, const Rectangle& panel, double unit, const PanelInk& ink) {
   const Rectangle box{panel.x + 16 * unit, panel.bottom() - 146 * unit, 222 * unit, 130 * unit};
-  draw_backing(context, box, unit);
-  const Font font{.size = 22 * unit, .bold = false, .color = panel_text_color};
+  draw_backing(context, box, unit, ink.backing);
+  const Font font{.size = 22 * unit, .bold = false, .color = ink.ink};
   const double x = box.x + 84 * unit;
   const double y = box.bottom() - 44 * unit;
-  set_color(context, panel_text_color);
+  set_color(context, ink.ink);
   draw_arrow(context, x, y, x, y - 70 * unit, unit);
   draw_arrow(context, x, y, x - 70 * unit, y, unit);
   draw_text(context, x + 14 * unit, y - 54 * unit, "x forward", font);
   draw_text(context, box.x + 14 * unit, y + 30 * unit, "y left", font);
 }
 
-void draw_scale_bar(cairo_t* context, const TopView& view, double range, double unit) {
+void draw_scale_bar(cairo_t* context, const TopView& view, double range, double unit,
+                    const PanelInk& ink) {
   const double step = ring_step(range);
   const double length = step * view.pixels_per_metre();
   const Rectangle& panel = view.panel();
   const Rectangle box{panel.right() - length - 56 * unit, panel.bottom() - 86 * unit,
                       length + 40 * unit, 70 * unit};
-  draw_backing(context, box, unit);
-  const Font font{.size = 22 * unit, .bold = false, .color = panel_text_color};
+  draw_backing(context, box, unit, ink.backing);
+  const Font font{.size = 22 * unit, .bold = false, .color = ink.ink};
   const double left = box.x + 20 * unit;
   const double right = left + length;
   const double line = box.bottom() - 20 * unit;
@@ -94,7 +95,7 @@ void draw_scale_bar(cairo_t* context, const TopView& view, double range, double 
   cairo_line_to(context, right, line);
   cairo_set_line_cap(context, CAIRO_LINE_CAP_SQUARE);
   cairo_set_line_width(context, 3 * unit);
-  set_color(context, panel_text_color);
+  set_color(context, ink.ink);
   cairo_stroke(context);
   draw_text(context, (left + right) / 2, line - 14 * unit, fmt::format("{:g} m", step), font,
             Align::center);
@@ -139,15 +140,15 @@ void draw_sensor(const Canvas& canvas, const TopView& view, double unit) noexcep
 }
 
 void draw_scale(const Canvas& canvas, const TopView& view, double range,
-                std::span<const double> radii, double unit) {
+                std::span<const double> radii, double unit, const PanelInk& ink) {
   cairo_t* context = canvas.context();
   cairo_save(context);
   add_rectangle(context, view.panel());
   cairo_clip(context);
-  draw_captions(context, view, radii, unit);
+  draw_captions(context, view, radii, unit, ink);
   draw_sensor(canvas, view, unit);
-  draw_axes(context, view.panel(), unit);
-  draw_scale_bar(context, view, range, unit);
+  draw_axes(context, view.panel(), unit, ink);
+  draw_scale_bar(context, view, range, unit, ink);
   cairo_restore(context);
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "render/canvas.hpp"
+#include "render/palette.hpp"
 #include "render/top_view.hpp"
 
 namespace flagstone::render {
@@ -19,6 +20,6 @@ void draw_sensor(const Canvas& canvas, const TopView& view, double unit) noexcep
 /// What tells place, size and direction, on top of the points: the circles' captions in metres, the
 /// mark of the sensor, the axes (lower left) and the scale bar (lower right). `radii` ascend.
 void draw_scale(const Canvas& canvas, const TopView& view, double range,
-                std::span<const double> radii, double unit);
+                std::span<const double> radii, double unit, const PanelInk& ink = dark_panel_ink);
 
 }  // namespace flagstone::render

@@ -125,22 +125,22 @@ void draw_text(cairo_t* context, double x, double baseline, const std::string& t
   cairo_new_path(context);
 }
 
-void draw_text_over_points(cairo_t* context, double x, double baseline, const std::string& text,
-                           const Font& font, Align align) noexcept {
+void draw_edged_text(cairo_t* context, double x, double baseline, const std::string& text,
+                     const Font& font, Color edge, Align align) noexcept {
   const double left = aligned_left(context, x, text, font, align);
   select(context, font);
   cairo_move_to(context, left, baseline);
   cairo_text_path(context, text.c_str());
   cairo_set_line_width(context, font.size / 3.5);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
-  set_color(context, panel_color, 0.85);
+  set_color(context, edge, 0.85);
   cairo_stroke(context);
   draw_text(context, left, baseline, text, font);
 }
 
-void draw_backing(cairo_t* context, const Rectangle& box, double unit) noexcept {
+void draw_backing(cairo_t* context, const Rectangle& box, double unit, Color color) noexcept {
   add_rectangle(context, box, 8 * unit);
-  set_color(context, panel_color, 0.86);
+  set_color(context, color, 0.86);
   cairo_fill(context);
 }
 

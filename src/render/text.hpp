@@ -39,11 +39,12 @@ Font shrunk(cairo_t* context, const std::string& text, Font font, double width) 
 void draw_text(cairo_t* context, double x, double baseline, const std::string& text,
                const Font& font, Align align = Align::left) noexcept;
 
-/// Draws it like draw_text with a dark edge, so that it can be read on top of points.
-void draw_text_over_points(cairo_t* context, double x, double baseline, const std::string& text,
-                           const Font& font, Align align = Align::left) noexcept;
+/// Draws it like draw_text with an edge of another colour, so that it can be read on top of points
+/// and lines.
+void draw_edged_text(cairo_t* context, double x, double baseline, const std::string& text,
+                     const Font& font, Color edge, Align align = Align::left) noexcept;
 
-/// Draws a dark box for text on top of points, so that none shows through.
-void draw_backing(cairo_t* context, const Rectangle& box, double unit) noexcept;
+/// Draws a box for text on top of points and lines, so that hardly any shows through.
+void draw_backing(cairo_t* context, const Rectangle& box, double unit, Color color) noexcept;
 
 }  // namespace flagstone::render

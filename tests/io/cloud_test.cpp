@@ -7,6 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -203,6 +204,43 @@ TEST(WithLabels, RefusesAnotherNumberOfLabels) {
   Cloud out;
   EXPECT_THAT(with_labels(cloud, std::vector{Label::ground}, out),
               fails(StatusCode::invalid_argument, HasSubstr("1 labels for 2 points")));
+}
+
+TEST(WithHeights, AddsAFloatFieldBehindTheOthers) {
+  const Cloud cloud = two_points();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  Cloud with;
+
+  ASSERT_THAT(with_heights(cloud, std::vector{0.25F, nan}, with), is_ok());
+
+  const Field& field = with.fields().back();
+  EXPECT_EQ(field.name, "height");
+  EXPECT_EQ(field.type, float32);
+  EXPECT_EQ(with.value(0, field), 0.25);
+  EXPECT_TRUE(std::isnan(with.value(1, field)));
+  EXPECT_EQ(with.value(1, *with.find("intensity")), 0.25);
+  EXPECT_EQ(with.view()[1].z, 6.0F);
+}
+
+TEST(WithHeights, ReplacesHeightsOfAnyType) {
+  Cloud cloud;
+  const std::vector<Field> fields{{"x"}, {"height", float64}, {"y"}, {"z"}};
+  Bytes row = joined({numbers({1.0F}), numbers({9.0}), numbers({2.0F, 3.0F})});
+  ASSERT_THAT(Cloud::from_rows(fields, row, cloud), is_ok());
+
+  ASSERT_THAT(with_heights(cloud, std::vector{0.5F}, cloud), is_ok());
+
+  EXPECT_EQ(cloud.fields().size(), 4U);
+  EXPECT_EQ(cloud.fields().back().name, "height");
+  EXPECT_EQ(cloud.value(0, cloud.fields().back()), 0.5);
+  EXPECT_EQ(cloud.view()[0].z, 3.0F);
+}
+
+TEST(WithHeights, RefusesAnotherNumberOfHeights) {
+  const Cloud cloud = two_points();
+  Cloud out;
+  EXPECT_THAT(with_heights(cloud, std::vector{1.0F}, out),
+              fails(StatusCode::invalid_argument, HasSubstr("1 heights for 2 points")));
 }
 
 TEST(Select, TakesPointsInTheGivenOrder) {

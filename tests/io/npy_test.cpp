@@ -5,10 +5,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "io/bytes.hpp"
+#include "io/file_contents.hpp"
 #include "io/status_matchers.hpp"
+#include "io/temporary_folder.hpp"
 
 namespace flagstone::io {
 namespace {
@@ -250,6 +255,33 @@ TEST(NpyWriter, TurnsToVersionTwoForALongHeader) {
   EXPECT_EQ(file[6], std::byte{2});
   ASSERT_THAT(read_npy(file, again), is_ok());
   EXPECT_TRUE(std::ranges::equal(again.fields(), cloud.fields()));
+}
+
+TEST(NpyFile, HoldsNumbersOfAnyShape) {
+  const TemporaryFolder folder;
+  const std::vector values{1.F, 2.F, 3.F, 4.F, 5.F, 6.F};
+
+  ASSERT_THAT(write_npy_file(folder / "list.npy", values, std::array<std::size_t, 1>{6}), is_ok());
+  ASSERT_THAT(write_npy_file(folder / "table.npy", values, std::array<std::size_t, 2>{2, 3}),
+              is_ok());
+
+  const std::string list = contents_of(folder / "list.npy");
+  const std::string table = contents_of(folder / "table.npy");
+  EXPECT_THAT(list, HasSubstr("{'descr': '<f4', 'fortran_order': False, 'shape': (6,), }"));
+  EXPECT_THAT(table, HasSubstr("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }"));
+  for (const std::string& file : {list, table}) {
+    ASSERT_EQ(file.size() % 64, 24U);
+    EXPECT_EQ(bytes_of(file.substr(file.size() - 24)), numbers({1.F, 2.F, 3.F, 4.F, 5.F, 6.F}));
+  }
+}
+
+TEST(NpyFile, RefusesNumbersThatDoNotFillTheShape) {
+  const TemporaryFolder folder;
+
+  EXPECT_THAT(
+      write_npy_file(folder / "table.npy", std::vector<float>(5), std::array<std::size_t, 2>{2, 3}),
+      fails(StatusCode::invalid_argument, HasSubstr("5 numbers for an array of 2 x 3")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "table.npy"));
 }
 
 }  // namespace

@@ -30,11 +30,13 @@ TEST(FormatOf, GoesByTheEndingInAnyCase) {
   EXPECT_EQ(format_of("a.pcd/"), std::nullopt);
 }
 
-TEST(ScanNames, AreThoseOfFormatsButNotOfLabelsAndHiddenFiles) {
+TEST(ScanNames, AreThoseOfFormatsButNotOfWhatBelongsToScansOrIsHidden) {
   EXPECT_TRUE(is_scan_name("velodyne/000000.bin"));
   EXPECT_TRUE(is_scan_name("a.npy"));
   EXPECT_FALSE(is_scan_name("a.label"));
   EXPECT_FALSE(is_scan_name("a.label.npy"));
+  EXPECT_FALSE(is_scan_name("a.heights.npy"));
+  EXPECT_FALSE(is_scan_name("a.surface.npy"));
   EXPECT_FALSE(is_scan_name("k_lidarseg.bin"));
   EXPECT_FALSE(is_scan_name(".a.bin"));
   EXPECT_FALSE(is_scan_name("a.txt"));

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "flagstone/surface.hpp"
+
+namespace flagstone::render {
+
+/// From one height to another, metres.
+struct HeightRange {
+  double lowest = 0;
+  double highest = 1;
+  [[nodiscard]] double span() const noexcept { return highest - lowest; }
+};
+
+/// Heights at the centres of square cells of one size, in the order of a map: rows from the largest
+/// y to the smallest, x ascending within a row. The sensor stands in the middle, at the corner of
+/// four cells.
+struct HeightMap {
+  double cell = 1;             ///< side of a cell, metres
+  std::size_t width = 0;       ///< cells along a side, even
+  std::vector<float> heights;  ///< metres; NaN where not known
+
+  /// It covers |x| <= extent and |y| <= extent, metres.
+  [[nodiscard]] double extent() const noexcept { return static_cast<double>(width) * cell / 2; }
+
+  /// Metres in the sensor frame at a column and a row; whole numbers are centres of cells.
+  [[nodiscard]] double x(double column) const noexcept { return (column + 0.5) * cell - extent(); }
+  [[nodiscard]] double y(double row) const noexcept { return extent() - (row + 0.5) * cell; }
+};
+
+/// The heights of `surface` in cells of `cell` metres, as many as cover |x|, |y| <= `extent`
+/// metres.
+HeightMap map_of(const Surface& surface, double extent, double cell);
+
+/// The same for lines to be drawn: each height is the mean of four, half a cell of the surface away
+/// along x and y, since lines bend at the surface's cells otherwise.
+HeightMap smoothed_map_of(const Surface& surface, double extent, double cell);
+
+}  // namespace flagstone::render
