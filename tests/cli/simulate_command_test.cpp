@@ -141,7 +141,7 @@ TEST(SimulateCommand, AnUnknownSceneIsOneLineWithThoseThereAre) {
 
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, is_one_line_with("there is no 'moon'; choose flat_street, steep_street, "
-                                            "parked_cars, bushes_and_lawn, bumpy_field"));
+                                            "parked_cars, bushes_and_lawn, bumpy_field, steps"));
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 

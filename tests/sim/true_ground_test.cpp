@@ -164,7 +164,7 @@ TEST_P(TrueGroundOfScene, IsWhereGroundPointsWithoutNoiseAre) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TrueGroundOfScene,
                          testing::Values("flat_street", "steep_street", "parked_cars",
-                                         "bushes_and_lawn", "bumpy_field"),
+                                         "bushes_and_lawn", "bumpy_field", "steps"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace
