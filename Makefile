@@ -6,7 +6,7 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test sanitize format format-check tidy growth latency primitives bench-compare install \
+.PHONY: help build demo test sanitize format format-check tidy growth latency primitives sharpness bench-compare install \
         clean
 .DEFAULT_GOAL := build
 
@@ -42,6 +42,9 @@ latency: ## time of 10,000 different scans, with those meant to take long
 
 primitives: ## time of each step for every instruction set
 	@scripts/setup build benchmark && scripts/benchmark primitives
+
+sharpness: ## how sharp the surface shows kerbs, ditches and drops of known shape
+	@scripts/setup build benchmark && scripts/benchmark sharpness
 
 bench-compare: build ## is the working tree slower than REVISION, on SCANS?
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(SCANS)

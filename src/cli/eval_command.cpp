@@ -39,6 +39,16 @@ struct EvalOptions {
   bool speed = false;
 };
 
+void print_height_tables(const eval::Results& results, const eval::TextStyle& style) {
+  fmt::print(
+      "Heights above the ground against the truth, points of the ground, by horizontal range. "
+      "Means over scans,\ncm: median of the absolute error, 95 %: its 95th percentile, bias: mean "
+      "error. Share: percent of points with a height\n\n{}\n",
+      eval::height_table(results, &eval::HeightResult::ground, style));
+  fmt::print("The same over all points, also where the ground is hidden\n\n{}\n",
+             eval::height_table(results, &eval::HeightResult::everywhere, style));
+}
+
 void print_tables(const eval::Results& results, bool speed) {
   const eval::TextStyle style{.bold = isatty(STDOUT_FILENO) != 0};
   fmt::print(
@@ -50,6 +60,7 @@ void print_tables(const eval::Results& results, bool speed) {
       eval::accuracy_table(results, style));
   fmt::print("F1 by horizontal range, over all points of a band\n\n{}\n",
              eval::range_table(results, style));
+  if (eval::has_heights(results)) print_height_tables(results, style);
   if (!results.unscored.empty()) {
     fmt::print("Left out, since no point of them is scored: {}\n\n",
                io::printable(fmt::format("{}", fmt::join(results.unscored, ", "))));

@@ -30,6 +30,7 @@
 #include "sim/noise.hpp"
 #include "sim/scene_kind.hpp"
 #include "sim/sensor.hpp"
+#include "sim/true_ground.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -120,8 +121,10 @@ class SequenceRun {
       std::call_once(at.planned, [&] { plan(at, index); });
       if (kept_[first + offset]) continue;
       std::call_once(at.built, [&] { at.scene = std::make_unique<sim::Scene>(at.drive->scene()); });
-      files_.write(first + offset,
-                   at.drive->scan(*at.scene, sim::Noise{}, static_cast<int>(offset)));
+      const sim::SimulatedScan scan =
+          at.drive->scan(*at.scene, sim::Noise{}, static_cast<int>(offset));
+      files_.write(first + offset, scan,
+                   sim::true_ground(at.scene->ground(), at.drive->poses()[offset], scan.xyzi));
       report();
     }
     // The last one to leave takes the world down: who comes later finds no frame to take.
@@ -249,7 +252,7 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("-o,--output", options->output,
-                   "Folder for sequences/NN with velodyne, labels, poses; made if missing")
+                   "Folder for sequences/NN with velodyne, labels, ground, poses; made if missing")
       ->required()
       ->type_name("DIR");
   command

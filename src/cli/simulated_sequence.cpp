@@ -14,6 +14,7 @@
 #include "flagstone/version.hpp"
 #include "io/atomic_file.hpp"
 #include "io/cloud.hpp"
+#include "io/height_files.hpp"
 #include "io/label_files.hpp"
 #include "io/load_bytes.hpp"
 #include "io/write_cloud.hpp"
@@ -70,6 +71,10 @@ fs::path SimulatedSequence::label_file(std::size_t frame) const {
   return folder_ / "labels" / fmt::format("{:06}.label", frame);
 }
 
+fs::path SimulatedSequence::ground_file(std::size_t frame) const {
+  return folder_ / "ground" / fmt::format("{:06}.npy", frame);
+}
+
 void SimulatedSequence::refuse_others(const SequenceOrigin& origin) const {
   const fs::path file = folder_ / "scene.json";
   std::error_code error;
@@ -110,20 +115,25 @@ void SimulatedSequence::begin(const SequenceOrigin& origin) const {
   must(io::write_file(folder_ / "calib.txt", calibration_text()));
   make_folder(folder_ / "velodyne");
   make_folder(folder_ / "labels");
+  make_folder(folder_ / "ground");
 }
 
 bool SimulatedSequence::has(std::size_t frame) const {
   constexpr std::uintmax_t scan_bytes = 4 * sizeof(float);
   const std::uintmax_t scan = size_of(scan_file(frame));
-  const std::uintmax_t labels = size_of(label_file(frame));
-  return scan > 0 && scan % scan_bytes == 0 && labels == scan / scan_bytes * sizeof(std::uint32_t);
+  const std::uintmax_t points = scan / scan_bytes;
+  return scan > 0 && scan % scan_bytes == 0 &&
+         size_of(label_file(frame)) == points * sizeof(std::uint32_t) &&
+         size_of(ground_file(frame)) == io::height_file_size(points);
 }
 
-void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan) const {
+void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan,
+                              std::span<const float> ground) const {
   io::Cloud cloud;
   must(io::Cloud::from_floats(scan.xyzi, 4, cloud));
   must(io::write_cloud(scan_file(frame), cloud));
   must(io::write_class_file(label_file(frame), scan.classes));
+  must(io::write_height_file(ground_file(frame), ground));
 }
 
 void SimulatedSequence::write_poses(std::span<const sim::Frame> poses) const {

@@ -21,7 +21,8 @@ struct SequenceOrigin {
 };
 
 /// The files of a simulated sequence, laid out as SemanticKITTI's: velodyne/NNNNNN.bin,
-/// labels/NNNNNN.label, poses.txt, calib.txt, and scene.json, which says what it was made from.
+/// labels/NNNNNN.label, poses.txt, calib.txt, beside them ground/NNNNNN.npy, the true height of the
+/// ground at each point, and scene.json, which says what the sequence was made from.
 /// Every file is there whole or not at all. What fails throws std::runtime_error.
 class SimulatedSequence {
  public:
@@ -33,10 +34,12 @@ class SimulatedSequence {
   /// folder already holds something else, or more frames than `origin` has.
   void begin(const SequenceOrigin& origin) const;
 
-  /// Are the scan and its labels there, of sizes that fit each other?
+  /// Are the scan, its labels and its ground there, of sizes that fit each other?
   [[nodiscard]] bool has(std::size_t frame) const;
 
-  void write(std::size_t frame, const sim::SimulatedScan& scan) const;
+  /// `ground` is what sim::true_ground() gives for the scan.
+  void write(std::size_t frame, const sim::SimulatedScan& scan,
+             std::span<const float> ground) const;
 
   /// poses.txt: a line a frame, the rows of the 3x4 matrix from the sensor to the world of its
   /// drive.
@@ -45,6 +48,7 @@ class SimulatedSequence {
  private:
   [[nodiscard]] std::filesystem::path scan_file(std::size_t frame) const;
   [[nodiscard]] std::filesystem::path label_file(std::size_t frame) const;
+  [[nodiscard]] std::filesystem::path ground_file(std::size_t frame) const;
   void refuse_others(const SequenceOrigin& origin) const;
 
   std::filesystem::path folder_;

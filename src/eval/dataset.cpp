@@ -55,7 +55,12 @@ Status add_velodyne(const fs::path& folder, const std::string& prefix, std::size
     if (!io::is_scan_name(file)) continue;
     const fs::path labels = folder / "labels" / (file.stem().string() + ".label");
     if (!is_file(labels)) continue;
-    if (labelled++ % every == 0) scans.push_back({prefix + file.stem().string(), file, labels});
+    if (labelled++ % every != 0) continue;
+    const fs::path ground = folder / "ground" / (file.stem().string() + ".npy");
+    scans.push_back({.name = prefix + file.stem().string(),
+                     .points = file,
+                     .labels = labels,
+                     .ground = is_file(ground) ? ground : fs::path()});
   }
   if (labelled == 0) {
     return io::refuse(folder, "no scan in velodyne/ has a .label file of its name in labels/");

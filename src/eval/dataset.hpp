@@ -16,6 +16,7 @@ struct LabelledScan {
   std::string name;  ///< "05/000120" in a SemanticKITTI tree, "000120" elsewhere
   std::filesystem::path points;
   std::filesystem::path labels;
+  std::filesystem::path ground{};  ///< true height of the ground at each point; empty if unknown
 };
 
 /// Which scans of a dataset are taken.
@@ -30,6 +31,7 @@ struct Selection {
 ///   asked for by name;
 /// - a folder with `velodyne/` and `labels/`;
 /// - nuScenes-lidarseg files beside each other, `NAME.pcd.bin` and `NAME_lidarseg.bin`.
+/// `ground/NAME.npy` beside `velodyne/` tells where the ground is, as the simulator knows it.
 ///
 /// invalid_argument for a folder that is none of these or has no labelled scan, and for sequences
 /// asked for where there are none; unreadable. One line that says what was looked for.

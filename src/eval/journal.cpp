@@ -30,10 +30,41 @@ Confusion confusion_of(const Json& json) {
   return {json.at(0), json.at(1), json.at(2), json.at(3)};
 }
 
+Json to_json(const HeightErrors& e) {
+  return {e.points, e.given, e.median, e.percentile95, e.bias};
+}
+
+HeightErrors height_errors_of(const Json& json) {
+  return {.points = json.at(0),
+          .given = json.at(1),
+          .median = json.at(2),
+          .percentile95 = json.at(3),
+          .bias = json.at(4)};
+}
+
+Json to_json(const HeightErrorsByRange& errors) {
+  Json json = Json::array();
+  json.push_back(to_json(errors.all));
+  for (const HeightErrors& band : errors.by_range) json.push_back(to_json(band));
+  return json;
+}
+
+HeightErrorsByRange height_errors_by_range_of(const Json& json) {
+  HeightErrorsByRange errors{.all = height_errors_of(json.at(0))};
+  for (std::size_t band = 0; band < errors.by_range.size(); ++band) {
+    errors.by_range[band] = height_errors_of(json.at(band + 1));
+  }
+  return errors;
+}
+
 Json to_json(const MethodOutcome& outcome) {
   Json json = {{"points", to_json(outcome.score.points)}, {"area", to_json(outcome.score.by_area)}};
   for (const Confusion& band : outcome.score.by_range) json["range"].push_back(to_json(band));
   if (outcome.segment_ms) json["ms"] = *outcome.segment_ms;
+  if (outcome.heights) {
+    json["heights"] =
+        Json::array({to_json(outcome.heights->ground), to_json(outcome.heights->everywhere)});
+  }
   return json;
 }
 
@@ -45,6 +76,11 @@ MethodOutcome method_outcome_of(const Json& json) {
     outcome.score.by_range[band] = confusion_of(json.at("range").at(band));
   }
   if (json.contains("ms")) outcome.segment_ms = json.at("ms").get<double>();
+  if (json.contains("heights")) {
+    const Json& heights = json.at("heights");
+    outcome.heights = {.ground = height_errors_by_range_of(heights.at(0)),
+                       .everywhere = height_errors_by_range_of(heights.at(1))};
+  }
   return outcome;
 }
 

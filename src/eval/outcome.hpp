@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "eval/height_score.hpp"
 #include "eval/score.hpp"
 
 namespace flagstone::eval {
@@ -14,7 +15,8 @@ namespace flagstone::eval {
 struct MethodOutcome {
   std::optional<std::string> error;  ///< one line; nothing else is filled then
   Score score;
-  std::optional<double> segment_ms;  ///< none for labels made elsewhere
+  std::optional<HeightScore> heights;  ///< of methods that give heights where the truth is known
+  std::optional<double> segment_ms;    ///< none for labels made elsewhere
 };
 
 /// What became of one scan.

@@ -29,6 +29,51 @@ void summarize_speed(MethodResult& result) {
   result.hz_slowest_1_percent = second / mean_of_slowest_percent(times);
 }
 
+/// `errors_of` picks a band of a HeightScore.
+template <class ErrorsOf>
+HeightFigures height_figures(const std::vector<ScanScore>& scans, ErrorsOf errors_of) {
+  HeightErrors pooled;
+  std::vector<double> medians;
+  std::vector<double> percentiles;
+  std::vector<double> biases;
+  for (const ScanScore& scan : scans) {
+    if (!scan.heights) continue;
+    const HeightErrors& errors = errors_of(*scan.heights);
+    pooled.points += errors.points;
+    pooled.given += errors.given;
+    if (errors.given == 0) continue;
+    medians.push_back(errors.median);
+    percentiles.push_back(errors.percentile95);
+    biases.push_back(errors.bias);
+  }
+  return {.points = pooled.points,
+          .share = pooled.share(),
+          .scans = medians.size(),
+          .median = spread_of(medians),
+          .percentile95 = spread_of(percentiles),
+          .bias = spread_of(biases)};
+}
+
+HeightFiguresByRange height_figures_by_range(const std::vector<ScanScore>& scans,
+                                             HeightErrorsByRange HeightScore::* points) {
+  HeightFiguresByRange figures;
+  figures.all = height_figures(
+      scans, [&](const HeightScore& s) -> const HeightErrors& { return (s.*points).all; });
+  for (std::size_t band = 0; band < figures.by_range.size(); ++band) {
+    figures.by_range[band] = height_figures(
+        scans,
+        [&](const HeightScore& s) -> const HeightErrors& { return (s.*points).by_range[band]; });
+  }
+  return figures;
+}
+
+void summarize_heights(MethodResult& result) {
+  const auto has = [](const ScanScore& scan) { return scan.heights.has_value(); };
+  if (std::ranges::none_of(result.scans, has)) return;
+  result.heights = {.ground = height_figures_by_range(result.scans, &HeightScore::ground),
+                    .everywhere = height_figures_by_range(result.scans, &HeightScore::everywhere)};
+}
+
 void summarize(MethodResult& result) {
   result.precision = over_scans(result.scans, &Confusion::precision);
   result.recall = over_scans(result.scans, &Confusion::recall);
@@ -42,6 +87,7 @@ void summarize(MethodResult& result) {
       result.by_range[band] += scan.score.by_range[band];
     }
   }
+  summarize_heights(result);
   summarize_speed(result);
 }
 
@@ -70,12 +116,17 @@ void add(const LabelledScan& scan, const ScanOutcome& outcome, Results& results)
       results.failures.push_back({scan.name, *made.error});
       continue;
     }
-    results.methods[m].scans.push_back({scan.name, made.score, made.segment_ms});
+    results.methods[m].scans.push_back({scan.name, made.score, made.segment_ms, made.heights});
     results.time.segment += made.segment_ms.value_or(0);
   }
 }
 
 }  // namespace
+
+bool has_heights(const Results& results) {
+  return std::ranges::any_of(results.methods,
+                             [](const MethodResult& m) { return m.heights.has_value(); });
+}
 
 Results gather(std::span<const Method> methods, std::span<const LabelledScan> scans,
                std::span<const std::optional<ScanOutcome>> outcomes) {

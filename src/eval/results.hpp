@@ -20,6 +20,25 @@ struct ScanScore {
   std::string scan;
   Score score;
   std::optional<double> segment_ms;
+  std::optional<HeightScore> heights{};
+};
+
+/// Errors of one method's heights over scans; see HeightErrors.
+struct HeightFigures {
+  std::size_t points = 0;             ///< of all scans
+  std::optional<double> share;        ///< of them, those with a height; none of no points
+  std::size_t scans = 0;              ///< that have a height there
+  Spread median, percentile95, bias;  ///< over those scans, metres
+};
+
+struct HeightFiguresByRange {
+  HeightFigures all;
+  std::array<HeightFigures, height_bands.size()> by_range{};
+};
+
+/// As HeightScore.
+struct HeightResult {
+  HeightFiguresByRange ground, everywhere;
 };
 
 /// One method over all scans that could be read, and what that comes to.
@@ -32,7 +51,8 @@ struct MethodResult {
   Confusion pooled;                             ///< over points
   std::array<Confusion, range_bands.size()> by_range{};
   Confusion by_area;
-  std::optional<double> hz;                    ///< scans a second: 1 / mean time
+  std::optional<HeightResult> heights;  ///< of methods that give heights where the truth is known
+  std::optional<double> hz;             ///< scans a second: 1 / mean time
   std::optional<double> hz_slowest_1_percent;  ///< 1 / mean of the slowest 1 % of times
 };
 
@@ -65,6 +85,9 @@ struct Results {
 /// were not reached.
 Results gather(std::span<const Method> methods, std::span<const LabelledScan> scans,
                std::span<const std::optional<ScanOutcome>> outcomes);
+
+/// Does a method have heights that could be scored?
+bool has_heights(const Results& results);
 
 /// Indices into `result.scans` of the `count` scans with the lowest F1, lowest first.
 std::vector<std::size_t> worst_scans(const MethodResult& result, std::size_t count);

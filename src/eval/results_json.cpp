@@ -52,12 +52,56 @@ Json by_range(const MethodResult& result) {
   return bands;
 }
 
+Json to_json(const HeightFigures& figures) {
+  Json json = {{"points", figures.points}, {"with_height", or_null(figures.share)}};
+  json["median"] = to_json(figures.median);
+  json["percentile95"] = to_json(figures.percentile95);
+  json["bias"] = to_json(figures.bias);
+  if (figures.scans == 0) {
+    for (const char* figure : {"median", "percentile95", "bias"}) json[figure]["mean"] = nullptr;
+  }
+  return json;
+}
+
+/// A scan's own.
+Json to_json(const HeightErrors& errors) {
+  const auto if_any = [&](double figure) { return errors.given > 0 ? Json(figure) : Json(); };
+  return {{"points", errors.points},
+          {"with_height", or_null(errors.share())},
+          {"median", if_any(errors.median)},
+          {"percentile95", if_any(errors.percentile95)},
+          {"bias", if_any(errors.bias)}};
+}
+
+/// HeightFiguresByRange, or a scan's HeightErrorsByRange.
+template <class ByRange>
+Json heights_by_range(const ByRange& heights) {
+  Json json = to_json(heights.all);
+  json["by_range"] = Json::array();
+  float from = 0;
+  for (std::size_t band = 0; band < height_bands.size(); ++band) {
+    Json entry = {{"from", from}, {"to", height_bands[band]}};
+    entry.update(to_json(heights.by_range[band]));
+    json["by_range"].push_back(std::move(entry));
+    from = height_bands[band];
+  }
+  return json;
+}
+
+/// HeightResult, or a scan's HeightScore.
+template <class Heights>
+Json heights_json(const Heights& heights) {
+  return {{"ground", heights_by_range(heights.ground)},
+          {"everywhere", heights_by_range(heights.everywhere)}};
+}
+
 Json per_scan(const MethodResult& result) {
   Json scans = Json::array();
   for (const ScanScore& scan : result.scans) {
     Json entry = {{"scan", scan.scan}};
     entry.update(shares(scan.score.points));
     entry["milliseconds"] = or_null(scan.segment_ms);
+    if (scan.heights) entry["heights"] = heights_json(*scan.heights);
     scans.push_back(std::move(entry));
   }
   return scans;
@@ -76,6 +120,7 @@ Json to_json(const MethodResult& result) {
   json["by_range"] = by_range(result);
   json["by_area"] = pooled_shares(result.by_area);
   json["by_area"]["cells"] = result.by_area.total();
+  if (result.heights) json["heights"] = heights_json(*result.heights);
   json["hz"] = or_null(result.hz);
   json["hz_slowest_1_percent"] = or_null(result.hz_slowest_1_percent);
   json["worst"] = Json::array();

@@ -157,6 +157,38 @@ std::string range_table(const Results& results, const TextStyle& style) {
   return table(results, columns, style);
 }
 
+std::string height_table(const Results& results, HeightFiguresByRange HeightResult::* points,
+                         const TextStyle& style) {
+  constexpr double centimetres = 100;
+  std::vector<std::string> headings;
+  float from = 0;
+  for (const float to : height_bands) {
+    headings.push_back(fmt::format("{}-{} m", from, to));
+    from = to;
+  }
+  std::vector<Column> columns;
+  for (std::size_t band = 0; band < headings.size(); ++band) {
+    const auto add = [&](std::string_view heading, int width, auto value, bool small_is_good,
+                         bool has_best) {
+      const auto of_method = [points, band, value](const MethodResult& r) -> std::optional<double> {
+        return r.heights ? value(((*r.heights).*points).by_range[band]) : std::nullopt;
+      };
+      columns.push_back({heading, width, 2, of_method, small_is_good, has_best});
+    };
+    const auto mean_of = [](Spread HeightFigures::* figure) {
+      return [figure](const HeightFigures& figures) -> std::optional<double> {
+        if (figures.scans == 0) return std::nullopt;
+        return centimetres * (figures.*figure).mean;
+      };
+    };
+    add(headings[band], 11, mean_of(&HeightFigures::median), true, true);
+    add("95 %", 7, mean_of(&HeightFigures::percentile95), true, true);
+    add("bias", 7, mean_of(&HeightFigures::bias), true, false);
+    add("share", 7, [](const auto& figures) { return in_percent(figures.share); }, false, true);
+  }
+  return table(results, columns, style);
+}
+
 std::string worst_table(const Results& results, std::size_t count) {
   std::string text;
   for (const MethodResult& result : results.methods) {

@@ -14,6 +14,7 @@
 
 #include "core/stopwatch.hpp"
 #include "eval/method_runner.hpp"
+#include "io/height_files.hpp"
 #include "io/message.hpp"
 
 namespace flagstone::eval {
@@ -69,7 +70,12 @@ Status ScanEvaluator::read(const LabelledScan& scan) {
   if (Status status = io::read_cloud(scan.points, read_options_, cloud_); !status.ok()) {
     return status;
   }
-  return io::read_reference(scan.labels, cloud_.size(), classes_);
+  if (Status status = io::read_reference(scan.labels, cloud_.size(), classes_); !status.ok()) {
+    return status;
+  }
+  ground_.clear();
+  if (scan.ground.empty()) return {};
+  return io::read_height_file(scan.ground, cloud_.size(), ground_);
 }
 
 Status ScanEvaluator::segment(Worker& worker, std::optional<double>& segment_ms) {
@@ -115,6 +121,10 @@ std::span<const Label> ScanEvaluator::labels_of(const Worker& worker) const {
   return worker.method->config ? result_.labels() : std::span<const Label>(found_);
 }
 
+bool ScanEvaluator::has_heights_to_score(const Worker& worker) const {
+  return worker.method->config && !ground_.empty() && !result_.heights().empty();
+}
+
 void ScanEvaluator::evaluate(const LabelledScan& scan, Worker& worker, ScanOutcome& outcome) {
   MethodOutcome& made = outcome.methods.emplace_back();
   Stopwatch watch;
@@ -127,6 +137,9 @@ void ScanEvaluator::evaluate(const LabelledScan& scan, Worker& worker, ScanOutco
   }
   watch.lap();
   made.score = truth_.score(labels_of(worker));
+  if (has_heights_to_score(worker)) {
+    made.heights = score_heights(cloud_.view(), truth_.truth(), ground_, result_.heights());
+  }
   outcome.score_ms += watch.lap();
 }
 

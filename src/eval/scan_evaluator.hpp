@@ -41,6 +41,7 @@ class ScanEvaluator {
   Status read_labels(const LabelledScan& scan, const Method& method);
   Status label(const LabelledScan& scan, Worker& worker, std::optional<double>& segment_ms);
   [[nodiscard]] std::span<const Label> labels_of(const Worker& worker) const;
+  [[nodiscard]] bool has_heights_to_score(const Worker& worker) const;
   void evaluate(const LabelledScan& scan, Worker& worker, ScanOutcome& outcome);
 
   const Protocol& protocol_;
@@ -48,6 +49,7 @@ class ScanEvaluator {
   std::vector<Worker> workers_;
   io::Cloud cloud_;
   std::vector<std::uint32_t> classes_;
+  std::vector<float> ground_;  // true height of the ground at each point; empty where unknown
   ScanTruth truth_;
   Segmentation result_;
   std::vector<Label> found_;  // by another program

@@ -62,6 +62,39 @@ std::string pooled_table(const Json& results) {
   return table(results.at("methods"), columns);
 }
 
+// Errors of heights over one set of points ("ground", "everywhere") in each band of range.
+std::string height_table(const Json& methods, const Json& bands, std::string_view points) {
+  using enum Format;
+  std::vector<Column> columns = {{"", "Method", "/title", text, false}};
+  for (std::size_t band = 0; band < bands.size(); ++band) {
+    const std::string group = fmt::format("{}, cm", band_text(bands[band]));
+    const auto path = [&](std::string_view figure) {
+      return fmt::format("/heights/{}/by_range/{}/{}", points, band, figure);
+    };
+    columns.push_back({group, "Median", path("median/mean"), length, true});
+    columns.push_back({group, "95 %", path("percentile95/mean"), length, true});
+    columns.push_back({group, "Bias", path("bias/mean"), length, false});
+    columns.push_back({group, "Share, %", path("with_height"), percent, true});
+  }
+  return table(methods, columns);
+}
+
+std::string height_section(const Json& methods) {
+  const auto has_heights = [](const Json& method) { return method.contains("heights"); };
+  const auto first = std::ranges::find_if(methods, has_heights);
+  if (first == methods.end()) return {};
+  const Json& bands = first->at("heights").at("ground").at("by_range");
+  return fmt::format(
+      "<section>\n<h2>Heights above the ground</h2>\n<h3>Points of the ground</h3>\n{}"
+      "<h3>All points</h3>\n{}"
+      "<p class=\"note\">Against the true ground, by distance from the sensor; means over the "
+      "scans. Median and 95 %: half of the points, and 95 in a hundred, have an absolute error of "
+      "at most that. Bias: mean error, above 0 where the ground is put too low. Share: points for "
+      "which the method has a height. All points: also those on what hides the ground.</p>\n"
+      "</section>\n",
+      height_table(methods, bands, "ground"), height_table(methods, bands, "everywhere"));
+}
+
 std::string f1_of_scan(const Json& method, const std::string& name) {
   for (const Json& scan : method.at("per_scan"))
     if (scan.at("scan") == name) return percent_text(scan.at("f1"));
@@ -125,15 +158,21 @@ std::string eval_report(const Json& results, std::span<const ReportPicture> pict
   const std::string fact_list = facts(results);
   const std::string methods_html = method_table(methods);
   const std::string pooled_html = pooled_table(results);
+  const std::string heights_html = height_section(methods);
   const std::string worst_html = worst_scans(methods);
   const std::string failed_html = failed_scans(results.at("failed"));
   const std::string pictures_html = picture_gallery(pictures);
   const std::string rows = std::to_string(methods.size());
   const std::array slots = {
-      Slot{"heading", heading},           Slot{"facts", fact_list},
-      Slot{"method_table", methods_html}, Slot{"pooled_table", pooled_html},
-      Slot{"worst", worst_html},          Slot{"failed", failed_html},
-      Slot{"pictures", pictures_html},    Slot{"rows", rows},
+      Slot{"heading", heading},
+      Slot{"facts", fact_list},
+      Slot{"method_table", methods_html},
+      Slot{"pooled_table", pooled_html},
+      Slot{"heights", heights_html},
+      Slot{"worst", worst_html},
+      Slot{"failed", failed_html},
+      Slot{"pictures", pictures_html},
+      Slot{"rows", rows},
   };
   return page(title, fill(embedded::eval_html, slots), eval_plot_data(results), embedded::eval_js);
 }

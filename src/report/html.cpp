@@ -43,6 +43,11 @@ std::string percent_text(const nlohmann::ordered_json& share) {
   return fmt::format("{:.2f}", 100 * share.get<double>());
 }
 
+std::string centimetre_text(const nlohmann::ordered_json& metres) {
+  if (!metres.is_number()) return std::string(no_number);
+  return fmt::format("{:.2f}", 100 * metres.get<double>());
+}
+
 std::string number_text(const nlohmann::ordered_json& number) {
   if (!number.is_number()) return std::string(no_number);
   const double value = number.get<double>();

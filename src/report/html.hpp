@@ -21,6 +21,9 @@ inline constexpr std::string_view no_number = "–";
 /// A share, 0 to 1, in per cent with two decimals: "95.12"; no_number where `share` is no number.
 std::string percent_text(const nlohmann::ordered_json& share);
 
+/// A length in metres in centimetres with two decimals: "1.85"; no_number where it is none.
+std::string centimetre_text(const nlohmann::ordered_json& metres);
+
 /// A count or a rate with one decimal below 1,000: "55.2", "1240"; no_number where it is none.
 std::string number_text(const nlohmann::ordered_json& number);
 

@@ -67,13 +67,15 @@ Json eval_plot_data(const Json& results) {
   return {{"scans", scans.names()}, {"bands", range_bands(results)}, {"methods", methods}};
 }
 
+std::string band_text(const Json& band) {
+  return fmt::format("{:g}–{:g} m", band.at("from").get<double>(), band.at("to").get<double>());
+}
+
 std::vector<std::string> range_bands(const Json& results) {
   std::vector<std::string> bands;
   for (const Json& method : results.at("methods")) {
     if (!bands.empty()) break;
-    for (const Json& band : method.at("by_range"))
-      bands.push_back(
-          fmt::format("{:g}–{:g} m", band.at("from").get<double>(), band.at("to").get<double>()));
+    for (const Json& band : method.at("by_range")) bands.push_back(band_text(band));
   }
   return bands;
 }

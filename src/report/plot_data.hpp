@@ -13,6 +13,9 @@ namespace flagstone::report {
 /// (F1 per scan; null where the method has none). Shares as in the results, 0 to 1.
 nlohmann::ordered_json eval_plot_data(const nlohmann::ordered_json& results);
 
+/// A band of range as text: "0–10 m".
+std::string band_text(const nlohmann::ordered_json& band);
+
 /// The range bands of the first method that has some, as text: "0–10 m".
 std::vector<std::string> range_bands(const nlohmann::ordered_json& results);
 

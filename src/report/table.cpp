@@ -25,6 +25,7 @@ std::string shown(const Json& value, Format format) {
     case Format::text: return value.is_string() ? escaped(value.get<std::string>()) : "";
     case Format::percent: return percent_text(value);
     case Format::number: return number_text(value);
+    case Format::length: return centimetre_text(value);
   }
   return {};
 }
@@ -53,13 +54,17 @@ std::string headings(std::span<const Column> columns) {
   return "<tr>" + html + "</tr>\n";
 }
 
-// The highest value as it is shown: what looks equal counts as equally good.
-std::string highest(const Json& rows, const Column& column) {
+// The best value as it is shown: what looks equal counts as equally good.
+std::string best_shown(const Json& rows, const Column& column) {
+  const bool low_is_good = column.format == Format::length;
   Json best;
   for (const Json& row : rows) {
     const Json value = value_at(row, column.path);
     if (!value.is_number()) continue;
-    if (best.is_null() || value.get<double>() > best.get<double>()) best = value;
+    const bool is_better =
+        best.is_null() || (low_is_good ? value.get<double>() < best.get<double>()
+                                       : value.get<double>() > best.get<double>());
+    if (is_better) best = value;
   }
   return best.is_null() ? "" : shown(best, column.format);
 }
@@ -67,8 +72,8 @@ std::string highest(const Json& rows, const Column& column) {
 std::string cell(const Json& value, const Column& column, const std::string& best) {
   const std::string text = shown(value, column.format);
   if (column.format == Format::text) return fmt::format("<th scope=\"row\">{}</th>", text);
-  return column.mark_highest && text == best ? fmt::format("<td><b>{}</b></td>", text)
-                                             : fmt::format("<td>{}</td>", text);
+  return column.mark_best && text == best ? fmt::format("<td><b>{}</b></td>", text)
+                                          : fmt::format("<td>{}</td>", text);
 }
 
 }  // namespace
@@ -79,10 +84,10 @@ std::string table(const Json& rows, std::span<const Column> columns) {
   if (std::ranges::any_of(columns, has_group)) html += group_headings(columns);
   html += headings(columns) + "</thead>\n<tbody>\n";
 
-  // Of one row, nothing is the highest.
+  // Of one row, nothing is the best.
   std::vector<std::string> best;
   for (const Column& column : columns)
-    best.push_back(column.mark_highest && rows.size() > 1 ? highest(rows, column) : "");
+    best.push_back(column.mark_best && rows.size() > 1 ? best_shown(rows, column) : "");
   for (const Json& row : rows) {
     html += "<tr>";
     for (std::size_t i = 0; i < columns.size(); ++i)

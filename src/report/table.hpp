@@ -13,6 +13,7 @@ enum class Format : std::uint8_t {
   text,     ///< a name, the row's heading
   percent,  ///< a share, 0 to 1, shown in per cent
   number,   ///< a count or a rate
+  length,   ///< metres, shown in centimetres
 };
 
 /// A column of a table whose rows are objects.
@@ -21,7 +22,7 @@ struct Column {
   std::string heading;
   std::string path;  ///< JSON pointer from the row to the value, "/f1/mean"
   Format format;
-  bool mark_highest;  ///< sets the highest value in bold
+  bool mark_best;  ///< sets the best value in bold: the highest, of lengths the lowest
 };
 
 /// An HTML table with a row per element of `rows`, an array. Values that are missing or null show

@@ -27,6 +27,9 @@ class Drive {
   /// The sensor in the world at each stop.
   [[nodiscard]] const std::vector<Frame>& poses() const noexcept { return poses_; }
 
+  /// Steps of the ground that the scene lists; none in most.
+  [[nodiscard]] const std::vector<GroundStep>& steps() const noexcept { return landscape_.steps; }
+
   /// The world, ready for scan(): the same on every call, a good part of a second of work.
   [[nodiscard]] Scene scene() const;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "sim/mesh.hpp"
@@ -36,6 +37,12 @@ class Ground {
 
   /// Does the grid cover the place?
   [[nodiscard]] bool covers(double x, double y) const noexcept;
+
+  /// How far along the ray from `origin` the ground is met first, in lengths of `direction`: exact
+  /// but for rounding, 0 on the ground itself. Nothing where the ray begins off the grid or leaves
+  /// it before.
+  [[nodiscard]] std::optional<double> first_crossing(Vector3 origin,
+                                                     Vector3 direction) const noexcept;
 
   /// Adds the ground's triangles.
   void add_to(Mesh& mesh) const;

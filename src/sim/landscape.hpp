@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/ground.hpp"
+#include "sim/ground_step.hpp"
 #include "sim/mesh.hpp"
 #include "sim/route.hpp"
 
@@ -17,6 +18,7 @@ struct Landscape {
   Ground ground;
   std::vector<Stop> route;
   std::function<Mesh(const Ground&)> furnish;  ///< the same mesh on every call
+  std::vector<GroundStep> steps{};             ///< those that are known, of scenes that list them
 };
 
 }  // namespace flagstone::sim

@@ -18,6 +18,7 @@ constexpr std::array kinds{
               bushes_and_lawn},
     SceneKind{"bumpy_field", "open terrain without a road: bumps, slopes, banks, dips",
               bumpy_field},
+    SceneKind{"steps", "road with known kerbs, ditches, drop-offs, stairs, embankments", steps},
 };
 
 }  // namespace

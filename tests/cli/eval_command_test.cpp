@@ -24,6 +24,7 @@
 #include "cli/labelled_scans.hpp"
 #include "cli/line_matchers.hpp"
 #include "io/file_contents.hpp"
+#include "io/height_files.hpp"
 #include "io/label_files.hpp"
 #include "io/temporary_folder.hpp"
 
@@ -200,6 +201,30 @@ TEST_F(EvalCommand, JsonAgreesWithCountsMadeByHand) {
   EXPECT_EQ(method["pooled"]["points"], 9000);
   EXPECT_EQ(method["by_range"][1]["from"], 10);
   EXPECT_EQ(method["by_range"][1]["to"], 20);
+}
+
+TEST_F(EvalCommand, TrueHeightsChangeNothingForMethodsThatGiveNone) {
+  const json before = without_times(results("kitti"));
+  fs::create_directory(folder_ / "kitti/ground");
+  for (const std::string name : {"a", "b", "c"}) {
+    const Status status = io::write_height_file(folder_ / "kitti/ground" / (name + ".npy"),
+                                                std::vector<float>(scan(name).size(), -1.7F));
+    ASSERT_TRUE(status.ok()) << status.message();
+  }
+
+  EXPECT_EQ(without_times(results("kitti")), before);
+}
+
+TEST_F(EvalCommand, TrueHeightsOfAnotherScanCostThatScanAndOneLine) {
+  fs::create_directory(folder_ / "kitti/ground");
+  ASSERT_TRUE(io::write_height_file(folder_ / "kitti/ground/b.npy", std::vector<float>(7)).ok());
+
+  const Outcome outcome = eval("kitti");
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, AllOf(is_one_line_with("ground/b.npy"), HasSubstr("7 heights"),
+                                 HasSubstr("3000 points")));
+  EXPECT_EQ(json_of(folder_ / "results.json")["scans"], 2);
 }
 
 TEST_F(EvalCommand, OneScanHasNoDeviationAndNoInterval) {

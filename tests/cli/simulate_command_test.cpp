@@ -18,6 +18,8 @@
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
 #include "io/file_contents.hpp"
+#include "io/height_files.hpp"
+#include "io/status_matchers.hpp"
 #include "io/temporary_folder.hpp"
 
 namespace flagstone::cli {
@@ -51,7 +53,8 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
   EXPECT_THAT(outcome.out, HasSubstr("2 frames in 1 drive, 2 simulated, 0 kept"));
   const fs::path sequence = folder / "out" / "sequences" / "07";
   EXPECT_THAT(names_below(folder / "out"),
-              ElementsAre("sequences/07/calib.txt", "sequences/07/labels/000000.label",
+              ElementsAre("sequences/07/calib.txt", "sequences/07/ground/000000.npy",
+                          "sequences/07/ground/000001.npy", "sequences/07/labels/000000.label",
                           "sequences/07/labels/000001.label", "sequences/07/poses.txt",
                           "sequences/07/scene.json", "sequences/07/velodyne/000000.bin",
                           "sequences/07/velodyne/000001.bin"));
@@ -60,6 +63,9 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
     const std::size_t points = files["velodyne/" + frame + ".bin"].size() / 16;
     EXPECT_GT(points, 50'000U);
     EXPECT_EQ(files["labels/" + frame + ".label"].size(), 4 * points);
+    std::vector<float> ground;
+    EXPECT_THAT(io::read_height_file(sequence / "ground" / (frame + ".npy"), points, ground),
+                io::is_ok());
   }
   EXPECT_NE(files["velodyne/000000.bin"], files["velodyne/000001.bin"]);
   EXPECT_THAT(files["calib.txt"], HasSubstr("Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n"));
@@ -86,13 +92,14 @@ TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
       simulate(folder / "resumed", "bumpy_field", {"--frames", "4", "--threads", "2"});
   fs::remove(resumed / "velodyne" / "000001.bin");
   fs::resize_file(resumed / "labels" / "000002.label", 1000);
+  fs::remove(resumed / "ground" / "000003.npy");
   const Outcome finished =
       simulate(folder / "resumed", "bumpy_field", {"--frames", "12", "--threads", "2"});
 
   EXPECT_EQ(whole.exit_code, 0) << whole.err;
   EXPECT_EQ(begun.exit_code, 0) << begun.err;
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_THAT(finished.out, HasSubstr("12 frames in 2 drives, 10 simulated, 2 kept"));
+  EXPECT_THAT(finished.out, HasSubstr("12 frames in 2 drives, 11 simulated, 1 kept"));
   const auto expected = files_below(folder / "whole");
   const auto files = files_below(folder / "resumed");
   EXPECT_THAT(files, SizeIs(expected.size()));
@@ -119,6 +126,7 @@ TEST(SimulateCommand, FinishesTheFramesInHandWhenInterrupted) {
     if (!name.ends_with(".bin")) continue;
     const std::string stem = fs::path(name).stem().string();
     EXPECT_EQ(4 * files["labels/" + stem + ".label"].size(), contents.size()) << name;
+    EXPECT_TRUE(files.contains("ground/" + stem + ".npy")) << name;
     ++frames;
   }
   EXPECT_GT(frames, 0U);
@@ -133,7 +141,7 @@ TEST(SimulateCommand, AnUnknownSceneIsOneLineWithThoseThereAre) {
 
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, is_one_line_with("there is no 'moon'; choose flat_street, steep_street, "
-                                            "parked_cars, bushes_and_lawn, bumpy_field"));
+                                            "parked_cars, bushes_and_lawn, bumpy_field, steps"));
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 

@@ -57,6 +57,17 @@ TEST_F(Dataset, ASemanticKittiTreeIsListedSequenceBySequence) {
   EXPECT_THAT(names(), ElementsAre("00/000007", "05/000000", "05/000001"));
 }
 
+TEST_F(Dataset, TrueGroundIsFoundBesideTheLabels) {
+  put_pairs("sequences/00", {"000000", "000001"});
+  put("sequences/00/ground/000001.npy");
+  std::vector<LabelledScan> scans;
+
+  ASSERT_TRUE(list_dataset(folder_.path(), {}, scans).ok());
+
+  EXPECT_THAT(scans[0].ground, fs::path());
+  EXPECT_THAT(scans[1].ground, folder_ / "sequences/00/ground/000001.npy");
+}
+
 TEST_F(Dataset, SequencesArePickedAndScansStrided) {
   put_pairs("sequences/05", {"000000", "000001", "000002", "000003", "000004"});
   put_pairs("sequences/10", {"000000", "000001"});

@@ -23,6 +23,10 @@ ScanOutcome outcome_with(double true_positives) {
   made.score.by_area = {0.125, 0.25, 0.5, 1.0 / 3};
   made.score.by_range[2] = {5, 6, 7, 8};
   made.segment_ms = 1.1;
+  made.heights.emplace();
+  made.heights->ground.by_range[1] = {
+      .points = 7, .given = 6, .median = 1.0 / 3, .percentile95 = 0.5, .bias = -0.25};
+  made.heights->everywhere.all.points = 8;
   ScanOutcome outcome;
   outcome.methods = {made, made};
   outcome.read_ms = 0.1;
@@ -61,6 +65,26 @@ TEST_F(JournalFile, GivesBackWhatWasAddedBitForBit) {
   EXPECT_EQ(score.by_area.true_negatives, 1.0 / 3);
   EXPECT_EQ(score.by_range[2].false_negatives, 7);
   EXPECT_EQ(outcome.methods[0].segment_ms, 1.1);
+  ASSERT_TRUE(outcome.methods[0].heights);
+  const HeightErrors& heights = outcome.methods[0].heights->ground.by_range[1];
+  EXPECT_EQ(heights.points, 7U);
+  EXPECT_EQ(heights.given, 6U);
+  EXPECT_EQ(heights.median, 1.0 / 3);
+  EXPECT_EQ(heights.percentile95, 0.5);
+  EXPECT_EQ(heights.bias, -0.25);
+  EXPECT_EQ(outcome.methods[0].heights->everywhere.all.points, 8U);
+}
+
+TEST_F(JournalFile, KeepsScansWithoutHeightsAsTheyAre) {
+  ScanOutcome without = outcome_with(1);
+  for (MethodOutcome& method : without.methods) method.heights.reset();
+  {
+    Journal journal;
+    ASSERT_TRUE(journal.start(file_, "one").ok());
+    journal.add("a", without);
+  }
+
+  EXPECT_FALSE(resumed("one").at("a").methods[0].heights);
 }
 
 TEST_F(JournalFile, ALineCutShortCostsItsScanOnly) {

@@ -155,6 +155,95 @@ TEST_F(ThreeScans, AScanWithoutAScoredPointCountsNowhere) {
   EXPECT_DOUBLE_EQ(results.methods[0].f1.mean, made(90, 10, 1).score.points.f1());
 }
 
+HeightErrors errors(std::size_t given, double median, double bias) {
+  return {.points = 4, .given = given, .median = median, .percentile95 = 2 * median, .bias = bias};
+}
+
+/// The first method has heights: within 20 m on both scans, from 20 to 40 m on the second alone,
+/// beyond on none.
+class ScansWithHeights : public ThreeScans {
+ protected:
+  ScansWithHeights() {
+    HeightScore near;
+    near.ground.by_range = {errors(4, 0.01, 0.002), errors(0, 0, 0), HeightErrors()};
+    HeightScore far;
+    far.ground.by_range = {errors(2, 0.03, -0.004), errors(3, 0.05, 0.01), HeightErrors()};
+    far.everywhere.by_range[0] = errors(1, 0.2, 0);
+    outcomes_[0]->methods[0].heights = near;
+    outcomes_[2]->methods[0].heights = far;
+    results_ = gather(methods_, scans_, outcomes_);
+  }
+};
+
+TEST_F(ScansWithHeights, FiguresAreMeansOverTheScansThatHaveAny) {
+  ASSERT_TRUE(results_.methods[0].heights);
+  const HeightFiguresByRange& ground = results_.methods[0].heights->ground;
+
+  EXPECT_DOUBLE_EQ(ground.by_range[0].median.mean, 0.02);
+  EXPECT_DOUBLE_EQ(ground.by_range[0].percentile95.mean, 0.04);
+  EXPECT_DOUBLE_EQ(ground.by_range[0].bias.mean, -0.001);
+  EXPECT_EQ(ground.by_range[0].scans, 2U);
+  EXPECT_DOUBLE_EQ(ground.by_range[1].median.mean, 0.05);
+  EXPECT_EQ(ground.by_range[1].scans, 1U);
+  EXPECT_EQ(ground.by_range[2].scans, 0U);
+}
+
+TEST_F(ScansWithHeights, SharesAreOverThePointsOfAllScans) {
+  const HeightFiguresByRange& ground = results_.methods[0].heights->ground;
+
+  EXPECT_EQ(ground.by_range[0].share, 6.0 / 8);
+  EXPECT_EQ(ground.by_range[1].share, 3.0 / 8);
+  EXPECT_EQ(ground.by_range[2].share, std::nullopt);
+}
+
+TEST_F(ScansWithHeights, JsonHoldsThemOfMethodsThatHaveSome) {
+  const nlohmann::ordered_json json = to_json(results_);
+
+  const auto& ground = json["methods"][0]["heights"]["ground"];
+  ASSERT_EQ(ground["by_range"].size(), 3U);
+  EXPECT_EQ(ground["by_range"][1]["from"], 20);
+  EXPECT_EQ(ground["by_range"][1]["to"], 40);
+  EXPECT_EQ(ground["by_range"][0]["median"]["mean"], 0.02);
+  EXPECT_EQ(ground["by_range"][0]["percentile95"]["mean"], 0.04);
+  EXPECT_EQ(ground["by_range"][0]["with_height"], 0.75);
+  EXPECT_TRUE(ground["by_range"][2]["median"]["mean"].is_null());
+  EXPECT_TRUE(ground["by_range"][2]["with_height"].is_null());
+  const auto& scan = json["methods"][0]["per_scan"][1]["heights"];
+  EXPECT_EQ(scan["ground"]["by_range"][0]["bias"], -0.004);
+  EXPECT_EQ(scan["everywhere"]["by_range"][0]["median"], 0.2);
+  EXPECT_FALSE(json["methods"][1].contains("heights"));
+}
+
+TEST_F(ScansWithHeights, CsvHasThemBehindAllOtherCells) {
+  const std::string csv = to_csv(results_);
+
+  EXPECT_THAT(csv, HasSubstr(",milliseconds,height_median_0_20m,height_percentile95_0_20m,"
+                             "height_bias_0_20m,height_share_0_20m,height_median_20_40m,"));
+  EXPECT_THAT(csv, HasSubstr(",0.010000,0.020000,0.002000,1.000000,,,,0.000000,,,,\r\n"));
+  EXPECT_THAT(csv, HasSubstr("second,a,"));
+  const std::string second = csv.substr(csv.find("second,a,"));
+  EXPECT_THAT(second, testing::EndsWith(",4.0000,,,,,,,,,,,,\r\n"));
+}
+
+TEST_F(ScansWithHeights, TextIsInCentimetresWithADashForWhatIsNot) {
+  const std::string table = height_table(results_, &HeightResult::ground, {});
+
+  EXPECT_THAT(table, AllOf(HasSubstr("0-20 m"), HasSubstr("20-40 m"), HasSubstr("40-80 m")));
+  EXPECT_THAT(table.substr(table.find("first")),
+              testing::MatchesRegex("first +2\\.00[ *]+4\\.00[ *]+-0\\.10[ *]+75\\.00[ *]+"
+                                    "5\\.00[ *]+10\\.00[ *]+1\\.00[ *]+37\\.50[ *]+"
+                                    "- +- +- +- +\nsecond[ -]+\n(.|\n)*"));
+}
+
+TEST_F(ThreeScans, SayNothingOfHeightsWhereNoneAreKnown) {
+  const nlohmann::ordered_json json = to_json(results_);
+
+  EXPECT_FALSE(has_heights(results_));
+  EXPECT_FALSE(json["methods"][0].contains("heights"));
+  EXPECT_FALSE(json["methods"][0]["per_scan"][0].contains("heights"));
+  EXPECT_THAT(to_csv(results_), HasSubstr(",f1_by_area,milliseconds\r\n"));
+}
+
 TEST(SpeedTable, PutsThePapersFiguresBesideOurs) {
   std::vector<Method> methods(1);
   methods[0].name = methods[0].title = "patchwork";

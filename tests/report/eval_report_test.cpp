@@ -92,6 +92,39 @@ TEST(EvalReport, ShowsADashForTheSpeedOfLabelsMadeElsewhere) {
   EXPECT_EQ(occurrences(body_of(eval_report(results, {})), "<td>–</td>"), 2);
 }
 
+// Heights of one method, with this median error within 20 m, metres.
+Json heights_with(double median) {
+  const auto band = [&](int from, int to) {
+    return Json{{"from", from},
+                {"to", to},
+                {"with_height", 0.987},
+                {"median", {{"mean", median}}},
+                {"percentile95", {{"mean", 0.0812}}},
+                {"bias", {{"mean", -0.0034}}}};
+  };
+  const Json points = {{"by_range", {band(0, 20), band(20, 40)}}};
+  return {{"ground", points}, {"everywhere", points}};
+}
+
+TEST(EvalReport, ShowsErrorsOfHeightsInCentimetresTheLowestInBold) {
+  Json results = example_eval(3, 10);
+  results["methods"][0]["heights"] = heights_with(0.0123);
+  results["methods"][1]["heights"] = heights_with(0.0234);
+
+  const std::string body = body_of(eval_report(results, {}));
+
+  EXPECT_THAT(body, HasSubstr("Heights above the ground"));
+  EXPECT_THAT(body, HasSubstr("20–40 m, cm"));
+  EXPECT_THAT(body, HasSubstr("<td><b>1.23</b></td><td><b>8.12</b></td><td>-0.34</td>"));
+  EXPECT_THAT(body, HasSubstr("<td>2.34</td><td><b>8.12</b></td>"));
+  EXPECT_THAT(body, HasSubstr("<b>98.70</b>"));
+  EXPECT_THAT(body, HasSubstr("<td>–</td>")) << "of the method without heights";
+}
+
+TEST(EvalReport, SaysNothingOfHeightsWhereThereAreNone) {
+  EXPECT_THAT(body_of(eval_report(example_eval(2, 10), {})), Not(HasSubstr("Heights")));
+}
+
 TEST(EvalReport, ListsTheWorstScansWithTheirF1) {
   Json results = example_eval(1, 10);
   results["methods"][0]["worst"] = {"00/000003"};

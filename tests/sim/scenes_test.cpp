@@ -10,6 +10,8 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "sim/drive.hpp"
 #include "sim/scene_kind.hpp"
@@ -134,11 +136,11 @@ TEST_P(EveryScene, StopsLieFrameSpacingApartAtTheSensorsHeight) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene,
                          testing::Values("flat_street", "steep_street", "parked_cars",
-                                         "bushes_and_lawn", "bumpy_field"),
+                                         "bushes_and_lawn", "bumpy_field", "steps"),
                          [](const auto& scene) { return scene.param; });
 
 TEST(SceneKinds, AreFoundByTheirNames) {
-  EXPECT_EQ(scene_kinds().size(), 5U);
+  EXPECT_EQ(scene_kinds().size(), 6U);
   for (const SceneKind& kind : scene_kinds()) EXPECT_EQ(find_scene_kind(kind.name), &kind);
   EXPECT_EQ(find_scene_kind("moon"), nullptr);
   EXPECT_EQ(find_scene_kind(""), nullptr);
@@ -274,6 +276,40 @@ TEST(BumpyField, MakesTheVehiclePitchAndRoll) {
 
   EXPECT_GT(std::sqrt(pitch / stops) * degrees, 3);
   EXPECT_GT(std::sqrt(roll / stops) * degrees, 3);
+}
+
+TEST(Steps, ListsRisesThatTheGroundHasFromEndToEnd) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Landscape land = kind_named("steps").make(seed);
+    for (const GroundStep& step : land.steps) {
+      for (const double share : {0.001, 0.5, 0.999}) {
+        const double x = step.x_begin + share * (step.x_end - step.x_begin);
+        const double rise = land.ground.height(x, step.y_end) - land.ground.height(x, step.y_begin);
+        EXPECT_NEAR(rise, step.rise, 1e-9) << step.kind << " at " << x;
+      }
+    }
+  }
+}
+
+TEST(Steps, HasEveryKindBesideTheRouteWhateverTheSeed) {
+  const std::vector<std::pair<std::string_view, double>> kinds{
+      {"kerb, 5 cm up", 0.05},        {"kerb, 10 cm up", 0.1},
+      {"kerb, 15 cm up", 0.15},       {"ditch, 60 cm down", -0.6},
+      {"ditch, 60 cm up again", 0.6}, {"retaining wall, 1 m down", -1},
+      {"stairs, 5 x 16 cm up", 0.8},  {"embankment, 1.5 m up", 1.5}};
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Landscape land = kind_named("steps").make(seed);
+    for (const auto& [kind, rise] : kinds) {
+      EXPECT_TRUE(std::ranges::any_of(land.steps,
+                                      [&](const GroundStep& step) {
+                                        return step.kind == kind &&
+                                               std::abs(step.rise - rise) < 1e-9 &&
+                                               step.x_begin < half_drive + 30 &&
+                                               step.x_end > -half_drive - 30;
+                                      }))
+          << kind << ", seed " << seed;
+    }
+  }
 }
 
 TEST(Drive, ScansAreTheSameWhenTheWorldIsBuiltAgain) {

@@ -28,4 +28,8 @@ Landscape bushes_and_lawn(std::uint64_t seed);
 /// earth between grass, few plants, a fence. The vehicle pitches and rolls.
 Landscape bumpy_field(std::uint64_t seed);
 
+/// A straight road with edges of known shape, another every 15 m on either side: kerbs, a ditch, a
+/// retaining wall down, stairs, an embankment; the steps are listed in the landscape.
+Landscape steps(std::uint64_t seed);
+
 }  // namespace flagstone::sim

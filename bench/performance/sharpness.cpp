@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+//
+// How sharp the surface of a method shows steps of known shape: kerbs, ditches, drops, stairs of
+// the simulated scene `steps`. Prints Markdown.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <flagstone/make_segmenter.hpp>
+#include <flagstone/segmentation.hpp>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "sim/drive.hpp"
+#include "sim/scene_kind.hpp"
+#include "sim/step_view.hpp"
+#include "terminal.hpp"
+
+namespace flagstone::performance {
+namespace {
+
+/// Upper ends of the bands of range, metres.
+constexpr std::array<double, 3> bands = {10, 20, 40};
+
+/// Views of one kind of step in one band of range, with the truth in the same place.
+struct Views {
+  std::size_t places = 0;  ///< whether seen or not
+  std::size_t seen =
+      0;  ///< the sensor has points of the ground on either side; all below is of these
+  std::size_t known = 0;  ///< the surface has a height on either side
+  std::size_t found = 0;  ///< it has half of the rise or more
+  std::vector<double> true_rise, rise, true_width, width;  ///< metres; widths where it is found
+};
+
+struct KindOfStep {
+  std::string_view name;
+  std::array<Views, bands.size()> by_range;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+std::vector<float> ground_points(const sim::SimulatedScan& scan) {
+  std::vector<float> points;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!sim::is_ground(static_cast<sim::SemanticClass>(scan.classes[i]))) continue;
+    points.insert(points.end(), {scan.xyzi[4 * i], scan.xyzi[4 * i + 1]});
+  }
+  return points;
+}
+
+/// Looks at all steps around the stops of drives.
+class StepSurvey {
+ public:
+  explicit StepSurvey(std::string_view method)
+      : method_(method), segmenter_(make_segmenter(method)) {}
+
+  void add_drive(std::uint64_t seed) {
+    const sim::Drive drive(*sim::find_scene_kind("steps"), sim::hdl_64e(), seed);
+    const sim::Scene scene = drive.scene();
+    for (int frame = 0; frame < sim::frames_per_drive; ++frame) {
+      say_on_terminal(fmt::format("drive {}, scan {}", seed, frame));
+      const sim::SimulatedScan scan = drive.scan(scene, sim::Noise{}, frame);
+      if (!segmenter_->segment(CloudView(scan.xyzi.data(), scan.size(), 4), result_).ok()) {
+        throw std::runtime_error("not enough memory");
+      }
+      if (result_.surface().empty()) {
+        throw std::invalid_argument(fmt::format("method {} makes no surface", method_));
+      }
+      add_scan(drive, scene, drive.poses()[static_cast<std::size_t>(frame)], ground_points(scan));
+    }
+    say_on_terminal("");
+  }
+
+  void print() const {
+    fmt::print(
+        "| step | range, m | places | seen, % | known, % | found, % | rise, cm: true | surface | "
+        "width, m: true | surface |\n|---|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+    for (const KindOfStep& kind : kinds_) {
+      double from = 0;
+      for (std::size_t band = 0; band < bands.size(); ++band) {
+        print_row(kind.name, from, bands[band], kind.by_range[band]);
+        from = bands[band];
+      }
+    }
+  }
+
+ private:
+  KindOfStep& kind_named(std::string_view name) {
+    const auto found = std::ranges::find(kinds_, name, &KindOfStep::name);
+    return found == kinds_.end() ? kinds_.emplace_back(KindOfStep{.name = name, .by_range = {}})
+                                 : *found;
+  }
+
+  void add_scan(const sim::Drive& drive, const sim::Scene& scene, const sim::Frame& pose,
+                const std::vector<float>& ground) {
+    const sim::HeightAt truth = sim::true_heights(scene.ground(), pose);
+    const sim::HeightAt found = [this](double x, double y) {
+      return static_cast<double>(
+          result_.surface().height(static_cast<float>(x), static_cast<float>(y)));
+    };
+    for (const sim::GroundStep& step : drive.steps()) {
+      KindOfStep& kind = kind_named(step.kind);
+      for (const sim::StepPlace& place : sim::places_on(step, scene.ground(), pose)) {
+        const auto band = static_cast<std::size_t>(
+            std::ranges::upper_bound(bands, std::hypot(place.x, place.y)) - bands.begin());
+        if (band == bands.size()) continue;
+        Views& views = kind.by_range[band];
+        ++views.places;
+        if (!sim::is_seen(place, ground)) continue;
+        ++views.seen;
+        add(sim::view_step(place, truth), sim::view_step(place, found), views);
+      }
+    }
+  }
+
+  static void add(const sim::StepView& truth, const sim::StepView& found, Views& views) {
+    if (std::isnan(found.rise)) return;
+    ++views.known;
+    views.true_rise.push_back(truth.rise);
+    views.rise.push_back(found.rise);
+    if (found.rise / truth.rise < 0.5) return;
+    ++views.found;
+    if (!truth.width || !found.width) return;
+    views.true_width.push_back(*truth.width);
+    views.width.push_back(*found.width);
+  }
+
+  static void print_row(std::string_view name, double from, double to, const Views& views) {
+    const auto percent = [](std::size_t part, std::size_t of) {
+      return of == 0
+                 ? std::string("-")
+                 : fmt::format("{:.0f}", 100 * static_cast<double>(part) / static_cast<double>(of));
+    };
+    const auto middle = [](const std::vector<double>& values, double unit, int digits) {
+      return values.empty() ? std::string("-")
+                            : fmt::format("{:.{}f}", median(values) * unit, digits);
+    };
+    constexpr double centimetres = 100;
+    fmt::print("| {} | {:.0f}-{:.0f} | {} | {} | {} | {} | {} | {} | {} | {} |\n", name, from, to,
+               views.places, percent(views.seen, views.places), percent(views.known, views.seen),
+               percent(views.found, views.seen), middle(views.true_rise, centimetres, 1),
+               middle(views.rise, centimetres, 1), middle(views.true_width, 1, 2),
+               middle(views.width, 1, 2));
+  }
+
+  std::string method_;
+  std::unique_ptr<Segmenter> segmenter_;
+  Segmentation result_;
+  std::vector<KindOfStep> kinds_;  // in the order in which they are met
+};
+
+int run(const std::string& method, unsigned drives) {
+  StepSurvey survey(method);
+  for (std::uint64_t seed = 1; seed <= drives; ++seed) survey.add_drive(seed);
+  fmt::print(
+      "Steps in the surface of `{}`, {} scans of the scene `steps`, seeds 1 to {}. Rise: from {} m "
+      "before to {} m behind the step; width: from 10 to 90 % of it, where half of it or more is "
+      "found; medians. Seen: places with points of the ground on either side; the rest is of "
+      "these.\n\n",
+      method, drives * sim::frames_per_drive, drives, sim::beside_step, sim::beside_step);
+  survey.print();
+  return 0;
+}
+
+}  // namespace
+}  // namespace flagstone::performance
+
+int main(int argc, char** argv) {
+  const std::string method = argc > 1 ? argv[1] : "surface";
+  const std::string_view count = argc > 2 ? argv[2] : "5";
+  unsigned drives = 0;
+  const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), drives);
+  const bool is_count = error == std::errc() && end == count.data() + count.size();
+  if (argc > 3 || !is_count || drives < 1 || drives > 1000) {
+    std::fputs("usage: sharpness [METHOD [DRIVES]] (10 scans a drive, 1 to 1000 drives)\n", stderr);
+    return 2;
+  }
+  try {
+    return flagstone::performance::run(method, drives);
+  } catch (const std::exception& error_of_run) {
+    std::fprintf(stderr, "sharpness: %s\n", error_of_run.what());
+    return 1;
+  }
+}

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "sim/true_ground.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+namespace flagstone::sim {
+
+std::vector<float> true_ground(const Ground& ground, const Frame& pose,
+                               std::span<const float> xyzi) {
+  constexpr std::size_t columns = 4;
+  std::vector<float> heights;
+  heights.reserve(xyzi.size() / columns);
+  for (std::size_t i = 0; i + columns <= xyzi.size(); i += columns) {
+    const Vector3 point{xyzi[i], xyzi[i + 1], xyzi[i + 2]};
+    const Vector3 world = pose.to_world(point);
+    const double to_ground = world.z > ground.height(world.x, world.y) ? -1 : 1;
+    const std::optional<double> way = ground.first_crossing(world, to_ground * pose.up);
+    heights.push_back(way ? static_cast<float>(point.z + to_ground * *way)
+                          : std::numeric_limits<float>::quiet_NaN());
+  }
+  return heights;
+}
+
+}  // namespace flagstone::sim
