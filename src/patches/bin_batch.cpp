@@ -26,10 +26,13 @@ struct PackedBin {
 /// Some of many points, spread evenly over them.
 struct Sample {
   Sample(std::span<const MovedPoint> points, std::size_t count)
-      : first(points.data()), size(count), stride(((points.size() << 32U) + count - 1) / count) {}
+      : first(points.data()),
+        size(count),
+        stride(((std::uint64_t{points.size()} << 32U) + count - 1) / count) {}
 
-  /// Number j * n / size of n points: with j < size < 2^16 the stride, rounded up, changes none.
-  const MovedPoint& operator[](std::size_t j) const { return first[j * stride >> 32U]; }
+  /// Number j * n / size of n points: that the stride is rounded up changes none while size is less
+  /// than 2^16.
+  const MovedPoint& operator[](std::uint64_t j) const { return first[j * stride >> 32U]; }
 
   const MovedPoint* first;
   std::size_t size;

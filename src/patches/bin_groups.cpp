@@ -10,7 +10,7 @@ namespace {
 
 /// Runs of fewer points than this on average are not worth sorting, to be kept or to move points
 /// by.
-constexpr std::size_t shortest_mean_run(Listing listing) {
+constexpr std::uint64_t shortest_mean_run(Listing listing) {
   return listing == Listing::runs ? 4 : 2;
 }
 
@@ -45,7 +45,7 @@ void BinGroups::reserve(std::size_t points, std::size_t bins) {
     std::fill_n(block_firsts_.data(), blocks + 1, Tally{});
     std::fill_n(block_marks_.data(), blocks, std::uint8_t{0});
   }
-  runs_.reserve(points / shortest_mean_run(listing_) + 1);
+  runs_.reserve(points / static_cast<std::size_t>(shortest_mean_run(listing_)) + 1);
   points_.reserve(points + 16);
 }
 
@@ -54,7 +54,7 @@ void BinGroups::group(const ScanPoints& scan, std::size_t point_count,
   const std::size_t chunks = ScanPoints::chunk_count(point_count);
   tally(scan, chunks);
   const Tally all = sum_up(groups);
-  const bool short_runs = std::size_t{all.runs()} * shortest_mean_run(listing_) > all.points();
+  const bool short_runs = all.runs() * shortest_mean_run(listing_) > all.points();
   moved_ = short_runs || listing_ == Listing::points;
   if (short_runs) {
     sort(scan, chunks, [&](Tally place, std::uint32_t begin, std::uint32_t length) {

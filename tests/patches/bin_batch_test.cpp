@@ -111,7 +111,7 @@ std::vector<MovedPoint> moved(std::size_t count, float first) {
 }
 
 TEST_P(BinBatchOn, HoldsASampleOfEachPatchAtEvenSteps) {
-  for (const std::size_t most : {1U, 2U, 16U, 63U, 64U, 65U, 128U}) {
+  for (const std::size_t most : {1U, 2U, 16U, 63U, 64U, 65U, 128U, 65535U}) {
     // As many points as are taken at most, fewer, and more, by a little and by far.
     const std::vector<std::size_t> sizes = {
         1, 2, 15, 16, 17, most, most + 1, 2 * most, 2 * most + 1, 127, 128, 129, 1000, 70001};
