@@ -73,6 +73,22 @@ void BinGroups::group(const ScanPoints& scan, std::size_t point_count,
   }
 }
 
+void BinGroups::list_begins(std::uint32_t begin, std::uint32_t end,
+                            std::uint32_t* begins) const noexcept {
+  *begins++ = first(begin).points();
+  for (std::uint32_t bin = begin; bin < end;) {
+    const std::uint32_t block = bin / block_size;
+    const std::uint32_t block_end = std::min((block + 1) * block_size, end);
+    if (is_empty(block)) {
+      std::fill_n(begins, block_end - bin, block_firsts_.data()[block].points());
+      begins += block_end - bin;
+      bin = block_end;
+    } else {
+      for (; bin < block_end; ++bin) *begins++ = tallies_.data()[bin].points();
+    }
+  }
+}
+
 /// Counts what each bin holds, and marks the blocks that hold anything.
 void BinGroups::tally(const ScanPoints& scan, std::size_t chunks) noexcept {
   Tally* tallies = tallies_.data();

@@ -59,6 +59,10 @@ class BinGroups {
     return {points_.data() + first(begin).points(), points_.data() + first(end).points()};
   }
 
+  /// Where the points of the bins from `begin` to `end` begin in points(0, ...): as many numbers as
+  /// bins, and where those of the last one end.
+  void list_begins(std::uint32_t begin, std::uint32_t end, std::uint32_t* begins) const noexcept;
+
  private:
   /// Numbers of points and runs, counted in one word.
   struct Tally {

@@ -17,14 +17,17 @@
 #define FLAGSTONE_SURFACE_CELL_OBSERVATIONS_ONCE
 namespace flagstone::surface {
 
-/// Cells that are observed side by side, and the most points of a cell that are looked at.
+/// Cells that are observed side by side, and how many points of each go into one block.
 inline constexpr std::size_t tile_cells = 16;
-inline constexpr std::size_t half_samples = 16;
-inline constexpr std::size_t most_samples = 2 * half_samples;
+inline constexpr std::size_t block_rows = 16;
+
+/// The most points of a cell that are looked at.
+inline constexpr std::size_t most_samples = 32;
+static_assert(small_cell % block_rows == 0 && most_samples % block_rows == 0);
 
 /// Heights above the surface, metres, of sixteen points of sixteen cells; infinite where a cell has
 /// no more.
-using HeightBlock = std::array<float, tile_cells * half_samples>;
+using HeightBlock = std::array<float, tile_cells * block_rows>;
 
 // Points this far below and above the gate are looked at, metres.
 inline constexpr float depth_below_gate = 1.5f;
@@ -123,9 +126,10 @@ void transpose(HeightBlock& block) {
   turn(turned.data(), block.data());
 }
 
-/// The observation of cells side by side, one a lane; `rows` heights of each.
-HWY_INLINE void observe_lanes(const float* HWY_RESTRICT heights, std::size_t rows, FloatVector gate,
-                              const Observations& o, FloatVector& correction, FloatVector& weight) {
+/// The observation of cells side by side, one a lane; `rows` heights of each, which it changes.
+template <std::size_t rows>
+HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, const Observations& o,
+                              FloatVector& correction, FloatVector& weight) {
   const FloatTag d;
   const FloatVector zero = hn::Zero(d);
   const FloatVector one = hn::Set(d, 1.0f);
@@ -133,7 +137,8 @@ HWY_INLINE void observe_lanes(const float* HWY_RESTRICT heights, std::size_t row
   const FloatVector bottom = hn::Neg(hn::Add(gate, hn::Set(d, depth_below_gate)));
   const FloatVector top = hn::Add(gate, hn::Set(d, height_above_gate));
 
-  // How many points there are, how many within the gate, the lowest of both.
+  // How many points there are, how many within the gate, the lowest of both. From here on points
+  // out of sight are infinitely high.
   FloatVector seen = zero;
   FloatVector gated = zero;
   FloatVector lowest = none;
@@ -141,12 +146,14 @@ HWY_INLINE void observe_lanes(const float* HWY_RESTRICT heights, std::size_t row
   FloatVector second = none;
   FloatVector third = none;
   for (std::size_t row = 0; row < rows; ++row) {
-    const FloatVector h = hn::Load(d, heights + row * tile_cells);
-    const auto is_seen = hn::And(hn::Gt(h, bottom), hn::Lt(h, top));
-    const auto is_gated = hn::Le(hn::Abs(h), gate);
+    const FloatVector height = hn::Load(d, heights + row * tile_cells);
+    const auto is_seen = hn::And(hn::Gt(height, bottom), hn::Lt(height, top));
+    const FloatVector h = hn::IfThenElse(is_seen, height, none);
+    hn::Store(h, d, heights + row * tile_cells);
     seen = hn::Add(seen, hn::IfThenElseZero(is_seen, one));
+    lowest = hn::Min(lowest, h);
+    const auto is_gated = hn::Le(hn::Abs(h), gate);
     gated = hn::Add(gated, hn::IfThenElseZero(is_gated, one));
-    lowest = hn::Min(lowest, hn::IfThenElse(is_seen, h, none));
     const FloatVector candidate = hn::IfThenElse(is_gated, h, none);
     const FloatVector not_first = hn::Max(first, candidate);
     first = hn::Min(first, candidate);
@@ -155,33 +162,39 @@ HWY_INLINE void observe_lanes(const float* HWY_RESTRICT heights, std::size_t row
     third = hn::Min(third, not_second);
   }
 
-  // A mode of the heights near the low end: means of a window that moves to its mean.
+  // A mode of the heights near the low end: means of a window that moves to its mean, within the
+  // gate.
   FloatVector mean = hn::IfThenElse(hn::Lt(gated, hn::Set(d, 10.0f)), second, third);
   mean = hn::IfThenElse(hn::Lt(gated, hn::Set(d, 5.0f)), first, mean);
+  const auto window_of = [&](FloatVector& low, FloatVector& high) HWY_ATTR {
+    low = hn::Max(hn::Sub(mean, hn::Set(d, window)), hn::Neg(gate));
+    high = hn::Min(hn::Add(mean, hn::Set(d, window)), gate);
+  };
+  FloatVector low, high;
   for (int step = 0; step < 2; ++step) {
+    window_of(low, high);
     FloatVector sum = zero;
     FloatVector count = zero;
     for (std::size_t row = 0; row < rows; ++row) {
       const FloatVector h = hn::Load(d, heights + row * tile_cells);
-      const auto inside =
-          hn::And(hn::Le(hn::Abs(h), gate), hn::Le(hn::Abs(hn::Sub(h, mean)), hn::Set(d, window)));
+      const auto inside = hn::And(hn::Ge(h, low), hn::Le(h, high));
       sum = hn::Add(sum, hn::IfThenElseZero(inside, h));
       count = hn::Add(count, hn::IfThenElseZero(inside, one));
     }
     mean = hn::Div(sum, hn::Max(count, one));
   }
 
+  window_of(low, high);
   FloatVector at_surface = zero;
   FloatVector above = zero;
   FloatVector below = zero;
   const FloatVector slab_low = hn::Add(mean, hn::Set(d, slab_bottom));
-  const FloatVector slab_high = hn::Min(hn::Add(mean, hn::Set(d, slab_top)), top);
+  const FloatVector slab_high = hn::Add(mean, hn::Set(d, slab_top));
   const FloatVector too_low = hn::Sub(mean, hn::Set(d, below_window));
   const FloatVector gate_below = hn::Neg(gate);
   for (std::size_t row = 0; row < rows; ++row) {
     const FloatVector h = hn::Load(d, heights + row * tile_cells);
-    const auto inside =
-        hn::And(hn::Le(hn::Abs(h), gate), hn::Le(hn::Abs(hn::Sub(h, mean)), hn::Set(d, window)));
+    const auto inside = hn::And(hn::Ge(h, low), hn::Le(h, high));
     at_surface = hn::Add(at_surface, hn::IfThenElseZero(inside, one));
     const auto is_above = hn::And(hn::Gt(h, slab_low), hn::Lt(h, slab_high));
     above = hn::Add(above, hn::IfThenElseZero(is_above, one));
@@ -206,59 +219,70 @@ HWY_INLINE void observe_lanes(const float* HWY_RESTRICT heights, std::size_t row
   correction = hn::IfThenElse(is_mode, mean, hn::IfThenElseZero(is_bound, lowest));
 }
 
-void observe_cells(const Observations& o, const OccupiedCell* cells, std::size_t count) {
+/// Writes what is known of the cells of a tile into the grid.
+void note(const Observations& o, std::span<const OccupiedCell> cells, const float* corrections,
+          const float* weights) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (weights[i] <= 0) continue;
+    const std::size_t place = cells[i].row * o.surface->width + cells[i].column;
+    o.corrections[place] = corrections[i];
+    o.weights[place] = weights[i];
+  }
+}
+
+/// Up to sixteen cells, of which up to `rows` points are looked at, evenly from all of them.
+template <std::size_t rows>
+HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell> cells) {
   const FloatTag d;
-  HWY_ALIGN std::array<HeightBlock, 2> blocks;
+  constexpr float nothing = std::numeric_limits<float>::infinity();
+  constexpr std::size_t block_count = rows / block_rows;
+  HWY_ALIGN std::array<HeightBlock, block_count> blocks;
   HWY_ALIGN std::array<float, tile_cells> gates{};
+  HWY_ALIGN std::array<patches::MovedPoint, most_samples> picked;
+  for (std::size_t i = 0; i < tile_cells; ++i) {
+    const auto column = [&](std::size_t block) { return blocks[block].data() + i * block_rows; };
+    if (i >= cells.size()) {
+      for (std::size_t block = 0; block < block_count; ++block) {
+        std::fill_n(column(block), block_rows, nothing);
+      }
+      continue;
+    }
+    const OccupiedCell& cell = cells[i];
+    const CellPlane plane = plane_in(*o.surface, cell);
+    gates[i] = o.gate + o.gate_growth * std::sqrt(plane.x * plane.x + plane.y * plane.y);
+    const patches::MovedPoint* points = o.points + cell.first;
+    std::size_t samples = cell.count;
+    if (samples > rows) {
+      for (std::size_t j = 0; j < rows; ++j) picked[j] = points[j * cell.count / rows];
+      points = picked.data();
+      samples = rows;
+    }
+    for (std::size_t block = 0; block < block_count; ++block) {
+      const std::size_t first = block * block_rows;
+      measure(points + first, samples - std::min(first, samples), plane, column(block));
+    }
+  }
+  for (HeightBlock& block : blocks) transpose(block);
+
   HWY_ALIGN std::array<float, tile_cells> corrections;
   HWY_ALIGN std::array<float, tile_cells> weights;
-  for (std::size_t begin = 0; begin < count; begin += tile_cells) {
-    const std::size_t in_tile = std::min(tile_cells, count - begin);
-    std::size_t rows = half_samples;
-    for (std::size_t i = 0; i < in_tile; ++i) {
-      if (cells[begin + i].count > half_samples) rows = most_samples;
-    }
-    for (std::size_t i = 0; i < tile_cells; ++i) {
-      float* const low = blocks[0].data() + i * half_samples;
-      float* const high = blocks[1].data() + i * half_samples;
-      if (i >= in_tile) {
-        std::fill_n(low, half_samples, std::numeric_limits<float>::infinity());
-        std::fill_n(high, half_samples, std::numeric_limits<float>::infinity());
-        continue;
-      }
-      const OccupiedCell& cell = cells[begin + i];
-      const CellPlane plane = plane_in(*o.surface, cell);
-      gates[i] = o.gate + o.gate_growth * std::sqrt(plane.x * plane.x + plane.y * plane.y);
-      const patches::MovedPoint* points = o.points + cell.first;
-      std::array<patches::MovedPoint, most_samples> picked;
-      std::size_t samples = cell.count;
-      if (samples > most_samples) {  // evenly from all of them
-        for (std::size_t j = 0; j < most_samples; ++j)
-          picked[j] = points[j * samples / most_samples];
-        points = picked.data();
-        samples = most_samples;
-      }
-      measure(points, samples, plane, low);
-      if (samples > half_samples) {
-        measure(points + half_samples, samples - half_samples, plane, high);
-      } else if (rows > half_samples) {
-        std::fill_n(high, half_samples, std::numeric_limits<float>::infinity());
-      }
-    }
-    transpose(blocks[0]);
-    if (rows > half_samples) transpose(blocks[1]);
-    for (std::size_t lane = 0; lane < tile_cells; lane += hn::Lanes(d)) {
-      FloatVector correction, weight;
-      observe_lanes(blocks[0].data() + lane, rows, hn::Load(d, gates.data() + lane), o, correction,
-                    weight);
-      hn::Store(correction, d, corrections.data() + lane);
-      hn::Store(weight, d, weights.data() + lane);
-    }
-    for (std::size_t i = 0; i < in_tile; ++i) {
-      if (weights[i] <= 0) continue;
-      const std::size_t place = cells[begin + i].row * o.surface->width + cells[begin + i].column;
-      o.corrections[place] = corrections[i];
-      o.weights[place] = weights[i];
+  for (std::size_t lane = 0; lane < tile_cells; lane += hn::Lanes(d)) {
+    FloatVector correction, weight;
+    observe_lanes<rows>(blocks[0].data() + lane, hn::Load(d, gates.data() + lane), o, correction,
+                        weight);
+    hn::Store(correction, d, corrections.data() + lane);
+    hn::Store(weight, d, weights.data() + lane);
+  }
+  note(o, cells, corrections.data(), weights.data());
+}
+
+void observe_cells(const Observations& o, std::span<const OccupiedCell> cells, bool small) {
+  for (std::size_t begin = 0; begin < cells.size(); begin += tile_cells) {
+    const auto tile = cells.subspan(begin, std::min(tile_cells, cells.size() - begin));
+    if (small) {
+      observe_tile<small_cell>(o, tile);
+    } else {
+      observe_tile<most_samples>(o, tile);
     }
   }
 }
@@ -273,8 +297,9 @@ namespace {
 HWY_EXPORT(observe_cells);
 }  // namespace
 
-void observe(const Observations& observations, std::span<const OccupiedCell> cells) noexcept {
-  HWY_DYNAMIC_DISPATCH(observe_cells)(observations, cells.data(), cells.size());
+void observe(const Observations& observations, std::span<const OccupiedCell> cells,
+             CellSize size) noexcept {
+  HWY_DYNAMIC_DISPATCH(observe_cells)(observations, cells, size == CellSize::small);
 }
 
 }  // namespace flagstone::surface

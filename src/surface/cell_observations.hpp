@@ -32,7 +32,13 @@ struct Observations {
   float* weights;      ///< by cell: 0 to 1; only written where something is known
 };
 
-/// Observes cells.
-void observe(const Observations& observations, std::span<const OccupiedCell> cells) noexcept;
+/// A cell of up to as many points is small.
+inline constexpr std::uint32_t small_cell = 16;
+enum class CellSize : std::uint8_t { small, any };
+
+/// Observes cells, none larger than `size` says: small ones take half the time. Of up to 32 points
+/// of a cell all are looked at, of more 32, evenly from all of them.
+void observe(const Observations& observations, std::span<const OccupiedCell> cells,
+             CellSize size) noexcept;
 
 }  // namespace flagstone::surface

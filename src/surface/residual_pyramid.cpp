@@ -3,6 +3,7 @@
 #include "surface/residual_pyramid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "surface/grid_steps.hpp"
@@ -18,6 +19,20 @@ constexpr float full_weight = 0.5f;
 
 /// Cells that one thread observes at a time.
 constexpr std::size_t cells_of_a_job = 256;
+
+/// Where the cells of a block lie that are numbered along a Z-order curve.
+struct InBlock {
+  std::uint8_t row, column;
+};
+constexpr auto in_z_order = [] {
+  std::array<InBlock, 1024> places{};
+  for (std::uint8_t row = 0; row < 32; ++row) {
+    for (std::uint8_t column = 0; column < 32; ++column) {
+      places[z_order(column, row)] = {.row = row, .column = column};
+    }
+  }
+  return places;
+}();
 
 float reach_of(std::size_t level, const SquareCells& cells) {
   return std::min(levels[level].reach, cells.extent());
@@ -47,90 +62,106 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
     grid.confidences = confidences_.data() + first;
     first += grid.size();
   }
-  std::size_t most_cells = 0;
-  for (std::size_t level = 0; level < static_cast<std::size_t>(settings_.levels); ++level) {
-    plan_level(level, cells);
-    most_cells = std::max(most_cells, plans_.back().cells.size());
-  }
-  occupied_.reserve(most_cells);
-}
 
-void ResidualPyramid::plan_level(std::size_t level, const SquareCells& cells) {
-  LevelPlan& plan = plans_.emplace_back();
-  const int reach = static_cast<int>(reach_of(level, cells)) / block_size;  // blocks
-  const auto along = static_cast<std::uint32_t>(std::lround(block_size / levels[level].cell));
-  for (int row = 0; row < 2 * reach; ++row) {
-    for (int column = 0; column < 2 * reach; ++column) {
-      const int inside = cells.half_blocks() - reach;
-      const CellRange block = cells.block(column + inside, row + inside);
-      const std::uint32_t each = (block.last - block.first) / (along * along);
-      const auto first = static_cast<std::uint32_t>(plan.cells.size());
-      plan.cells.resize(first + std::size_t{along} * along);
-      for (std::uint32_t y = 0; y < along; ++y) {
-        for (std::uint32_t x = 0; x < along; ++x) {
-          const std::uint32_t place = z_order(x, y);  // a square's cells come first as a whole
-          plan.cells[first + place] = {
-              .cells = {block.first + place * each, block.first + (place + 1) * each},
-              .row = static_cast<std::uint16_t>(static_cast<std::uint32_t>(row) * along + y),
-              .column = static_cast<std::uint16_t>(static_cast<std::uint32_t>(column) * along + x)};
-        }
+  const auto level_total = static_cast<std::size_t>(settings_.levels);
+  cells_.resize(level_total);
+  for (std::size_t level = 0; level < level_total; ++level) {
+    // Every cell may be small, or none.
+    cells_[level].small.reserve(grids_[level].size() + 1);
+    cells_[level].large.reserve(grids_[level].size() + 1);
+    cells_[level].first_block =
+        static_cast<std::uint32_t>((cells.extent() - grids_[level].extent()) / block_size);
+  }
+  const int half = cells.half_blocks();
+  for (int row = 0; row < 2 * half; ++row) {
+    for (int column = 0; column < 2 * half; ++column) {
+      const int ring = std::max({column - half, half - 1 - column, row - half, half - 1 - row});
+      std::size_t reached = 0;
+      while (reached < level_total &&
+             static_cast<float>(ring * block_size) < levels[reached].reach) {
+        ++reached;
       }
-      plan.blocks.push_back(
-          {.cells = block, .first = first, .last = static_cast<std::uint32_t>(plan.cells.size())});
+      blocks_.push_back({.cells = cells.block(column, row),
+                         .column = static_cast<std::uint32_t>(column),
+                         .row = static_cast<std::uint32_t>(row),
+                         .levels = reached});
     }
   }
 }
 
-std::span<const OccupiedCell> ResidualPyramid::occupied_cells(
-    const LevelPlan& plan, const patches::BinGroups& groups) noexcept {
-  const patches::MovedPoint* const all = groups.points(0, 0).data();
-  OccupiedCell* end = occupied_.data();
-  for (const LevelBlock& block : plan.blocks) {
+/// Lists the cells of all levels, block by block.
+void ResidualPyramid::list_cells(const patches::BinGroups& groups) noexcept {
+  for (LevelCells& level : cells_) level.small_count = level.large_count = 0;
+  for (const Block& block : blocks_) {
     if (groups.points(block.cells.first, block.cells.last).size() < fewest_points) continue;
-    for (std::uint32_t i = block.first; i < block.last; ++i) {
-      const LevelCell& cell = plan.cells[i];
-      const auto points = groups.points(cell.cells.first, cell.cells.last);
-      if (points.size() < fewest_points) continue;
-      *end++ = {.first = static_cast<std::uint32_t>(points.data() - all),
-                .count = static_cast<std::uint32_t>(points.size()),
-                .row = cell.row,
-                .column = cell.column};
-    }
+    groups.list_begins(block.cells.first, block.cells.last, begins_.data());
+    for (std::size_t level = 0; level < block.levels; ++level) list_cells_of(block, level);
   }
-  return {occupied_.data(), end};
+}
+
+void ResidualPyramid::list_cells_of(const Block& block, std::size_t level) noexcept {
+  LevelCells& list = cells_[level];
+  const auto along = static_cast<std::uint32_t>(block_size / levels[level].cell);
+  const std::uint32_t each = (block.cells.last - block.cells.first) / (along * along);
+  const std::uint32_t first_row = (block.row - list.first_block) * along;
+  const std::uint32_t first_column = (block.column - list.first_block) * along;
+  OccupiedCell* small = list.small.data() + list.small_count;
+  OccupiedCell* large = list.large.data() + list.large_count;
+  for (std::uint32_t place = 0; place < along * along; ++place) {
+    const std::uint32_t first = begins_[place * each];
+    const std::uint32_t count = begins_[(place + 1) * each] - first;
+    const OccupiedCell cell{.first = first,
+                            .count = count,
+                            .row = first_row + in_z_order[place].row,
+                            .column = first_column + in_z_order[place].column};
+    // Without a branch: whether a cell is occupied is hard to foresee.
+    *small = *large = cell;
+    small += static_cast<std::ptrdiff_t>(count >= fewest_points && count <= small_cell);
+    large += static_cast<std::ptrdiff_t>(count > small_cell);
+  }
+  list.small_count = static_cast<std::size_t>(small - list.small.data());
+  list.large_count = static_cast<std::size_t>(large - list.large.data());
 }
 
 void ResidualPyramid::refine(const patches::BinGroups& groups, PullPush& pull_push,
                              Crew& crew) noexcept {
-  for (std::size_t level = 0; level < plans_.size(); ++level) {
-    if (level > 0) upsample(grids_[level - 1], grids_[level]);
-    refine_level(level, groups, pull_push, crew);
+  list_cells(groups);
+  for (std::size_t level = 0; level < cells_.size(); ++level) {
+    const Grid& grid = grids_[level];
+    if (level > 0) upsample(grids_[level - 1], grid);
+    std::fill_n(corrections_.data(), grid.size(), 0.0f);
+    std::fill_n(weights_.data(), grid.size(), 0.0f);
+    observe_level(level, groups, crew);
+    pull_push.fill(corrections_.data(), weights_.data(), grid.width, full_weight);
+    const bool inner = level > 0 && grid.extent() < grids_[level - 1].extent();
+    correct(corrections_.data(), weights_.data(), inner, grid);
   }
 }
 
-void ResidualPyramid::refine_level(std::size_t level, const patches::BinGroups& groups,
-                                   PullPush& pull_push, Crew& crew) noexcept {
-  const Grid& grid = grids_[level];
-  std::fill_n(corrections_.data(), grid.size(), 0.0f);
-  std::fill_n(weights_.data(), grid.size(), 0.0f);
-  const std::span<const OccupiedCell> cells = occupied_cells(plans_[level], groups);
+void ResidualPyramid::observe_level(std::size_t level, const patches::BinGroups& groups,
+                                    Crew& crew) noexcept {
   const Observations observations{
       .points = groups.points(0, 0).data(),
-      .surface = &grid,
+      .surface = &grids_[level],
       .gate = settings_.gate * std::pow(settings_.gate_factor, static_cast<float>(level)),
       .gate_growth = settings_.gate_growth,
       .contrast = settings_.contrast,
       .lower_bound_weight = settings_.lower_bound_weight,
       .corrections = corrections_.data(),
       .weights = weights_.data()};
-  const std::size_t jobs = (cells.size() + cells_of_a_job - 1) / cells_of_a_job;
-  crew.run(jobs, [&](std::size_t, std::size_t job) {
-    const std::size_t first = job * cells_of_a_job;
-    observe(observations, cells.subspan(first, std::min(cells_of_a_job, cells.size() - first)));
+  const LevelCells& list = cells_[level];
+  const auto jobs_of = [](std::size_t count) {
+    return (count + cells_of_a_job - 1) / cells_of_a_job;
+  };
+  const std::size_t large_jobs = jobs_of(list.large_count);
+  crew.run(large_jobs + jobs_of(list.small_count), [&](std::size_t, std::size_t job) {
+    const bool large = job < large_jobs;
+    const std::size_t first = (large ? job : job - large_jobs) * cells_of_a_job;
+    const std::size_t count = large ? list.large_count : list.small_count;
+    const OccupiedCell* const cells = large ? list.large.data() : list.small.data();
+    observe(observations, {cells + first, std::min(cells_of_a_job, count - first)},
+            large ? CellSize::any : CellSize::small);
   });
-  pull_push.fill(corrections_.data(), weights_.data(), grid.width, full_weight);
-  const bool inner = level > 0 && grid.extent() < grids_[level - 1].extent();
-  correct(corrections_.data(), weights_.data(), inner, grid);
 }
 
 }  // namespace flagstone::surface

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -31,36 +33,33 @@ class ResidualPyramid {
   void refine(const patches::BinGroups& groups, PullPush& pull_push, Crew& crew) noexcept;
 
  private:
-  /// A cell of a level: its points and its place in the grid.
-  struct LevelCell {
+  /// A block of 8 m.
+  struct Block {
     CellRange cells;
-    std::uint16_t row, column;
-  };
-  /// The cells of a level that lie in one block.
-  struct LevelBlock {
-    CellRange cells;
-    std::uint32_t first;  ///< of `level_cells`
-    std::uint32_t last;
-  };
-  struct LevelPlan {
-    std::vector<LevelCell> cells;
-    std::vector<LevelBlock> blocks;
+    std::uint32_t column, row;  ///< in blocks from the edge
+    std::size_t levels;         ///< that reach it
   };
 
-  void plan_level(std::size_t level, const SquareCells& cells);
-  std::span<const OccupiedCell> occupied_cells(const LevelPlan& plan,
-                                               const patches::BinGroups& groups) noexcept;
-  void refine_level(std::size_t level, const patches::BinGroups& groups, PullPush& pull_push,
-                    Crew& crew) noexcept;
+  /// The cells of a level that hold points enough, small ones and others.
+  struct LevelCells {
+    Buffer<OccupiedCell> small, large;
+    std::size_t small_count = 0, large_count = 0;
+    std::uint32_t first_block = 0;  ///< blocks between the edge and where the level begins
+  };
+
+  void list_cells(const patches::BinGroups& groups) noexcept;
+  void list_cells_of(const Block& block, std::size_t level) noexcept;
+  void observe_level(std::size_t level, const patches::BinGroups& groups, Crew& crew) noexcept;
 
   Refinement settings_;
   std::vector<Grid> grids_;
-  std::vector<LevelPlan> plans_;
+  std::vector<Block> blocks_;
+  std::vector<LevelCells> cells_;             ///< by level
+  std::array<std::uint32_t, 1025> begins_{};  ///< of one block: where each cell's points begin
   Buffer<float> heights_;
   Buffer<float> confidences_;
   Buffer<float> corrections_;
   Buffer<float> weights_;
-  Buffer<OccupiedCell> occupied_;
 };
 
 }  // namespace flagstone::surface
