@@ -110,6 +110,7 @@ TEST_F(SegmentBySurface, AddsAFieldOfHeightsToALabelledCloud) {
     ASSERT_EQ(written.fields().back().name, "height");
     EXPECT_NE(written.find("label"), nullptr);
     std::vector<float> heights;
+    heights.reserve(written.size());
     for (std::size_t i = 0; i < written.size(); ++i) {
       heights.push_back(static_cast<float>(written.value(i, written.fields().back())));
     }
