@@ -15,7 +15,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -128,11 +127,6 @@ void check_tint(const SegmentOptions& options, const MethodConfig& config) {
                   options.method.method));
 }
 
-bool makes_surface(const MethodConfig& config) {
-  return std::visit(
-      []<class Config>(const Config&) { return std::is_same_v<Config, SurfaceConfig>; }, config);
-}
-
 void check_surface(const SegmentOptions& options, const MethodConfig& config) {
   const double resolution = options.surface_resolution.value_or(1);
   const bool is_allowed = resolution >= 0.1 && resolution <= 10;  // not NaN, as CLI::Range has it
@@ -140,7 +134,7 @@ void check_surface(const SegmentOptions& options, const MethodConfig& config) {
     throw std::invalid_argument(
         fmt::format("--surface-resolution {}: not within 0.1 to 10 metres a cell", resolution));
   }
-  if (makes_surface(config)) return;
+  if (std::holds_alternative<SurfaceConfig>(config)) return;
   for (const auto& [asked, option] :
        {std::pair{options.heights, "--heights"}, std::pair{options.surface, "--surface"}}) {
     if (!asked) continue;

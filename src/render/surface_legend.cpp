@@ -70,11 +70,11 @@ void draw_surface_legend(const Canvas& canvas, const Rectangle& legend, const Re
 
   draw_text(context, legend.x, name_line, "Height", bold_font);
   draw_text(context, legend.x, number_line, "z, metres", number_font);
-  const Rectangle bar{legend.x + 150 * unit, legend.y + 6 * unit, legend.width * 0.42, 24 * unit};
+  const Rectangle bar{legend.x + 150 * unit, legend.y + 6 * unit, legend.width * 0.4, 24 * unit};
   draw_colors(context, bar, unit);
   draw_heights(context, bar, look.heights, step, unit);
 
-  double x = bar.right() + 44 * unit;
+  double x = bar.right() + 66 * unit;
   const auto draw_sample = [&](double y, double width) {
     cairo_move_to(context, x, y);
     cairo_line_to(context, x + 34 * unit, y);

@@ -3,19 +3,29 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
+#include "flagstone/segmentation.hpp"
+#include "flagstone/surface_segmenter.hpp"
+#include "io/file_contents.hpp"
+#include "io/float_array.hpp"
 #include "io/temporary_folder.hpp"
+#include "render/height_map.hpp"
 
 namespace flagstone::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::Pointwise;
 
 class SegmentSurface : public testing::Test {
  protected:
@@ -57,6 +67,93 @@ TEST_F(SegmentSurface, ResolutionIsRefusedOutOfRange) {
     EXPECT_EQ(outcome.exit_code, 2) << resolution;
     EXPECT_THAT(outcome.err, is_one_line_with("--surface-resolution")) << resolution;
   }
+}
+
+/// With the method that makes a surface.
+class SegmentBySurface : public SegmentSurface {
+ protected:
+  void SetUp() override {
+    SurfaceSegmenter segmenter;
+    ASSERT_TRUE(segmenter.segment(scan_.view(), expected_).ok());
+  }
+
+  /// Runs it, expecting success.
+  Outcome segment_by_surface(std::vector<std::string> more) const {
+    more.insert(more.end(), {"--method", "surface"});
+    Outcome outcome = segment(more);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome;
+  }
+
+  io::Cloud scan_ = small_scan();
+  Segmentation expected_;
+};
+
+MATCHER_P(has_the_bits_of, expected, "the same numbers, NaN or not") {
+  return std::ranges::equal(std::as_bytes(std::span(arg)), std::as_bytes(expected));
+}
+
+TEST_F(SegmentBySurface, WritesTheHeightOfEveryPoint) {
+  segment_by_surface({"--heights"});
+
+  EXPECT_THAT(names_below(folder_ / "out"), ElementsAre("scan.heights.npy", "scan.label"));
+  const io::FloatArray heights = io::float_array_of(folder_ / "out/scan.heights.npy");
+  EXPECT_THAT(heights.shape, ElementsAre(scan_.size()));
+  EXPECT_THAT(heights.values, has_the_bits_of(expected_.heights()));
+}
+
+TEST_F(SegmentBySurface, AddsAFieldOfHeightsToALabelledCloud) {
+  for (const std::string format : {"npy", "pcd", "ply"}) {
+    segment_by_surface({"--heights", "--format", format});
+
+    const io::Cloud written = scan_of(folder_ / ("out/scan." + format));
+    ASSERT_EQ(written.fields().back().name, "height");
+    EXPECT_NE(written.find("label"), nullptr);
+    std::vector<float> heights;
+    heights.reserve(written.size());
+    for (std::size_t i = 0; i < written.size(); ++i) {
+      heights.push_back(static_cast<float>(written.value(i, written.fields().back())));
+    }
+    EXPECT_THAT(heights, Pointwise(testing::NanSensitiveFloatEq(), expected_.heights())) << format;
+  }
+}
+
+TEST_F(SegmentBySurface, AddsNoFieldUnlessHeightsAreAskedFor) {
+  segment_by_surface({"--format", "pcd"});
+
+  EXPECT_EQ(scan_of(folder_ / "out/scan.pcd").find("height"), nullptr);
+}
+
+TEST_F(SegmentBySurface, WritesTheGroundAsAGridItsFrameAndAMap) {
+  segment_by_surface({"--surface"});
+
+  EXPECT_THAT(names_below(folder_ / "out"), ElementsAre("scan.label", "scan.surface.json",
+                                                        "scan.surface.npy", "scan.surface.png"));
+  EXPECT_THAT(io::contents_of(folder_ / "out/scan.surface.png"),
+              testing::StartsWith("\x89PNG\r\n\x1a\n"));
+  const Surface& surface = expected_.surface();
+  const render::HeightMap map =
+      render::map_of(surface, surface.extent(), surface.grids().back().cell);
+  EXPECT_THAT(io::float_array_of(folder_ / "out/scan.surface.npy").values,
+              has_the_bits_of(std::span<const float>(map.heights)));
+}
+
+TEST_F(SegmentBySurface, WritesCellsOfTheSizeAskedFor) {
+  segment_by_surface({"--surface", "--surface-resolution", "2"});
+
+  const auto width = static_cast<std::size_t>(expected_.surface().extent());
+  EXPECT_THAT(io::float_array_of(folder_ / "out/scan.surface.npy").shape,
+              ElementsAre(width, width));
+}
+
+TEST_F(SegmentBySurface, NamesWhatItWroteInJson) {
+  const Outcome outcome = segment_by_surface({"--heights", "--surface", "--picture", "--json"});
+
+  const auto outputs = nlohmann::json::parse(outcome.out)["outputs"];
+  std::vector<std::string> names;
+  for (const std::string output : outputs) names.push_back(fs::path(output).filename());
+  EXPECT_THAT(names, ElementsAre("scan.label", "scan.heights.npy", "scan.surface.npy",
+                                 "scan.surface.json", "scan.png", "scan.surface.png"));
 }
 
 }  // namespace

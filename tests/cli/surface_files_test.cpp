@@ -79,7 +79,8 @@ TEST_F(SurfaceFilesTest, HoldTheHeightOfThePlaceThatTheGeotransformGives) {
 
     for (std::size_t i = 0; i < grid_.values.size(); ++i) {
       const double column = static_cast<double>(i % columns) + 0.5;  // its centre, as GDAL counts
-      const double row = static_cast<double>(i / columns) + 0.5;
+      const std::size_t rows_before = i / columns;
+      const double row = static_cast<double>(rows_before) + 0.5;
       const double x = transform[0] + transform[1] * column + transform[2] * row;
       const double y = transform[3] + transform[4] * column + transform[5] * row;
       const float expected = surface_.height(static_cast<float>(x), static_cast<float>(y));
