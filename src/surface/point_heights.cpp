@@ -86,11 +86,9 @@ HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables
       hn::Add(hn::Mul(hn::ConvertTo(d, row.first), width), lookup_8(tables.firsts.data(), grid));
   const IntVector near = hn::Add(whole_part(row_first), column.first);
   const IntVector far = hn::Add(near, whole_part(width));
-  const IntVector next = hn::Set(di, 1);
-  const FloatVector near_left = hn::GatherIndex(d, tables.heights, near);
-  const FloatVector near_right = hn::GatherIndex(d, tables.heights, hn::Add(near, next));
-  const FloatVector far_left = hn::GatherIndex(d, tables.heights, far);
-  const FloatVector far_right = hn::GatherIndex(d, tables.heights, hn::Add(far, next));
+  FloatVector near_left, near_right, far_left, far_right;
+  gather_pairs(tables.heights, near, near_left, near_right);
+  gather_pairs(tables.heights, far, far_left, far_right);
   return blend(blend(near_left, near_right, column.share), blend(far_left, far_right, column.share),
                row.share);
 }
