@@ -35,19 +35,20 @@ namespace {
 /// Upper ends of the bands of range, metres.
 constexpr std::array<double, 3> bands = {10, 20, 40};
 
-/// Views of one kind of step in one band of range, with the truth in the same place.
+/// Views of steps, with the truth in the same places.
 struct Views {
-  std::size_t places = 0;  ///< whether seen or not
-  std::size_t seen =
-      0;  ///< the sensor has points of the ground on either side; all below is of these
-  std::size_t known = 0;  ///< the surface has a height on either side
-  std::size_t found = 0;  ///< it has half of the rise or more
+  std::size_t places = 0;
+  std::size_t known = 0;  ///< the surface has a height on both sides
+  std::size_t found = 0;  ///< it shows half of the rise or more
   std::vector<double> true_rise, rise, true_width, width;  ///< metres; widths where it is found
 };
+using ViewsByRange = std::array<Views, bands.size()>;
 
 struct KindOfStep {
   std::string_view name;
-  std::array<Views, bands.size()> by_range;
+  double rise;             ///< metres
+  ViewsByRange seen;       ///< the scan has points of the ground on both sides
+  ViewsByRange half_seen;  ///< on the nearer side alone
 };
 
 double median(std::vector<double> values) {
@@ -88,24 +89,30 @@ class StepSurvey {
     say_on_terminal("");
   }
 
-  void print() const {
+  void print(ViewsByRange KindOfStep::* views) const {
+    std::vector<KindOfStep> kinds = kinds_;
+    std::ranges::sort(kinds, {}, [](const KindOfStep& kind) {
+      return std::pair(std::abs(kind.rise), kind.name);
+    });
     fmt::print(
-        "| step | range, m | places | seen, % | known, % | found, % | rise, cm: true | surface | "
-        "width, m: true | surface |\n|---|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
-    for (const KindOfStep& kind : kinds_) {
+        "| step | range, m | places | known, % | found, % | rise, cm: true | surface | "
+        "width, m: true | surface |\n|---|---|--:|--:|--:|--:|--:|--:|--:|\n");
+    for (const KindOfStep& kind : kinds) {
       double from = 0;
       for (std::size_t band = 0; band < bands.size(); ++band) {
-        print_row(kind.name, from, bands[band], kind.by_range[band]);
+        const Views& in_band = (kind.*views)[band];
+        if (in_band.places > 0) print_row(kind.name, from, bands[band], in_band);
         from = bands[band];
       }
     }
   }
 
  private:
-  KindOfStep& kind_named(std::string_view name) {
-    const auto found = std::ranges::find(kinds_, name, &KindOfStep::name);
-    return found == kinds_.end() ? kinds_.emplace_back(KindOfStep{.name = name, .by_range = {}})
-                                 : *found;
+  KindOfStep& kind_of(const sim::GroundStep& step) {
+    const auto found = std::ranges::find(kinds_, step.kind, &KindOfStep::name);
+    if (found != kinds_.end()) return *found;
+    return kinds_.emplace_back(
+        KindOfStep{.name = step.kind, .rise = step.rise, .seen = {}, .half_seen = {}});
   }
 
   void add_scan(const sim::Drive& drive, const sim::Scene& scene, const sim::Frame& pose,
@@ -116,21 +123,21 @@ class StepSurvey {
           result_.surface().height(static_cast<float>(x), static_cast<float>(y)));
     };
     for (const sim::GroundStep& step : drive.steps()) {
-      KindOfStep& kind = kind_named(step.kind);
+      KindOfStep& kind = kind_of(step);
       for (const sim::StepPlace& place : sim::places_on(step, scene.ground(), pose)) {
         const auto band = static_cast<std::size_t>(
             std::ranges::upper_bound(bands, std::hypot(place.x, place.y)) - bands.begin());
         if (band == bands.size()) continue;
-        Views& views = kind.by_range[band];
-        ++views.places;
-        if (!sim::is_seen(place, ground)) continue;
-        ++views.seen;
-        add(sim::view_step(place, truth), sim::view_step(place, found), views);
+        const sim::SeenSides seen = sim::seen_sides(place, ground);
+        if (!seen.before) continue;
+        add(sim::view_step(place, truth), sim::view_step(place, found),
+            (seen.behind ? kind.seen : kind.half_seen)[band]);
       }
     }
   }
 
   static void add(const sim::StepView& truth, const sim::StepView& found, Views& views) {
+    ++views.places;
     if (std::isnan(found.rise)) return;
     ++views.known;
     views.true_rise.push_back(truth.rise);
@@ -143,21 +150,18 @@ class StepSurvey {
   }
 
   static void print_row(std::string_view name, double from, double to, const Views& views) {
-    const auto percent = [](std::size_t part, std::size_t of) {
-      return of == 0
-                 ? std::string("-")
-                 : fmt::format("{:.0f}", 100 * static_cast<double>(part) / static_cast<double>(of));
+    const auto percent = [&](std::size_t part) {
+      return 100 * static_cast<double>(part) / static_cast<double>(views.places);
     };
     const auto middle = [](const std::vector<double>& values, double unit, int digits) {
       return values.empty() ? std::string("-")
                             : fmt::format("{:.{}f}", median(values) * unit, digits);
     };
     constexpr double centimetres = 100;
-    fmt::print("| {} | {:.0f}-{:.0f} | {} | {} | {} | {} | {} | {} | {} | {} |\n", name, from, to,
-               views.places, percent(views.seen, views.places), percent(views.known, views.seen),
-               percent(views.found, views.seen), middle(views.true_rise, centimetres, 1),
-               middle(views.rise, centimetres, 1), middle(views.true_width, 1, 2),
-               middle(views.width, 1, 2));
+    fmt::print("| {} | {:.0f}-{:.0f} | {} | {:.0f} | {:.0f} | {} | {} | {} | {} |\n", name, from,
+               to, views.places, percent(views.known), percent(views.found),
+               middle(views.true_rise, centimetres, 1), middle(views.rise, centimetres, 1),
+               middle(views.true_width, 1, 2), middle(views.width, 1, 2));
   }
 
   std::string method_;
@@ -172,10 +176,11 @@ int run(const std::string& method, unsigned drives) {
   fmt::print(
       "Steps in the surface of `{}`, {} scans of the scene `steps`, seeds 1 to {}. Rise: from {} m "
       "before to {} m behind the step; width: from 10 to 90 % of it, where half of it or more is "
-      "found; medians. Seen: places with points of the ground on either side; the rest is of "
-      "these.\n\n",
+      "found; medians.\n\nPlaces with points of the ground that near on both sides:\n\n",
       method, drives * sim::frames_per_drive, drives, sim::beside_step, sim::beside_step);
-  survey.print();
+  survey.print(&KindOfStep::seen);
+  fmt::print("\nOn the nearer side alone, what lies behind is hidden or falls between beams:\n\n");
+  survey.print(&KindOfStep::half_seen);
   return 0;
 }
 

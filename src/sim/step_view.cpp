@@ -72,19 +72,19 @@ HeightAt true_heights(const Ground& ground, const Frame& pose) {
   };
 }
 
-bool is_seen(const StepPlace& place, std::span<const float> ground_points) {
-  bool before = false;
-  bool behind = false;
-  for (std::size_t i = 0; i + 1 < ground_points.size() && !(before && behind); i += 2) {
+SeenSides seen_sides(const StepPlace& place, std::span<const float> ground_points) {
+  SeenSides seen;
+  for (std::size_t i = 0; i + 1 < ground_points.size(); i += 2) {
     const double dx = static_cast<double>(ground_points[i]) - place.x;
     const double dy = static_cast<double>(ground_points[i + 1]) - place.y;
     const double across = dx * place.across_x + dy * place.across_y;
     const double along = dy * place.across_x - dx * place.across_y;
     if (std::abs(along) > beside_step) continue;
-    before = before || (across < 0 && across > -beside_step);
-    behind = behind || (across > place.width && across < place.width + beside_step);
+    seen.before = seen.before || (across < 0 && across > -beside_step);
+    seen.behind = seen.behind || (across > place.width && across < place.width + beside_step);
+    if (seen.before && seen.behind) break;
   }
-  return before && behind;
+  return seen;
 }
 
 }  // namespace flagstone::sim

@@ -46,9 +46,13 @@ StepView view_step(const StepPlace& place, const HeightAt& height);
 /// z axis. Both must outlive the function.
 HeightAt true_heights(const Ground& ground, const Frame& pose);
 
-/// Has the sensor seen the ground on both sides of the step? Is there a point of it within
-/// beside_step before and behind the step and as far along it to either side? `ground_points` holds
-/// x and y of the scan's ground points.
-bool is_seen(const StepPlace& place, std::span<const float> ground_points);
+/// On which sides of a step the sensor has seen the ground.
+struct SeenSides {
+  bool before = false, behind = false;
+};
+
+/// On which sides is there a point of the ground within beside_step of the step, and as far along
+/// it to either side? `ground_points` holds x and y of the scan's ground points.
+SeenSides seen_sides(const StepPlace& place, std::span<const float> ground_points);
 
 }  // namespace flagstone::sim

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "flagstone/surface.hpp"
@@ -99,17 +100,19 @@ TEST(StepView, OfAKerbInAGridOfQuarterMetresIsSpreadBetweenItsCells) {
   EXPECT_NEAR(view.width.value(), 0.2, 1e-3);
 }
 
-TEST(IsSeen, WantsAPointOfTheGroundOnEitherSide) {
-  const std::vector<float> before{5.2F, 2.8F};
-  const std::vector<float> behind{4.7F, 3.3F};
-  std::vector<float> both = before;
-  both.insert(both.end(), behind.begin(), behind.end());
+TEST(SeenSides, AreThoseWithAPointOfTheGroundNearTheStep) {
+  const auto sides = [](const std::vector<float>& points) {
+    const SeenSides seen = seen_sides(place, points);
+    return std::pair(seen.before, seen.behind);
+  };
 
-  EXPECT_FALSE(is_seen(place, before));
-  EXPECT_FALSE(is_seen(place, behind));
-  EXPECT_TRUE(is_seen(place, both));
-  EXPECT_FALSE(is_seen(place, std::vector<float>{5, 2.4F, 5, 3.3F})) << "too far before";
-  EXPECT_FALSE(is_seen(place, std::vector<float>{5.7F, 2.8F, 4.7F, 3.3F})) << "too far along";
+  EXPECT_EQ(sides({}), std::pair(false, false));
+  EXPECT_EQ(sides({5.2F, 2.8F}), std::pair(true, false));
+  EXPECT_EQ(sides({4.7F, 3.3F}), std::pair(false, true));
+  EXPECT_EQ(sides({4.7F, 3.3F, 5.2F, 2.8F}), std::pair(true, true));
+  EXPECT_EQ(sides({5, 2.4F, 5, 3.6F}), std::pair(false, false)) << "too far across";
+  EXPECT_EQ(sides({5.6F, 2.8F, 4.4F, 3.3F}), std::pair(false, false)) << "too far along";
+  EXPECT_EQ(sides({5, 3.01F}), std::pair(false, false)) << "on the face";
 }
 
 TEST(StepPlaces, ShowTheirStepInTheTrueHeightsOfAnySensor) {
