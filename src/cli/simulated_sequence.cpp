@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include "io/height_files.hpp"
 #include "io/label_files.hpp"
 #include "io/load_bytes.hpp"
+#include "io/npy.hpp"
 #include "io/write_cloud.hpp"
 #include "sim/drive.hpp"
 
@@ -133,7 +135,7 @@ void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan,
   must(io::Cloud::from_floats(scan.xyzi, 4, cloud));
   must(io::write_cloud(scan_file(frame), cloud));
   must(io::write_class_file(label_file(frame), scan.classes));
-  must(io::write_height_file(ground_file(frame), ground));
+  must(io::write_npy_file(ground_file(frame), ground, std::array{ground.size()}));
 }
 
 void SimulatedSequence::write_poses(std::span<const sim::Frame> poses) const {

@@ -51,10 +51,9 @@ struct ErrorsByRange {
   Errors all;
   std::array<Errors, height_bands.size()> by_range;
 
-  void add(float range, double error) {
+  /// `band` is height_bands.size() beyond all bands.
+  void add(std::size_t band, double error) {
     all.add(error);
-    const auto band = static_cast<std::size_t>(std::ranges::upper_bound(height_bands, range) -
-                                               height_bands.begin());
     if (band < by_range.size()) by_range[band].add(error);
   }
   [[nodiscard]] HeightErrorsByRange summary() const {
@@ -63,6 +62,14 @@ struct ErrorsByRange {
     return summary;
   }
 };
+
+/// height_bands.size() for what lies beyond all.
+std::size_t band_of(Point p) {
+  const float squared_range = p.x * p.x + p.y * p.y;
+  std::size_t band = 0;
+  for (const float end : height_bands) band += squared_range < end * end ? 0 : 1;
+  return band;
+}
 
 }  // namespace
 
@@ -75,9 +82,9 @@ HeightScore score_heights(CloudView cloud, std::span<const Truth> truth,
     const double true_height = static_cast<double>(p.z) - static_cast<double>(true_ground[i]);
     if (!std::isfinite(true_height)) continue;
     const double error = static_cast<double>(heights[i]) - true_height;
-    const float range = std::hypot(p.x, p.y);
-    everywhere.add(range, error);
-    if (truth[i] == Truth::ground) ground.add(range, error);
+    const std::size_t band = band_of(p);
+    everywhere.add(band, error);
+    if (truth[i] == Truth::ground) ground.add(band, error);
   }
   return {.ground = ground.summary(), .everywhere = everywhere.summary()};
 }

@@ -159,6 +159,8 @@ std::string range_table(const Results& results, const TextStyle& style) {
 
 std::string height_table(const Results& results, HeightFiguresByRange HeightResult::* points,
                          const TextStyle& style) {
+  Results judged = results;
+  std::erase_if(judged.methods, [](const MethodResult& method) { return !method.heights; });
   constexpr double centimetres = 100;
   std::vector<std::string> headings;
   float from = 0;
@@ -186,7 +188,7 @@ std::string height_table(const Results& results, HeightFiguresByRange HeightResu
     add("bias", 7, mean_of(&HeightFigures::bias), true, false);
     add("share", 7, [](const auto& figures) { return in_percent(figures.share); }, false, true);
   }
-  return table(results, columns, style);
+  return table(judged, columns, style);
 }
 
 std::string worst_table(const Results& results, std::size_t count) {

@@ -3,11 +3,8 @@
 #include "io/height_files.hpp"
 
 #include <cstring>
-#include <string>
-#include <string_view>
 #include <utility>
 
-#include "io/atomic_file.hpp"
 #include "io/field_type.hpp"
 #include "io/load_bytes.hpp"
 #include "io/message.hpp"
@@ -48,17 +45,6 @@ Status parse_heights(std::span<const std::byte> bytes, std::size_t expected_poin
 }
 
 }  // namespace
-
-Status write_height_file(const std::filesystem::path& path, std::span<const float> heights) {
-  std::string npy;
-  Status status = within_memory([&] {
-    npy = npy_header(FieldType::float32, heights.size());
-    npy.append(reinterpret_cast<const char*>(heights.data()), heights.size_bytes());
-    return Status();
-  });
-  if (!status.ok()) return with_path(path, std::move(status));
-  return write_file(path, std::string_view(npy));
-}
 
 std::size_t height_file_size(std::size_t points) {
   return npy_header(FieldType::float32, points).size() + points * sizeof(float);

@@ -80,10 +80,11 @@ std::string height_table(const Json& methods, const Json& bands, std::string_vie
 }
 
 std::string height_section(const Json& methods) {
-  const auto has_heights = [](const Json& method) { return method.contains("heights"); };
-  const auto first = std::ranges::find_if(methods, has_heights);
-  if (first == methods.end()) return {};
-  const Json& bands = first->at("heights").at("ground").at("by_range");
+  Json judged = Json::array();
+  for (const Json& method : methods)
+    if (method.contains("heights")) judged.push_back(method);
+  if (judged.empty()) return {};
+  const Json& bands = judged.front().at("heights").at("ground").at("by_range");
   return fmt::format(
       "<section>\n<h2>Heights above the ground</h2>\n<h3>Points of the ground</h3>\n{}"
       "<h3>All points</h3>\n{}"
@@ -92,7 +93,7 @@ std::string height_section(const Json& methods) {
       "at most that. Bias: mean error, above 0 where the ground is put too low. Share: points for "
       "which the method has a height. All points: also those on what hides the ground.</p>\n"
       "</section>\n",
-      height_table(methods, bands, "ground"), height_table(methods, bands, "everywhere"));
+      height_table(judged, bands, "ground"), height_table(judged, bands, "everywhere"));
 }
 
 std::string f1_of_scan(const Json& method, const std::string& name) {

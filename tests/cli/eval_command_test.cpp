@@ -23,9 +23,10 @@
 #include "cli/files.hpp"
 #include "cli/labelled_scans.hpp"
 #include "cli/line_matchers.hpp"
+#include "flagstone/surface_segmenter.hpp"
 #include "io/file_contents.hpp"
-#include "io/height_files.hpp"
 #include "io/label_files.hpp"
+#include "io/npy.hpp"
 #include "io/temporary_folder.hpp"
 
 namespace flagstone::cli {
@@ -102,6 +103,14 @@ class EvalCommand : public testing::Test {
 
   static io::Cloud scan(const std::string& name) {
     return small_scan(3000, static_cast<std::uint32_t>(name.back()));
+  }
+
+  /// The true heights of the ground at the points of a scan.
+  void put_ground(const std::string& name, const std::vector<float>& heights) const {
+    fs::create_directories(folder_ / "kitti/ground");
+    const Status status = io::write_npy_file(folder_ / "kitti/ground" / (name + ".npy"), heights,
+                                             std::array{heights.size()});
+    ASSERT_TRUE(status.ok()) << status.message();
   }
 
   [[nodiscard]] std::string path(const std::string& name) const {
@@ -205,19 +214,15 @@ TEST_F(EvalCommand, JsonAgreesWithCountsMadeByHand) {
 
 TEST_F(EvalCommand, TrueHeightsChangeNothingForMethodsThatGiveNone) {
   const json before = without_times(results("kitti"));
-  fs::create_directory(folder_ / "kitti/ground");
   for (const std::string name : {"a", "b", "c"}) {
-    const Status status = io::write_height_file(folder_ / "kitti/ground" / (name + ".npy"),
-                                                std::vector<float>(scan(name).size(), -1.7F));
-    ASSERT_TRUE(status.ok()) << status.message();
+    put_ground(name, std::vector<float>(scan(name).size(), -1.7F));
   }
 
   EXPECT_EQ(without_times(results("kitti")), before);
 }
 
 TEST_F(EvalCommand, TrueHeightsOfAnotherScanCostThatScanAndOneLine) {
-  fs::create_directory(folder_ / "kitti/ground");
-  ASSERT_TRUE(io::write_height_file(folder_ / "kitti/ground/b.npy", std::vector<float>(7)).ok());
+  put_ground("b", std::vector<float>(7));
 
   const Outcome outcome = eval("kitti");
 
@@ -225,6 +230,57 @@ TEST_F(EvalCommand, TrueHeightsOfAnotherScanCostThatScanAndOneLine) {
   EXPECT_THAT(outcome.err, AllOf(is_one_line_with("ground/b.npy"), HasSubstr("7 heights"),
                                  HasSubstr("3000 points")));
   EXPECT_EQ(json_of(folder_ / "results.json")["scans"], 2);
+}
+
+/// Errors of heights, by hand: of what the library says.
+TEST_F(EvalCommand, HeightsAreJudgedWhereTheGroundIsKnown) {
+  const io::Cloud cloud = scan("a");
+  std::vector<float> ground;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    ground.push_back(i % 10 == 0 ? std::nanf("") : -1.7F + 0.001F * static_cast<float>(i % 7));
+  }
+  put_ground("a", ground);
+  SurfaceSegmenter segmenter;
+  Segmentation segmented;
+  ASSERT_TRUE(segmenter.segment(cloud.view(), segmented).ok());
+  const auto classes = made_up_classes(cloud);
+  std::vector<double> near;
+  double sum = 0;
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Point p = cloud.view()[i];
+    if (classes[i] != 40 || std::isnan(ground[i]) || std::hypot(p.x, p.y) >= 20) continue;
+    ++points;
+    const double error = segmented.heights()[i] - (static_cast<double>(p.z) - ground[i]);
+    if (std::isnan(error)) continue;
+    near.push_back(std::abs(error));
+    sum += error;
+  }
+  ASSERT_GT(near.size(), 100U);
+  std::ranges::sort(near);
+
+  const json results = this->results(
+      "kitti", {"--methods", "surface,patchwork", "--protocol", "simulation", "--every", "3"});
+
+  const json& band = results["methods"][0]["heights"]["ground"]["by_range"][0];
+  EXPECT_EQ(band["points"], points);
+  EXPECT_NEAR(band["with_height"], static_cast<double>(near.size()) / static_cast<double>(points),
+              tiny);
+  EXPECT_NEAR(band["median"]["mean"], near[(near.size() + 1) / 2 - 1], tiny);
+  EXPECT_NEAR(band["percentile95"]["mean"], near[(near.size() * 95 + 99) / 100 - 1], tiny);
+  EXPECT_NEAR(band["bias"]["mean"], sum / static_cast<double>(near.size()), tiny);
+  EXPECT_FALSE(results["methods"][1].contains("heights")) << "patchwork has none";
+}
+
+TEST_F(EvalCommand, HeightsHaveTheirTablesWhereTheyAreJudged) {
+  put_ground("a", std::vector<float>(scan("a").size(), -1.7F));
+
+  const Outcome judged = eval("kitti", {"--methods", "surface", "--every", "3"});
+  const Outcome not_judged = eval("kitti", {"--methods", "patchwork", "--every", "3"});
+
+  EXPECT_THAT(judged.out, AllOf(HasSubstr("Heights above the ground against the truth"),
+                                HasSubstr("  0-20 m    95 %    bias   share")));
+  EXPECT_THAT(not_judged.out, Not(HasSubstr("Heights")));
 }
 
 TEST_F(EvalCommand, OneScanHasNoDeviationAndNoInterval) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "io/file_contents.hpp"
+#include "io/npy.hpp"
 #include "io/status_matchers.hpp"
 #include "io/temporary_folder.hpp"
 
@@ -21,13 +23,17 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
+Status write_heights(const std::filesystem::path& path, const std::vector<float>& heights) {
+  return write_npy_file(path, heights, std::array{heights.size()});
+}
+
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
 TEST(HeightFile, GivesBackWhatWasWritten) {
   const TemporaryFolder folder;
   const std::vector<float> heights{0.25F, -1.5F, unknown};
 
-  ASSERT_THAT(write_height_file(folder / "a.npy", heights), is_ok());
+  ASSERT_THAT(write_heights(folder / "a.npy", heights), is_ok());
 
   std::vector<float> read;
   ASSERT_THAT(read_height_file(folder / "a.npy", 3, read), is_ok());
@@ -39,7 +45,7 @@ TEST(HeightFile, GivesBackWhatWasWritten) {
 
 TEST(HeightFile, OfNoPointsIsReadToo) {
   const TemporaryFolder folder;
-  ASSERT_THAT(write_height_file(folder / "a.npy", {}), is_ok());
+  ASSERT_THAT(write_heights(folder / "a.npy", {}), is_ok());
 
   std::vector<float> read{1};
   ASSERT_THAT(read_height_file(folder / "a.npy", 0, read), is_ok());
@@ -49,14 +55,14 @@ TEST(HeightFile, OfNoPointsIsReadToo) {
 TEST(HeightFile, HasTheSizeThatIsForetold) {
   const TemporaryFolder folder;
   for (const std::size_t points : {0U, 1U, 123'456U}) {
-    ASSERT_THAT(write_height_file(folder / "a.npy", std::vector<float>(points)), is_ok());
+    ASSERT_THAT(write_heights(folder / "a.npy", std::vector<float>(points)), is_ok());
     EXPECT_EQ(std::filesystem::file_size(folder / "a.npy"), height_file_size(points));
   }
 }
 
 TEST(HeightFile, OfAnotherScanIsRefusedWithBothSizes) {
   const TemporaryFolder folder;
-  ASSERT_THAT(write_height_file(folder / "a.npy", std::vector<float>(3)), is_ok());
+  ASSERT_THAT(write_heights(folder / "a.npy", std::vector<float>(3)), is_ok());
 
   std::vector<float> read{1};
   EXPECT_THAT(read_height_file(folder / "a.npy", 4, read),
@@ -67,7 +73,7 @@ TEST(HeightFile, OfAnotherScanIsRefusedWithBothSizes) {
 
 TEST(HeightFile, CutShortIsRefused) {
   const TemporaryFolder folder;
-  ASSERT_THAT(write_height_file(folder / "a.npy", std::vector<float>(3)), is_ok());
+  ASSERT_THAT(write_heights(folder / "a.npy", std::vector<float>(3)), is_ok());
   std::filesystem::resize_file(folder / "a.npy", height_file_size(3) - 1);
 
   std::vector<float> read;
