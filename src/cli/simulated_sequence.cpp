@@ -74,7 +74,7 @@ fs::path SimulatedSequence::label_file(std::size_t frame) const {
 }
 
 fs::path SimulatedSequence::ground_file(std::size_t frame) const {
-  return folder_ / "ground" / fmt::format("{:06}.npy", frame);
+  return folder_ / "ground" / fmt::format("{:06}.ground.npy", frame);
 }
 
 void SimulatedSequence::refuse_others(const SequenceOrigin& origin) const {

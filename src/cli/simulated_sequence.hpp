@@ -21,9 +21,9 @@ struct SequenceOrigin {
 };
 
 /// The files of a simulated sequence, laid out as SemanticKITTI's: velodyne/NNNNNN.bin,
-/// labels/NNNNNN.label, poses.txt, calib.txt, beside them ground/NNNNNN.npy, the true height of the
-/// ground at each point, and scene.json, which says what the sequence was made from.
-/// Every file is there whole or not at all. What fails throws std::runtime_error.
+/// labels/NNNNNN.label, poses.txt, calib.txt, beside them ground/NNNNNN.ground.npy, the true height
+/// of the ground at each point, and scene.json, which says what the sequence was made from. Every
+/// file is there whole or not at all. What fails throws std::runtime_error.
 class SimulatedSequence {
  public:
   explicit SimulatedSequence(std::filesystem::path folder) : folder_(std::move(folder)) {}

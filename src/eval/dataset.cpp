@@ -56,7 +56,7 @@ Status add_velodyne(const fs::path& folder, const std::string& prefix, std::size
     const fs::path labels = folder / "labels" / (file.stem().string() + ".label");
     if (!is_file(labels)) continue;
     if (labelled++ % every != 0) continue;
-    const fs::path ground = folder / "ground" / (file.stem().string() + ".npy");
+    const fs::path ground = folder / "ground" / (file.stem().string() + ".ground.npy");
     scans.push_back({.name = prefix + file.stem().string(),
                      .points = file,
                      .labels = labels,

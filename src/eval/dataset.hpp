@@ -31,7 +31,8 @@ struct Selection {
 ///   asked for by name;
 /// - a folder with `velodyne/` and `labels/`;
 /// - nuScenes-lidarseg files beside each other, `NAME.pcd.bin` and `NAME_lidarseg.bin`.
-/// `ground/NAME.npy` beside `velodyne/` tells where the ground is, as the simulator knows it.
+/// `ground/NAME.ground.npy` beside `velodyne/` tells where the ground is, as the simulator knows
+/// it.
 ///
 /// invalid_argument for a folder that is none of these or has no labelled scan, and for sequences
 /// asked for where there are none; unreadable. One line that says what was looked for.

@@ -31,7 +31,7 @@ struct ReadOptions {
 
 /// Whether a file met while walking a folder is taken for a scan: the name stands for a format, is
 /// not hidden, and is not that of a label file (`_lidarseg.bin`, `.label.npy`), of heights or of a
-/// surface (`.heights.npy`, `.surface.npy`).
+/// surface (`.heights.npy`, `.surface.npy`, `.ground.npy`).
 [[nodiscard]] bool is_scan_name(const std::filesystem::path& path) noexcept;
 
 /// Reads a point cloud; the name says the format. Never throws. `out` is only changed on success.

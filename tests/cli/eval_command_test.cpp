@@ -108,8 +108,8 @@ class EvalCommand : public testing::Test {
   /// The true heights of the ground at the points of a scan.
   void put_ground(const std::string& name, const std::vector<float>& heights) const {
     fs::create_directories(folder_ / "kitti/ground");
-    const Status status = io::write_npy_file(folder_ / "kitti/ground" / (name + ".npy"), heights,
-                                             std::array{heights.size()});
+    const Status status = io::write_npy_file(folder_ / "kitti/ground" / (name + ".ground.npy"),
+                                             heights, std::array{heights.size()});
     ASSERT_TRUE(status.ok()) << status.message();
   }
 
@@ -227,7 +227,7 @@ TEST_F(EvalCommand, TrueHeightsOfAnotherScanCostThatScanAndOneLine) {
   const Outcome outcome = eval("kitti");
 
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, AllOf(is_one_line_with("ground/b.npy"), HasSubstr("7 heights"),
+  EXPECT_THAT(outcome.err, AllOf(is_one_line_with("ground/b.ground.npy"), HasSubstr("7 heights"),
                                  HasSubstr("3000 points")));
   EXPECT_EQ(json_of(folder_ / "results.json")["scans"], 2);
 }

@@ -53,18 +53,18 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
   EXPECT_THAT(outcome.out, HasSubstr("2 frames in 1 drive, 2 simulated, 0 kept"));
   const fs::path sequence = folder / "out" / "sequences" / "07";
   EXPECT_THAT(names_below(folder / "out"),
-              ElementsAre("sequences/07/calib.txt", "sequences/07/ground/000000.npy",
-                          "sequences/07/ground/000001.npy", "sequences/07/labels/000000.label",
-                          "sequences/07/labels/000001.label", "sequences/07/poses.txt",
-                          "sequences/07/scene.json", "sequences/07/velodyne/000000.bin",
-                          "sequences/07/velodyne/000001.bin"));
+              ElementsAre("sequences/07/calib.txt", "sequences/07/ground/000000.ground.npy",
+                          "sequences/07/ground/000001.ground.npy",
+                          "sequences/07/labels/000000.label", "sequences/07/labels/000001.label",
+                          "sequences/07/poses.txt", "sequences/07/scene.json",
+                          "sequences/07/velodyne/000000.bin", "sequences/07/velodyne/000001.bin"));
   auto files = files_below(sequence);
   for (const std::string frame : {"000000", "000001"}) {
     const std::size_t points = files["velodyne/" + frame + ".bin"].size() / 16;
     EXPECT_GT(points, 50'000U);
     EXPECT_EQ(files["labels/" + frame + ".label"].size(), 4 * points);
     std::vector<float> ground;
-    EXPECT_THAT(io::read_height_file(sequence / "ground" / (frame + ".npy"), points, ground),
+    EXPECT_THAT(io::read_height_file(sequence / "ground" / (frame + ".ground.npy"), points, ground),
                 io::is_ok());
   }
   EXPECT_NE(files["velodyne/000000.bin"], files["velodyne/000001.bin"]);
@@ -82,6 +82,20 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
   EXPECT_EQ(scene["drives"][0]["first_frame"], 0);
 }
 
+TEST(SimulateCommand, WritesWhatSegmentAndEvalTakeAsAWhole) {
+  const io::TemporaryFolder folder;
+  const std::string tree = (folder / "tree").string();
+  ASSERT_EQ(simulate(tree, "steps", {"--frames", "2"}).exit_code, 0);
+
+  const Outcome segmented = run({"segment", tree, "--output", (folder / "out").string()});
+  const Outcome judged = run({"eval", tree, "--protocol", "simulation", "--methods", "surface"});
+
+  EXPECT_EQ(segmented.exit_code, 0) << segmented.err;
+  EXPECT_THAT(names_below(folder / "out"), SizeIs(2)) << "the files of the ground are no scans";
+  EXPECT_EQ(judged.exit_code, 0) << judged.err;
+  EXPECT_THAT(judged.out, HasSubstr("Heights above the ground against the truth"));
+}
+
 TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
   const io::TemporaryFolder folder;
   const fs::path resumed = folder / "resumed" / "sequences" / "00";
@@ -92,7 +106,7 @@ TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
       simulate(folder / "resumed", "bumpy_field", {"--frames", "4", "--threads", "2"});
   fs::remove(resumed / "velodyne" / "000001.bin");
   fs::resize_file(resumed / "labels" / "000002.label", 1000);
-  fs::remove(resumed / "ground" / "000003.npy");
+  fs::remove(resumed / "ground" / "000003.ground.npy");
   const Outcome finished =
       simulate(folder / "resumed", "bumpy_field", {"--frames", "12", "--threads", "2"});
 
@@ -126,7 +140,7 @@ TEST(SimulateCommand, FinishesTheFramesInHandWhenInterrupted) {
     if (!name.ends_with(".bin")) continue;
     const std::string stem = fs::path(name).stem().string();
     EXPECT_EQ(4 * files["labels/" + stem + ".label"].size(), contents.size()) << name;
-    EXPECT_TRUE(files.contains("ground/" + stem + ".npy")) << name;
+    EXPECT_TRUE(files.contains("ground/" + stem + ".ground.npy")) << name;
     ++frames;
   }
   EXPECT_GT(frames, 0U);

@@ -59,13 +59,13 @@ TEST_F(Dataset, ASemanticKittiTreeIsListedSequenceBySequence) {
 
 TEST_F(Dataset, TrueGroundIsFoundBesideTheLabels) {
   put_pairs("sequences/00", {"000000", "000001"});
-  put("sequences/00/ground/000001.npy");
+  put("sequences/00/ground/000001.ground.npy");
   std::vector<LabelledScan> scans;
 
   ASSERT_TRUE(list_dataset(folder_.path(), {}, scans).ok());
 
   EXPECT_THAT(scans[0].ground, fs::path());
-  EXPECT_THAT(scans[1].ground, folder_ / "sequences/00/ground/000001.npy");
+  EXPECT_THAT(scans[1].ground, folder_ / "sequences/00/ground/000001.ground.npy");
 }
 
 TEST_F(Dataset, SequencesArePickedAndScansStrided) {

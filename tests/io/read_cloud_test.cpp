@@ -37,6 +37,7 @@ TEST(ScanNames, AreThoseOfFormatsButNotOfWhatBelongsToScansOrIsHidden) {
   EXPECT_FALSE(is_scan_name("a.label.npy"));
   EXPECT_FALSE(is_scan_name("a.heights.npy"));
   EXPECT_FALSE(is_scan_name("a.surface.npy"));
+  EXPECT_FALSE(is_scan_name("a.ground.npy"));
   EXPECT_FALSE(is_scan_name("k_lidarseg.bin"));
   EXPECT_FALSE(is_scan_name(".a.bin"));
   EXPECT_FALSE(is_scan_name("a.txt"));
