@@ -20,9 +20,9 @@ std::string accuracy_table(const Results& results, const TextStyle& style);
 /// F1 of every method in each band of range, pooled over points.
 std::string range_table(const Results& results, const TextStyle& style);
 
-/// Errors of the heights of methods that give some, in each band of range, means over scans, centimetres: median and 95th
-/// percentile of the absolute error, bias; and the share of points with a height, per cent.
-/// `points` picks which.
+/// Errors of the heights of methods that give some, in each band of range, means over scans,
+/// centimetres: median and 95th percentile of the absolute error, bias; and the share of points
+/// with a height, per cent. `points` picks which.
 std::string height_table(const Results& results, HeightFiguresByRange HeightResult::* points,
                          const TextStyle& style);
 
