@@ -21,7 +21,7 @@ struct PatchAcceptance {
   /// Metres a metre, 0 to 10.
   float rise = 0.35f;
 
-  /// How far a patch may lie above what nearer patches let expect (0.3 m more below it), next to
+  /// How far a patch may lie above what nearer patches let expect (0.5 m more below it), next to
   /// them; metres, 0 to 100, or infinity for no limit.
   float step = 0.5f;
   /// How much more for each metre to the nearest of them, up to 15 m; metres a metre, 0 to 10.
@@ -35,7 +35,7 @@ struct Refinement {
 
   /// Points within this of the surface say where it really is, in cells of 2 m; metres, above 0, up
   /// to 10. A wider gate follows rougher ground, and more of what stands on it.
-  float gate = 0.4f;
+  float gate = 0.45f;
   /// What the gate of one level is of that of the one before; above 0, up to 1.
   float gate_factor = 0.65f;
   /// Added to every gate for each metre of range; metres a metre, 0 to 1.
@@ -47,19 +47,20 @@ struct Refinement {
   float contrast = 0.5f;
 
   /// Weight of that lower bound beside a measured cell's 1; 0 to 1, 0 for none.
-  float lower_bound_weight = 0.1f;
+  float lower_bound_weight = 0.15f;
 };
 
 /// When a point is ground.
 struct PointRule {
   /// Points lower than this above the surface are ground; metres, 0 to 10.
-  float margin = 0.2f;
+  float margin = 0.22f;
 
-  /// The same where something stands: in cells of 0.5 m with a point `standing_height` to 2.5 m
-  /// above the surface. Metres, 0 to 10. Smaller keeps feet of walls out, and loses ground beside
-  /// them.
+  /// The same where something stands: in cells of 0.5 m with a point 1.25 times `standing_height`
+  /// to 2.5 m above the surface. Where the highest lies above 0.75 times `standing_height` only,
+  /// the mean of both margins holds. Metres, 0 to 10. Smaller keeps feet of walls out, and loses
+  /// ground beside them.
   float margin_at_obstacles = 0.06f;
-  /// Metres, 0 to 2.5.
+  /// Metres, 0 to 2.
   float standing_height = 0.8f;
 
   /// Points farther below the surface are noise; metres, 0 to 1,000.

@@ -13,7 +13,7 @@ namespace {
 constexpr double fewest_points = 5;
 
 /// How much farther below what is expected than above it a patch may lie, metres.
-constexpr float extra_step_down = 0.3f;
+constexpr float extra_step_down = 0.5f;
 
 /// Steps grow with the distance to the nearest patch up to here, metres.
 constexpr float longest_gap = 15;

@@ -21,11 +21,13 @@ namespace flagstone::surface {
 /// Points higher than this above the surface hang over it, metres.
 inline constexpr float overhang = 2.5f;
 
-/// Cells of 0.5 m in which something stands.
+/// Cells of 0.5 m in which something stands. Each has two bytes, which are 1 where a point lies
+/// above the lower and where one lies above the higher of two heights.
 struct StandingCells {
-  std::uint32_t* words;  ///< four cells each, eight bits a cell
+  std::uint32_t* words;  ///< two cells each
   std::int32_t width;    ///< cells along a side
   float edge;            ///< cells from the sensor to the edge
+  float low, high;       ///< metres above the surface
 };
 
 /// A chunk of points and what is to be said about them.
@@ -105,8 +107,7 @@ HWY_INLINE IntVector standing_cell(FloatVector x, FloatVector y, const StandingC
 }
 
 void measure_points(const MeasuredPoints& points, const GridTables& tables,
-                    const SquareCells& cells, float standing_height,
-                    const StandingCells& standing) {
+                    const SquareCells& cells, const StandingCells& standing) {
   const FloatTag d;
   const IntTag di;
   const FloatVector unknown = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
@@ -129,10 +130,11 @@ void measure_points(const MeasuredPoints& points, const GridTables& tables,
       std::copy_n(rest.data(), points.count - i, points.heights + i);
     }
     const auto stands =
-        hn::And(hn::Gt(height, hn::Set(d, standing_height)), hn::Lt(height, hn::Set(d, overhang)));
+        hn::And(hn::Gt(height, hn::Set(d, standing.low)), hn::Lt(height, hn::Set(d, overhang)));
     if (hn::AllFalse(d, stands)) continue;
-    const std::size_t count =
-        compress_store(standing_cell(x, y, standing), hn::RebindMask(di, stands), marked.data());
+    const auto is_high = hn::RebindMask(di, hn::Gt(height, hn::Set(d, standing.high)));
+    const IntVector byte = increment_if(is_high, hn::ShiftLeft<1>(standing_cell(x, y, standing)));
+    const std::size_t count = compress_store(byte, hn::RebindMask(di, stands), marked.data());
     for (std::size_t k = 0; k < count; ++k) {
       // Other threads may say the same.
       std::atomic_ref<std::uint8_t>(marks[marked[k]]).store(1, std::memory_order_relaxed);
@@ -154,6 +156,7 @@ void label_points(const MeasuredPoints& points, const PointRule& rule, const Squ
   std::size_t invalid_count = 0;
   HWY_ALIGN std::array<std::uint8_t, lanes> rest;
   HWY_ALIGN std::array<float, lanes> last_heights{};
+  const float middle_margin = (rule.margin + rule.margin_at_obstacles) / 2;
   for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
     const bool whole = i + hn::Lanes(d) <= points.count;
     const FloatVector x = hn::LoadU(d, points.x + i);
@@ -173,11 +176,13 @@ void label_points(const MeasuredPoints& points, const PointRule& rule, const Squ
     const IntVector cell =
         hn::IfThenElseZero(hn::RebindMask(di, good), standing_cell(x, y, standing));
     const IntVector word = hn::GatherIndex(
-        di, reinterpret_cast<const std::int32_t*>(standing.words), hn::ShiftRight<2>(cell));
-    const IntVector shift = hn::ShiftLeft<3>(hn::And(cell, hn::Set(di, 3)));
-    const auto stands = hn::Ne(hn::And(hn::Shr(word, shift), hn::Set(di, 1)), hn::Zero(di));
-    const FloatVector margin = hn::IfThenElse(
-        hn::RebindMask(d, stands), hn::Set(d, rule.margin_at_obstacles), hn::Set(d, rule.margin));
+        di, reinterpret_cast<const std::int32_t*>(standing.words), hn::ShiftRight<1>(cell));
+    const IntVector shift = hn::ShiftLeft<4>(hn::And(cell, hn::Set(di, 1)));
+    const IntVector bytes = hn::And(hn::Shr(word, shift), hn::Set(di, 0x101));
+    FloatVector margin = hn::IfThenElse(hn::RebindMask(d, hn::Eq(bytes, hn::Zero(di))),
+                                        hn::Set(d, rule.margin), hn::Set(d, middle_margin));
+    margin = hn::IfThenElse(hn::RebindMask(d, hn::Gt(bytes, hn::Set(di, 1))),
+                            hn::Set(d, rule.margin_at_obstacles), margin);
     const FloatVector range = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
     const FloatVector deepest = hn::Neg(
         hn::Add(hn::Set(d, rule.noise_depth), hn::Mul(hn::Set(d, rule.noise_growth), range)));
@@ -227,10 +232,13 @@ std::size_t standing_width(const SquareCells& cells) {
   return static_cast<std::size_t>(4 * cells.extent());
 }
 
-StandingCells standing_cells(const SquareCells& cells, std::uint32_t* words) {
+/// What stands a quarter less than `height` stands a little, what stands a quarter more fully.
+StandingCells standing_cells(const SquareCells& cells, std::uint32_t* words, float height) {
   return {.words = words,
           .width = static_cast<std::int32_t>(standing_width(cells)),
-          .edge = 2 * cells.extent()};
+          .edge = 2 * cells.extent(),
+          .low = 0.75f * height,
+          .high = 1.25f * height};
 }
 
 MeasuredPoints chunk_of(const patches::ScanPoints& scan, std::size_t chunk, std::size_t points,
@@ -248,7 +256,7 @@ MeasuredPoints chunk_of(const patches::ScanPoints& scan, std::size_t chunk, std:
 PointHeights::PointHeights(const SurfaceConfig& config, const SquareCells& cells)
     : cells_(&cells), rule_(config.point) {
   const std::size_t width = standing_width(cells);
-  standing_words_ = width * width / 4 + 1;
+  standing_words_ = width * width / 2 + 1;
   standing_.reserve(standing_words_);
 }
 
@@ -270,8 +278,8 @@ void PointHeights::set_surface(std::span<const Grid> grids) noexcept {
 void PointHeights::measure(const patches::ScanPoints& scan, std::size_t chunk,
                            std::span<float> heights) noexcept {
   HWY_DYNAMIC_DISPATCH(measure_points)
-  (chunk_of(scan, chunk, heights.size(), heights.data()), tables_, *cells_, rule_.standing_height,
-   standing_cells(*cells_, standing_.data()));
+  (chunk_of(scan, chunk, heights.size(), heights.data()), tables_, *cells_,
+   standing_cells(*cells_, standing_.data(), rule_.standing_height));
 }
 
 void PointHeights::label(const patches::ScanPoints& scan, std::size_t chunk,
@@ -279,7 +287,7 @@ void PointHeights::label(const patches::ScanPoints& scan, std::size_t chunk,
                          LabelTotals& totals) noexcept {
   HWY_DYNAMIC_DISPATCH(label_points)
   (chunk_of(scan, chunk, heights.size(), heights.data()), rule_, *cells_,
-   standing_cells(*cells_, standing_.data()),
+   standing_cells(*cells_, standing_.data(), rule_.standing_height),
    reinterpret_cast<std::uint8_t*>(labels.data()) + chunk * patches::chunk_size, totals);
 }
 

@@ -55,7 +55,8 @@ class PointHeights {
   const SquareCells* cells_;
   PointRule rule_;
   GridTables tables_{};
-  Buffer<std::uint32_t> standing_;  ///< a byte for each cell of 0.5 m: does something stand there?
+  Buffer<std::uint32_t>
+      standing_;  ///< two bytes for each cell of 0.5 m: does something stand there?
   std::size_t standing_words_ = 0;
 };
 
