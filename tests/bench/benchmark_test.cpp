@@ -79,7 +79,7 @@ TEST_P(BenchmarkOf, FindsTheGroundThatTheMethodFindsWithAnyInstructionSet) {
   const auto segmenter = make_timed(config(), 1, nullptr);
   for (const io::Cloud& scan : scans) {
     ASSERT_TRUE(segmenter->segment(scan.view(), expected).ok());
-    ground.push_back(expected.count(Label::ground));
+    ground.emplace_back(expected.count(Label::ground));
   }
 
   for (const std::string& target : simd_targets()) {
