@@ -243,6 +243,7 @@ Json growth_with_threads_of_many_scans(const Config& config, const Cloud& dense,
   for (unsigned threads = 1; threads <= cores; ++threads) {
     say_on_terminal("threads of many scans: " + std::to_string(threads));
     std::vector<Worker> workers;
+    workers.reserve(threads);
     for (unsigned t = 0; t < threads; ++t) workers.emplace_back(config);
     std::vector<char> same(threads, 1);
     const auto crew = [&](const auto& work) {

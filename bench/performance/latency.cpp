@@ -220,15 +220,17 @@ void print_growth(const Table& table, const std::vector<ScanKind>& kinds) {
 /// Kinds with a scan more than three times as slow as ordinary scans of its size.
 void print_slow(const Table& table, const std::vector<ScanKind>& kinds) {
   fmt::print("\nSlower than 3 times the median of ordinary scans of the size:\n\n");
+  bool any = false;
   for (std::size_t s = 0; s < table.size(); ++s) {
     const double ordinary = quantile(all_of(table[s], kinds, true).least, 0.5);
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const double ratio = quantile(table[s][k].least, 1) / ordinary;
-      if (ratio > 3) {
-        fmt::print("- {} points, {}: {:.2f}\n", size_classes[s].points, kinds[k].name, ratio);
-      }
+      if (ratio <= 3) continue;
+      fmt::print("- {} points, {}: {:.2f}\n", size_classes[s].points, kinds[k].name, ratio);
+      any = true;
     }
   }
+  if (!any) fmt::print("none\n");
 }
 
 int run(const std::vector<std::string_view>& methods) {
