@@ -240,8 +240,8 @@ def main():
         launches.append(times)
     say("")
     print(
-        f"Working tree against {revision}, method {arguments.method}: {arguments.launches} launches of {arguments.rounds} rounds by"
-        f" turns on core {arguments.core}.\n"
+        f"Working tree against {revision}, method {arguments.method}: {arguments.launches} launches of"
+        f" {arguments.rounds} rounds by turns on core {arguments.core}.\n"
     )
     print(time_table(launches, scans, same))
     if arguments.no_instructions:
