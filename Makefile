@@ -46,8 +46,8 @@ primitives: ## time of each step for every instruction set
 sharpness: ## how sharp the surface shows kerbs, ditches and drops of known shape
 	@scripts/setup build benchmark && scripts/benchmark sharpness
 
-bench-compare: build ## is the working tree slower than REVISION, on SCANS?
-	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(SCANS)
+bench-compare: build ## is METHOD in the working tree slower than in REVISION, on SCANS?
+	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(SCANS)
 
 install: build ## install the library and the command under PREFIX (/usr/local)
 	@cmake --install build --prefix $(PREFIX)

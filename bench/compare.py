@@ -4,7 +4,7 @@
 
     make bench-compare                           # against the last tag, or HEAD~1 where there is none
     make bench-compare REVISION=54a37fc
-    make bench-compare REVISION=main SCANS="a.bin b.bin"
+    make bench-compare REVISION=main SCANS="a.bin b.bin" METHOD=surface
     python3 bench/compare.py --revision main --launches 40 --core 1
 
 Builds the library of both, each with bench/segment_loop, and has the two segment the same scans by turns on
@@ -101,11 +101,11 @@ def default_scans():
 
 
 class Loop:
-    """A driver that waits for the next round, on one core."""
+    """A driver that waits for the next round, on one core. `program` ends on the name of the method."""
 
     def __init__(self, program, scans, core):
         self.process = subprocess.Popen(
-            [program, *scans],
+            [*program, *scans],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
@@ -164,7 +164,7 @@ def instructions(program, scan):
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run(
             ["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out",
-             "--collect-atstart=no", "--toggle-collect=segment_measured", program, scan],
+             "--collect-atstart=no", "--toggle-collect=segment_measured", *program, scan],
             input="\n", text=True, capture_output=True,
         )  # fmt: skip
     found = re.search(r"Collected : (\d+)", done.stderr)
@@ -203,7 +203,7 @@ def instruction_table(programs, scans):
         say(f"instructions: {scan.name}")
         counts = [instructions(program, scan) for program in programs]
         if None in counts:
-            return f"no instruction counts: Valgrind could not run {programs[counts.index(None)]}"
+            return f"no instruction counts: Valgrind could not run {programs[counts.index(None)][0]}"
         totals = [total + count for total, count in zip(totals, counts)]
         rows.append([scan.name, *(f"{count:,}" for count in counts), f"{counts[1] / counts[0]:.4f}"])
     rows.append(["all", *(f"{total:,}" for total in totals), f"{totals[1] / totals[0]:.4f}"])
@@ -215,6 +215,7 @@ def main():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--revision", help="what git knows it by; the last tag or HEAD~1")
+    parser.add_argument("--method", choices=("patchwork", "surface"), default="patchwork")
     parser.add_argument("--launches", type=int, default=20, help="6 or more; 20")
     parser.add_argument("--rounds", type=int, default=20, help="of a launch, over all scans; 20")
     parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)), help="the last one")
@@ -230,7 +231,8 @@ def main():
     FOLDER.mkdir(exist_ok=True)
     scans = [scan.resolve() for scan in arguments.scans] or default_scans()
     revision = call("git", "rev-parse", "--short", f"{arguments.revision or default_revision()}^{{commit}}")
-    programs = [build(f"{revision}-build", checkout(revision)), build("tree-build", ROOT)]
+    built = build(f"{revision}-build", checkout(revision)), build("tree-build", ROOT)
+    programs = [(program, arguments.method) for program in built]
     launches = []
     for number in range(arguments.launches):
         say(f"{number} of {arguments.launches} launches")
@@ -238,8 +240,8 @@ def main():
         launches.append(times)
     say("")
     print(
-        f"Working tree against {revision}: {arguments.launches} launches of {arguments.rounds} rounds by"
-        f" turns on core {arguments.core}.\n"
+        f"Working tree against {revision}, method {arguments.method}: {arguments.launches} launches of"
+        f" {arguments.rounds} rounds by turns on core {arguments.core}.\n"
     )
     print(time_table(launches, scans, same))
     if arguments.no_instructions:

@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Measures how Patchwork's time and memory grow, draws the plot and prints the tables. Needs Matplotlib.
+"""Measures how time and memory of Patchwork and surface grow, draws the plot and prints the tables. Needs
+Matplotlib.
 
-    make growth                                            # all of it, a minute or two
+    make growth                                              # all of it, a minute or two
+    scripts/benchmark growth --method surface                # one of them; the other stays as it was measured
     python3 bench/growth.py --from docs/results/growth.json  # plot and tables of what was measured
 
 The figures go to docs/results/growth.json, the plot to docs/images/growth.png, the tables, in Markdown, to
@@ -20,13 +22,16 @@ RESULTS = ROOT / "docs" / "results" / "growth.json"
 PICTURE = ROOT / "docs" / "images" / "growth.png"
 LIMIT = 64  # bytes a point that the product may hold
 
-BLUE, ORANGE, GREY = "#1f6fb4", "#d9601a", "#808080"
+METHODS = ("patchwork", "surface")
+TITLES = {"patchwork": "Patchwork", "surface": "surface"}
+COLORS = {"patchwork": "#1f6fb4", "surface": "#d9601a"}
+GREY = "#808080"
 
 
-def measure(program, points):
-    done = subprocess.run([program, str(points)], stdout=subprocess.PIPE, text=True)
+def measure(program, method, points):
+    done = subprocess.run([program, method, str(points)], stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
-        sys.exit(f"exit code {done.returncode}: {program} {points}")
+        sys.exit(f"exit code {done.returncode}: {program} {method} {points}")
     return json.loads(done.stdout)
 
 
@@ -37,26 +42,33 @@ def median(duration):
     return duration["median_ms"]
 
 
+def slope_1(axes, first, last, rate):
+    """A line of `rate` times what is on the axis of x."""
+    axes.loglog([first, last], [rate * first, rate * last], "--", color=GREY, linewidth=1, label="slope 1")
+
+
 def plot_points(axes, results):
-    rows = results["points"]
-    points = [row["points"] for row in rows]
-    axes.loglog(
-        points, [median(row["ordered"]) for row in rows], "o-", color=BLUE, label="in the sensor's order"
-    )
-    axes.loglog(points, [median(row["shuffled"]) for row in rows], "s-", color=ORANGE, label="shuffled")
-    # A line of slope 1 through the ordered scan of 100,000 points.
+    for method, measured in results.items():
+        rows = measured["points"]
+        points = [row["points"] for row in rows]
+        for order, line in (("ordered", "o-"), ("shuffled", "s:")):
+            label = TITLES[method] + (", in the sensor's order" if order == "ordered" else ", shuffled")
+            times = [median(row[order]) for row in rows]
+            axes.loglog(points, times, line, color=COLORS[method], label=label)
+    rows = next(iter(results.values()))["points"]
+    # Through the ordered scan of 100,000 points.
     through = next((row for row in rows if row["points"] == 100000), rows[-1])
     rate = median(through["ordered"]) / through["points"]
-    axes.loglog(points, [rate * n for n in points], "--", color=GREY, linewidth=1, label="slope 1")
+    slope_1(axes, rows[0]["points"], rows[-1]["points"], rate)
     axes.set(title="Time over points", xlabel="points", ylabel="time a scan, ms")
 
 
 def plot_memory(axes, results):
-    rows = results["points"]
-    points = [row["points"] for row in rows]
-    axes.loglog(
-        points, [row["bytes_held"] / 2**20 for row in rows], "o-", color=BLUE, label="held, result included"
-    )
+    for method, measured in results.items():
+        rows = measured["points"]
+        points = [row["points"] for row in rows]
+        held = [row["bytes_held"] / 2**20 for row in rows]
+        axes.loglog(points, held, "o-", color=COLORS[method], label=f"{TITLES[method]}, result included")
     axes.loglog(
         points,
         [LIMIT * n / 2**20 for n in points],
@@ -65,48 +77,53 @@ def plot_memory(axes, results):
         linewidth=1,
         label=f"{LIMIT} bytes a point (slope 1)",
     )
-    axes.set(title="Memory over points", xlabel="points", ylabel="memory, MiB")
+    axes.set(title="Memory over points", xlabel="points", ylabel="memory held, MiB")
 
 
 def plot_beams(axes, results):
-    rows = results["beams"]
-    beams = [row["beams"] for row in rows]
-    axes.loglog(beams, [median(row["time"]) for row in rows], "o-", color=BLUE, label="2,048 columns")
-    rate = median(rows[0]["time"]) / beams[0]
-    axes.loglog(beams, [rate * n for n in beams], "--", color=GREY, linewidth=1, label="slope 1")
+    for method, measured in results.items():
+        rows = measured["beams"]
+        beams = [row["beams"] for row in rows]
+        times = [median(row["time"]) for row in rows]
+        axes.loglog(beams, times, "o-", color=COLORS[method], label=TITLES[method])
+    slope_1(axes, beams[0], beams[-1], times[-1] / beams[-1])
     axes.set_xticks(beams, [str(n) for n in beams])
     axes.minorticks_off()
-    axes.set(title="Time over beams", xlabel="beams", ylabel="time a scan, ms")
+    axes.set(title="Time over beams of 2,048 columns", xlabel="beams", ylabel="time a scan, ms")
 
 
 def plot_bins(axes, results):
-    rows = results["bins"]
+    measured = results["patchwork"]
+    rows = measured["bins"]
     bins = [row["bins"] for row in rows]
-    axes.loglog(bins, [median(row["time"]) for row in rows], "o-", color=BLUE, label="equal rings × sectors")
-    default = results["general_layouts"][0]
-    axes.loglog([default["bins"]], [median(default["time"])], "D", color=ORANGE, label="default zones")
-    rate = median(rows[0]["time"]) / bins[0]
-    short = bins[:3]
-    axes.loglog(short, [rate * n for n in short], "--", color=GREY, linewidth=1, label="slope 1")
-    axes.set(title="Time over bins, 120,000 points", xlabel="bins", ylabel="time a scan, ms")
+    times = [median(row["time"]) for row in rows]
+    axes.loglog(bins, times, "o-", color=COLORS["patchwork"], label="equal rings × sectors")
+    default = measured["general_layouts"][0]
+    axes.loglog([default["bins"]], [median(default["time"])], "D", color="black", label="default zones")
+    slope_1(axes, bins[0], bins[2], times[0] / bins[0])
+    axes.set(title="Patchwork's time over bins, 120,000 points", xlabel="bins", ylabel="time a scan, ms")
 
 
 def plot_one_scan(axes, results):
-    rows = results["threads_of_one_scan"]
-    for size, color in zip(sorted({row["points"] for row in rows}), (BLUE, ORANGE)):
-        times = [(row["threads"], median(row["time"])) for row in rows if row["points"] == size]
-        alone = times[0][1]
-        speedups = [(threads, alone / time) for threads, time in times]
-        axes.plot(*zip(*speedups), "o-", color=color, label=f"{size:,} points")
+    for method, measured in results.items():
+        rows = measured["threads_of_one_scan"]
+        for size, line in zip(sorted({row["points"] for row in rows}), ("o-", "s:")):
+            times = [(row["threads"], median(row["time"])) for row in rows if row["points"] == size]
+            alone = times[0][1]
+            speedups = [(threads, alone / time) for threads, time in times]
+            label = f"{TITLES[method]}, {size:,} points"
+            axes.plot(*zip(*speedups), line, color=COLORS[method], label=label)
     threads_scale(axes, rows)
     axes.set(title="One scan over threads", xlabel="threads", ylabel="times faster than with one")
 
 
 def plot_many_scans(axes, results):
-    rows = results["threads_of_many_scans"]
-    alone = rows[0]["scans_per_second"]
-    shares = [(row["threads"], row["scans_per_second"] / alone) for row in rows]
-    axes.plot(*zip(*shares), "o-", color=BLUE, label=f"120,000 points; {alone:,.0f} scans a second with one")
+    for method, measured in results.items():
+        rows = measured["threads_of_many_scans"]
+        alone = rows[0]["scans_per_second"]
+        shares = [(row["threads"], row["scans_per_second"] / alone) for row in rows]
+        label = f"{TITLES[method]}, 120,000 points: {alone:,.0f} scans a second with one"
+        axes.plot(*zip(*shares), "o-", color=COLORS[method], label=label)
     threads_scale(axes, rows)
     axes.set(title="Many scans over threads", xlabel="threads", ylabel="times as many as with one")
 
@@ -131,6 +148,11 @@ def plain_numbers(axis):
     axis.set_minor_locator(ticker.NullLocator())
 
 
+def where(measured):
+    """On what machine and when."""
+    return f"{measured['machine']}, {measured['simd']}, {measured['date']}"
+
+
 def draw(results, path):
     try:
         import matplotlib
@@ -147,9 +169,7 @@ def draw(results, path):
         place.set_axisbelow(True)
         plain_numbers(place.yaxis)
         place.legend(frameon=False, fontsize=9)
-    figure.suptitle(
-        f"Patchwork, preset default: {results['machine']}, {results['simd']}, {results['date']}", fontsize=11
-    )
+    figure.suptitle("\n".join(f"{TITLES[name]}: {where(of)}" for name, of in results.items()), fontsize=11)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=110, metadata={"Software": None})
 
@@ -210,6 +230,17 @@ def layouts_table(results, name):
     return table(["zones, rings × sectors", "rings", "bins", "with points", "ms", "/ default"], rows)
 
 
+def cells_table(results):
+    rows = results["cells"]
+    default = median(next(row["time"] for row in rows if row["max_range"] == 100 and row["levels"] == 4))
+    cells = [
+        [f"{row['max_range']:.0f}", str(row["levels"]), ms(row["time"]),
+         f"{median(row['time']) / default:.2f}", f"{row['bytes_held'] / 1e6:.2f}"]
+        for row in rows
+    ]  # fmt: skip
+    return table(["range, m", "levels", "ms", "/ default", "MB held"], cells)
+
+
 def memory_table(results):
     first = results["memory_layouts"][0]["time"]["median_ms"]
     rows = [
@@ -254,15 +285,12 @@ def threads_tables(results):
 
 def tables(results):
     head = f"{results['date']}, {results['machine']}, {results['simd']}; medians, warm caches.\n"
-    parts = (
-        head,
-        points_table(results),
-        beams_table(results),
-        layouts_table(results, "bins"),
-        layouts_table(results, "general_layouts"),
-        memory_table(results),
-        threads_tables(results),
-    )
+    parts = [head, points_table(results), beams_table(results)]
+    if "cells" in results:
+        parts.append(cells_table(results))
+    else:
+        parts += [layouts_table(results, "bins"), layouts_table(results, "general_layouts")]
+    parts += [memory_table(results), threads_tables(results)]
     return "\n".join(parts)
 
 
@@ -276,6 +304,7 @@ def main():
     parser.add_argument(
         "--points", type=int, default=10000000, help="of the largest cloud, 1,000 to 10,000,000"
     )
+    parser.add_argument("--method", choices=METHODS, help="the only one to measure")
     parser.add_argument("--from", dest="file", type=pathlib.Path, help="figures measured before")
     arguments = parser.parse_args()
     if arguments.file:
@@ -283,10 +312,15 @@ def main():
     else:
         if not arguments.program.exists():
             sys.exit(f"{arguments.program} is not built: `make growth` builds it")
-        results = measure(arguments.program, arguments.points)
+        results = {}
+        if arguments.method:
+            results = json.loads(RESULTS.read_text())
+        for method in [arguments.method] if arguments.method else METHODS:
+            results[method] = measure(arguments.program, method, arguments.points)
         RESULTS.parent.mkdir(exist_ok=True)
         RESULTS.write_text(json.dumps(results, indent=1) + "\n")
-    print(tables(results))
+    for method, measured in results.items():
+        print(f"{TITLES[method]}: {tables(measured)}")
     draw(results, PICTURE)
 
 

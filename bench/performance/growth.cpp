@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// How time and memory of Patchwork grow with points, beams, bins and threads, on simulated streets.
-// Prints JSON; bench/growth.py runs it and draws the plot.
+// How time and memory of Patchwork or of surface grow with points, beams, bins and threads, on
+// simulated streets. Prints JSON; bench/growth.py runs it and draws the plot.
 
 #include <algorithm>
 #include <array>
@@ -11,18 +11,24 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <flagstone/patchwork.hpp>
+#include <flagstone/patchwork_config.hpp>
+#include <flagstone/segmentation.hpp>
+#include <flagstone/segmenter.hpp>
+#include <flagstone/surface_config.hpp>
 #include <flagstone/version.hpp>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "bench/allocation_count.hpp"
+#include "bench/timed_method.hpp"
 #include "clouds.hpp"
 #include "core/simd_target.hpp"
 #include "eval/machine.hpp"
@@ -33,20 +39,21 @@ namespace flagstone::performance {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Config = bench::TimedConfig;
 
 constexpr std::size_t usual_size = 120000;  ///< points of an HDL-64E's scan, about
 
 /// A segmenter and its result, as a user keeps them.
 struct Worker {
-  explicit Worker(PatchworkConfig config = {}, unsigned threads = 1)
-      : patchwork(std::move(config), threads) {}
+  explicit Worker(const Config& config, unsigned threads = 1)
+      : segmenter(bench::make_timed(config, threads, nullptr)) {}
 
   void operator()(CloudView cloud) {
-    const Status status = patchwork.segment(cloud, result);
+    const Status status = segmenter->segment(cloud, result);
     if (!status.ok()) throw std::runtime_error(status.message());
   }
 
-  Patchwork patchwork;
+  std::unique_ptr<Segmenter> segmenter;
   Segmentation result;
 };
 
@@ -59,7 +66,7 @@ Json to_json(const Duration& duration) {
 }
 
 /// Time and bytes held for a cloud in its order and out of it.
-Json growth_with_points(const Cloud& dense, std::size_t most) {
+Json growth_with_points(const Config& config, const Cloud& dense, std::size_t most) {
   Json rows = Json::array();
   Random random(1);
   constexpr std::array<std::size_t, 9> sizes = {1000,   3000,    10000,   30000,   100000,
@@ -69,7 +76,7 @@ Json growth_with_points(const Cloud& dense, std::size_t most) {
     say_on_terminal("points: " + std::to_string(size));
     Cloud cloud = resized(dense, size);
     const std::size_t before = bench::allocation_count().bytes;
-    Worker worker;
+    Worker worker(config);
     const Duration ordered = time_of_scan(worker, view_of(cloud));
     const std::size_t held = bench::allocation_count().bytes - before;
     cloud = shuffled(std::move(cloud), random);
@@ -84,12 +91,12 @@ Json growth_with_points(const Cloud& dense, std::size_t most) {
 }
 
 /// At 2,048 columns.
-Json growth_with_beams() {
+Json growth_with_beams(const Config& config) {
   Json rows = Json::array();
   for (const int beams : {16, 32, 64, 128}) {
     say_on_terminal("beams: " + std::to_string(beams));
     const Cloud cloud = simulated_street(beams, 2048, 1);
-    Worker worker;
+    Worker worker(config);
     rows.push_back({{"beams", beams},
                     {"points", cloud.size()},
                     {"time", to_json(time_of_scan(worker, view_of(cloud)))}});
@@ -132,10 +139,28 @@ Json growth_with_bins(const Cloud& cloud) {
   return rows;
 }
 
+/// How far the cells of surface reach, and how many levels refine them.
+Json growth_with_cells(const Cloud& cloud) {
+  Json rows = Json::array();
+  const auto add_row = [&](const SurfaceConfig& config) {
+    say_on_terminal("cells");
+    const std::size_t before = bench::allocation_count().bytes;
+    Worker worker(config);
+    const Duration time = time_of_scan(worker, view_of(cloud));
+    rows.push_back({{"max_range", config.max_range},
+                    {"levels", config.refinement.levels},
+                    {"time", to_json(time)},
+                    {"bytes_held", bench::allocation_count().bytes - before}});
+  };
+  for (const float max_range : {25.0f, 50.0f, 100.0f, 200.0f}) add_row({.max_range = max_range});
+  for (const int levels : {0, 1, 2, 3}) add_row({.refinement = {.levels = levels}});
+  return rows;
+}
+
 /// What layouts cost whose rings no longer fit vector registers: about as many bins each.
 Json general_layouts(const Cloud& cloud) {
   Json rows = Json::array();
-  rows.push_back(time_of_layout("default", {}, cloud));
+  rows.push_back(time_of_layout("default", PatchworkConfig{}, cloud));
   constexpr std::array<std::pair<int, int>, 4> layouts = {{{16, 34}, {17, 32}, {34, 16}, {68, 8}}};
   for (const auto& [rings, sectors] : layouts) {
     rows.push_back(time_of_layout(std::to_string(rings) + " x " + std::to_string(sectors),
@@ -145,7 +170,7 @@ Json general_layouts(const Cloud& cloud) {
 }
 
 /// The same points in other memory.
-Json memory_layouts(const Cloud& cloud) {
+Json memory_layouts(const Config& config, const Cloud& cloud) {
   struct Layout {
     const char* name;
     CloudLayout layout;
@@ -171,7 +196,7 @@ Json memory_layouts(const Cloud& cloud) {
       put(i, layout.y, cloud[i].y);
       put(i, layout.z, cloud[i].z);
     }
-    Worker worker;
+    Worker worker(config);
     const Duration time = time_of_scan(worker, CloudView(bytes.data(), cloud.size(), layout));
     rows.push_back({{"memory", name}, {"time", to_json(time)}});
   }
@@ -183,15 +208,15 @@ bool same_bytes(const Segmentation& a, const Segmentation& b) {
 }
 
 /// One scan over several threads.
-Json growth_with_threads_of_one_scan(const Cloud& dense, unsigned cores) {
+Json growth_with_threads_of_one_scan(const Config& config, const Cloud& dense, unsigned cores) {
   Json rows = Json::array();
   for (const std::size_t size : {usual_size, std::size_t{1000000}}) {
     const Cloud cloud = resized(dense, size);
-    Worker alone;
+    Worker alone(config);
     alone(view_of(cloud));
     for (unsigned threads = 1; threads <= cores; ++threads) {
       say_on_terminal("threads of one scan: " + std::to_string(threads));
-      Worker worker({}, threads);
+      Worker worker(config, threads);
       const Duration time = time_of_scan(worker, view_of(cloud), 500);
       rows.push_back({{"points", size},
                       {"threads", threads},
@@ -203,12 +228,12 @@ Json growth_with_threads_of_one_scan(const Cloud& dense, unsigned cores) {
 }
 
 /// Many scans at once: every thread takes all of them in turn.
-Json growth_with_threads_of_many_scans(const Cloud& dense, unsigned cores) {
+Json growth_with_threads_of_many_scans(const Config& config, const Cloud& dense, unsigned cores) {
   constexpr std::size_t scan_count = 8;
   constexpr std::size_t rounds = 40;
   std::vector<Cloud> clouds;
   std::vector<Segmentation> expected(scan_count);
-  Worker alone;
+  Worker alone(config);
   for (std::size_t scan = 0; scan < scan_count; ++scan) {
     clouds.push_back(turned(resized(dense, usual_size), 0.7 * static_cast<double>(scan)));
     alone(view_of(clouds.back()));
@@ -217,7 +242,9 @@ Json growth_with_threads_of_many_scans(const Cloud& dense, unsigned cores) {
   Json rows = Json::array();
   for (unsigned threads = 1; threads <= cores; ++threads) {
     say_on_terminal("threads of many scans: " + std::to_string(threads));
-    std::vector<Worker> workers(threads);
+    std::vector<Worker> workers;
+    workers.reserve(threads);
+    for (unsigned t = 0; t < threads; ++t) workers.emplace_back(config);
     std::vector<char> same(threads, 1);
     const auto crew = [&](const auto& work) {
       std::vector<std::jthread> others;
@@ -245,7 +272,7 @@ Json growth_with_threads_of_many_scans(const Cloud& dense, unsigned cores) {
   return rows;
 }
 
-int run(std::size_t most) {
+int run(const Config& config, std::size_t most) {
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   say_on_terminal("simulating");
   // Two thirds of the firings come back.
@@ -257,13 +284,17 @@ int run(std::size_t most) {
                  {"machine", eval::machine_name()},
                  {"simd", simd_target()},
                  {"simulated_points", dense.size()}};
-  result["points"] = growth_with_points(dense, most);
-  result["beams"] = growth_with_beams();
-  result["bins"] = growth_with_bins(cloud);
-  result["general_layouts"] = general_layouts(cloud);
-  result["memory_layouts"] = memory_layouts(cloud);
-  result["threads_of_one_scan"] = growth_with_threads_of_one_scan(dense, cores);
-  result["threads_of_many_scans"] = growth_with_threads_of_many_scans(dense, cores);
+  result["points"] = growth_with_points(config, dense, most);
+  result["beams"] = growth_with_beams(config);
+  if (std::holds_alternative<SurfaceConfig>(config)) {
+    result["cells"] = growth_with_cells(cloud);
+  } else {
+    result["bins"] = growth_with_bins(cloud);
+    result["general_layouts"] = general_layouts(cloud);
+  }
+  result["memory_layouts"] = memory_layouts(config, cloud);
+  result["threads_of_one_scan"] = growth_with_threads_of_one_scan(config, dense, cores);
+  result["threads_of_many_scans"] = growth_with_threads_of_many_scans(config, dense, cores);
   say_on_terminal("");
   std::cout << result.dump(1) << '\n';
   return 0;
@@ -284,14 +315,19 @@ std::size_t parse_most(std::string_view text) {
 
 int main(int argc, char** argv) {
   constexpr std::size_t all = 10000000;
-  const std::size_t most = argc == 2 ? flagstone::performance::parse_most(argv[1]) : all;
-  if (argc > 2 || most < 1000 || most > all) {
-    std::fputs("usage: growth [POINTS], the largest cloud, 1000 to 10000000 (all by default)\n",
-               stderr);
+  const std::string_view method = argc > 1 ? argv[1] : "";
+  const std::size_t most = argc == 3 ? flagstone::performance::parse_most(argv[2]) : all;
+  if (argc > 3 || (method != "patchwork" && method != "surface") || most < 1000 || most > all) {
+    std::fputs(
+        "usage: growth patchwork|surface [POINTS], the largest cloud, 1000 to 10000000 (all by "
+        "default)\n",
+        stderr);
     return 2;
   }
   try {
-    return flagstone::performance::run(most);
+    using flagstone::performance::run;
+    return method == "surface" ? run(flagstone::SurfaceConfig{}, most)
+                               : run(flagstone::PatchworkConfig{}, most);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "growth: %s\n", error.what());
     return 1;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// How long Patchwork takes on 10,000 different scans, among them those meant to take long, and
-// which take longer than others of their size. Prints Markdown.
+// How long Patchwork and surface take on 10,000 different scans, among them those meant to take
+// long, and which take longer than others of their size. Prints Markdown.
 
 #include <fmt/format.h>
 
@@ -13,8 +13,13 @@
 #include <cstdio>
 #include <exception>
 #include <flagstone/patchwork.hpp>
+#include <flagstone/segmentation.hpp>
+#include <flagstone/segmenter.hpp>
+#include <flagstone/surface_segmenter.hpp>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clouds.hpp"
@@ -53,16 +58,22 @@ struct Times {
 /// Times by size class and kind.
 using Table = std::vector<std::vector<Times>>;
 
+std::unique_ptr<Segmenter> make(std::string_view method) {
+  if (method == "surface") return std::make_unique<SurfaceSegmenter>();
+  return std::make_unique<Patchwork>();
+}
+
 /// Segments scans of one size.
 class Bench {
  public:
-  Bench(const std::vector<ScanKind>& kinds, std::size_t points) : kinds_(kinds), points_(points) {
+  Bench(std::string_view method, const std::vector<ScanKind>& kinds, std::size_t points)
+      : kinds_(kinds), points_(points), segmenter_(make(method)) {
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       (kinds[k].ordinary ? ordinary_ : others_).push_back(k);
     }
     Random random(points);
     for (const ScanKind& kind : kinds) {  // memory grows to this size
-      (void)patchwork_.segment(view_of(kind.draw(points, random)), result_);
+      (void)segmenter_->segment(view_of(kind.draw(points, random)), result_);
     }
   }
 
@@ -103,7 +114,7 @@ class Bench {
 
   double time_of_one(const Cloud& cloud) {
     Stopwatch stopwatch;
-    const Status status = patchwork_.segment(view_of(cloud), result_);
+    const Status status = segmenter_->segment(view_of(cloud), result_);
     const double time = stopwatch.lap();
     if (!status.ok()) throw std::runtime_error(status.message());
     return time;
@@ -113,18 +124,18 @@ class Bench {
   std::size_t points_;
   std::vector<std::size_t> ordinary_;  ///< kinds
   std::vector<std::size_t> others_;
-  Patchwork patchwork_;
+  std::unique_ptr<Segmenter> segmenter_;
   Segmentation result_;
 };
 
-Table measure(const std::vector<ScanKind>& kinds) {
+Table measure(std::string_view method, const std::vector<ScanKind>& kinds) {
   Table table;
   std::size_t done = 0;
   for (const SizeClass& size_class : size_classes) {
     std::vector<Times>& times = table.emplace_back(kinds.size());
-    Bench bench(kinds, size_class.points);
+    Bench bench(method, kinds, size_class.points);
     for (std::size_t scan = 0; scan < size_class.scans; ++scan, ++done) {
-      if (done % 100 == 0) say_on_terminal(fmt::format("{} of 10000 scans", done));
+      if (done % 100 == 0) say_on_terminal(fmt::format("{}: {} of 10000 scans", method, done));
       bench.measure(scan, times);
     }
     for (Times& of_kind : times) bench.measure_again(of_kind);
@@ -209,43 +220,56 @@ void print_growth(const Table& table, const std::vector<ScanKind>& kinds) {
 /// Kinds with a scan more than three times as slow as ordinary scans of its size.
 void print_slow(const Table& table, const std::vector<ScanKind>& kinds) {
   fmt::print("\nSlower than 3 times the median of ordinary scans of the size:\n\n");
+  bool any = false;
   for (std::size_t s = 0; s < table.size(); ++s) {
     const double ordinary = quantile(all_of(table[s], kinds, true).least, 0.5);
     for (std::size_t k = 0; k < kinds.size(); ++k) {
       const double ratio = quantile(table[s][k].least, 1) / ordinary;
-      if (ratio > 3) {
-        fmt::print("- {} points, {}: {:.2f}\n", size_classes[s].points, kinds[k].name, ratio);
-      }
+      if (ratio <= 3) continue;
+      fmt::print("- {} points, {}: {:.2f}\n", size_classes[s].points, kinds[k].name, ratio);
+      any = true;
     }
   }
+  if (!any) fmt::print("none\n");
 }
 
-int run() {
+int run(const std::vector<std::string_view>& methods) {
   say_on_terminal("simulating");
   const Sources sources = load_sources();
   const std::vector<ScanKind> kinds = scan_kinds(sources);
   std::size_t real_count = sources.voxel_means.size();
   for (const auto& [set, scans] : sources.real) real_count += scans.size();
-  const Table table = measure(kinds);
-  fmt::print("{}, {}, {}; from {} simulated and {} real scans.\n\n", eval::today(),
-             eval::machine_name(), simd_target(), sources.simulated.size(), real_count);
-  print_by_size(table, kinds);
-  print_by_kind(table, kinds);
-  print_growth(table, kinds);
-  print_slow(table, kinds);
+  for (const std::string_view method : methods) {
+    const Table table = measure(method, kinds);
+    fmt::print("Method {}: {}, {}, {}; from {} simulated and {} real scans.\n\n", method,
+               eval::today(), eval::machine_name(), simd_target(), sources.simulated.size(),
+               real_count);
+    print_by_size(table, kinds);
+    print_by_kind(table, kinds);
+    print_growth(table, kinds);
+    print_slow(table, kinds);
+    fmt::print("\n");
+    std::fflush(stdout);
+  }
   return 0;
 }
 
 }  // namespace
 }  // namespace flagstone::performance
 
-int main(int argc, char** /*argv*/) {
-  if (argc != 1) {
-    std::fputs("usage: latency (FLAGSTONE_DATA names the folder of real scans)\n", stderr);
+int main(int argc, char** argv) {
+  std::vector<std::string_view> methods(argv + 1, argv + argc);
+  for (const std::string_view method : methods) {
+    if (method == "patchwork" || method == "surface") continue;
+    std::fputs(
+        "usage: latency [patchwork] [surface], both by default (FLAGSTONE_DATA names the folder of "
+        "real scans)\n",
+        stderr);
     return 2;
   }
+  if (methods.empty()) methods = {"patchwork", "surface"};
   try {
-    return flagstone::performance::run();
+    return flagstone::performance::run(methods);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "latency: %s\n", error.what());
     return 1;

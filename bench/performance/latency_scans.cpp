@@ -225,6 +225,13 @@ std::vector<ScanKind> made_up_kinds() {
       return polar(3 + 76 * out, turn + two_pi * around, ground + random.uniform(-0.05, 0.05));
     });
   });
+  // Ground in every cell of surface's grids, and in every patch.
+  add("evenly on a plain", [](std::size_t count, Random& random) {
+    return drawn(count, [&](std::size_t) {
+      return polar(100 * std::sqrt(random.uniform(0, 1)), random.uniform(0, two_pi),
+                   ground + random.uniform(-0.05, 0.05));
+    });
+  });
   add("runs of two", [](std::size_t n, Random& random) { return short_runs(n, 2, random); });
   add("runs of three", [](std::size_t n, Random& random) { return short_runs(n, 3, random); });
   add("runs of four", [](std::size_t n, Random& random) { return short_runs(n, 4, random); });

@@ -1,16 +1,23 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Each step of Patchwork by itself on one simulated scan, for every instruction set that this
-// machine has. Options are Google Benchmark's: --benchmark_filter=gather, --benchmark_format=json.
+// Each step of Patchwork and of surface by itself on one simulated scan, for every instruction set
+// that this machine has. Options are Google Benchmark's: --benchmark_filter=gather,
+// --benchmark_format=json.
 
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <flagstone/patchwork.hpp>
+#include <flagstone/segmentation.hpp>
+#include <flagstone/segmenter.hpp>
+#include <flagstone/surface_segmenter.hpp>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +33,9 @@
 #include "patchwork/bin_labels.hpp"
 #include "patchwork/concentric_zones.hpp"
 #include "patchwork/read_scan.hpp"
+#include "surface/grid.hpp"
+#include "surface/square_cells.hpp"
+#include "surface_steps.hpp"
 
 namespace flagstone::performance {
 namespace {
@@ -170,6 +180,30 @@ void add_all(Steps& ordered, Steps& scattered, const std::vector<float>& xyzi) {
   add("write_labels_shuffled", scattered.points_in_batches, [&] { scattered.write_labels(); });
 }
 
+void add_all_of_surface(SurfaceSteps& ordered, SurfaceSteps& scattered) {
+  const std::size_t points = ordered.cloud.size();
+  add("surface_read_xyz", points, [&] { ordered.read(); });
+  add("surface_group", points, [&] { ordered.group(); });
+  add("surface_group_shuffled", points, [&] { scattered.group(); });
+  add("surface_sample", ordered.sampled_points(), [&] { ordered.sample(); });
+  for (std::size_t level = 0; level < surface::level_count; ++level) {
+    add(fmt::format("surface_observe_{}m", surface::levels[level].cell),
+        ordered.occupied_cells(level), [&ordered, level] { ordered.observe(level); });
+  }
+  add("surface_fill", ordered.filled_cells(), [&] { ordered.fill(); });
+  add("surface_refine", points, [&] { ordered.refine(); });
+  add("surface_measure", points, [&] { ordered.measure(); });
+  add("surface_measure_shuffled", points, [&] { scattered.measure(); });
+  add("surface_label", points, [&] { ordered.label(); });
+}
+
+/// Whole methods, for comparison with the sums of their steps.
+void add_whole(const std::string& name, Segmenter& segmenter, const Cloud& cloud) {
+  add(name, cloud.size(), [&segmenter, &cloud, result = std::make_shared<Segmentation>()] {
+    benchmark::DoNotOptimize(segmenter.segment(view_of(cloud), *result));
+  });
+}
+
 }  // namespace
 }  // namespace flagstone::performance
 
@@ -185,6 +219,15 @@ int main(int argc, char** argv) {
   for (const flagstone::Point& p : street) xyzi.insert(xyzi.end(), {p.x, p.y, p.z, 0.0f});
   benchmark::AddCustomContext("points", std::to_string(street.size()));
   add_all(ordered, scattered, xyzi);
+  SurfaceSteps surface_ordered(street);
+  SurfaceSteps surface_scattered(scattered.cloud);
+  add_all_of_surface(surface_ordered, surface_scattered);
+  flagstone::Patchwork patchwork;
+  flagstone::SurfaceSegmenter surface;
+  add_whole("patchwork", patchwork, ordered.cloud);
+  add_whole("patchwork_shuffled", patchwork, scattered.cloud);
+  add_whole("surface", surface, ordered.cloud);
+  add_whole("surface_shuffled", surface, scattered.cloud);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -3,9 +3,10 @@
 //
 // Segments scans on demand, for bench/compare.py: one round over all scans for each line of
 // standard input, whose times it prints in nanoseconds. Uses what every revision of the library
-// has.
+// has, and the method surface where there is one.
 //
-//     segment_loop FILE...    KITTI's .bin: x, y, z and intensity as 32-bit floats
+//     segment_loop METHOD FILE...    patchwork or surface; KITTI's .bin: x, y, z and intensity as
+//                                    32-bit floats
 
 #include <chrono>
 #include <cstddef>
@@ -14,6 +15,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,15 @@ std::vector<float> read_floats(const char* path) {
   return floats;
 }
 
+/// Null where this revision has no such method.
+std::unique_ptr<flagstone::Segmenter> make_segmenter(const std::string& method) {
+  if (method == "patchwork") return std::make_unique<flagstone::Patchwork>();
+#if __has_include(<flagstone/surface_segmenter.hpp>)
+  if (method == "surface") return std::make_unique<flagstone::SurfaceSegmenter>();
+#endif
+  return nullptr;
+}
+
 /// FNV-1a of the labels: equal wherever the labels are.
 std::uint64_t hash_of(const flagstone::Segmentation& result) {
   std::uint64_t hash = 0xcbf29ce484222325;
@@ -43,22 +54,27 @@ std::uint64_t hash_of(const flagstone::Segmentation& result) {
 }  // namespace
 
 /// By this name callgrind is told to count here alone.
-extern "C" [[gnu::noinline]] void segment_measured(flagstone::Patchwork& patchwork,
+extern "C" [[gnu::noinline]] void segment_measured(flagstone::Segmenter& segmenter,
                                                    const flagstone::CloudView& cloud,
                                                    flagstone::Segmentation& result) {
-  (void)patchwork.segment(cloud, result);
+  (void)segmenter.segment(cloud, result);
 }
 
 int main(int argc, char** argv) {
+  const std::string method = argc < 2 ? "" : argv[1];
+  const std::unique_ptr<flagstone::Segmenter> segmenter = make_segmenter(method);
+  if (segmenter == nullptr) {
+    std::cerr << "this revision has no method \"" << method << "\" to time\n";
+    return 1;
+  }
   std::vector<std::vector<float>> scans;
-  for (int i = 1; i < argc; ++i) {
+  for (int i = 2; i < argc; ++i) {
     scans.push_back(read_floats(argv[i]));
     if (scans.back().size() < floats_a_point) {
       std::cerr << argv[i] << ": holds no points of four 32-bit floats; give KITTI's .bin files\n";
       return 1;
     }
   }
-  flagstone::Patchwork patchwork;
   flagstone::Segmentation result;
   const auto view_of = [](const std::vector<float>& scan) {
     return flagstone::CloudView(scan.data(), scan.size() / floats_a_point, floats_a_point);
@@ -66,21 +82,21 @@ int main(int argc, char** argv) {
 
   // Twice to warm up; then what the labels are.
   for (int round = 0; round < 2; ++round) {
-    for (const std::vector<float>& scan : scans) (void)patchwork.segment(view_of(scan), result);
+    for (const std::vector<float>& scan : scans) (void)segmenter->segment(view_of(scan), result);
   }
   for (const std::vector<float>& scan : scans) {
-    (void)patchwork.segment(view_of(scan), result);
+    (void)segmenter->segment(view_of(scan), result);
     std::cout << hash_of(result) << ' ';
   }
   std::cout << '\n' << std::flush;
 
   for (std::string line; std::getline(std::cin, line);) {
     // Another program had the core in between: the first scan is not to pay for the caches.
-    (void)patchwork.segment(view_of(scans.back()), result);
+    (void)segmenter->segment(view_of(scans.back()), result);
     for (const std::vector<float>& scan : scans) {
       const flagstone::CloudView cloud = view_of(scan);
       const auto start = std::chrono::steady_clock::now();
-      segment_measured(patchwork, cloud, result);
+      segment_measured(*segmenter, cloud, result);
       const std::chrono::nanoseconds time = std::chrono::steady_clock::now() - start;
       std::cout << time.count() << ' ';
     }

@@ -64,7 +64,7 @@ class Benchmark {
         watch_(watch),
         target_reset_(settings.target),
         views_(views_of(scans)),
-        results_(sizes_of(scans)) {
+        results_(method_name(settings.config), sizes_of(scans)) {
     results_.target = simd_target();
     results_.threads = settings.threads;
     if (settings.threads == 1) {
@@ -107,8 +107,9 @@ class Benchmark {
           });
     enter(segmenter(results_.target, TimedSegment::Stages::timed),
           [this](std::size_t round, std::size_t scan, const Visit& visit) {
-            for (std::size_t stage = 0; stage < stage_count; ++stage) {
-              results_.stages[stage].add(round, scan, 1000 * visit.stages[stage]);
+            for (StageResult& stage : results_.stages) {
+              const double seconds = visit.stages[static_cast<std::size_t>(stage.stage)];
+              stage.times.add(round, scan, 1000 * seconds);
             }
           });
     ours_ = entrants_.size();
@@ -128,7 +129,7 @@ class Benchmark {
   }
 
   void enter_peers(const PeerPlaces& places) {
-    const auto known = known_peers(places, settings_.config.sensor_height);
+    const auto known = known_peers(places, sensor_height(settings_.config));
     results_.peers.reserve(known.size());  // they are pointed to
     for (const PeerCommand& command : known) {
       results_.peers.push_back({command.name, Measured(scans_.size()), command.missing});

@@ -10,14 +10,14 @@
 
 #include "bench/peer.hpp"
 #include "bench/results.hpp"
-#include "flagstone/patchwork_config.hpp"
+#include "bench/timed_method.hpp"
 #include "io/cloud.hpp"
 
 namespace flagstone::bench {
 
 /// What is measured.
 struct BenchmarkSettings {
-  PatchworkConfig config = {};
+  TimedConfig config = {};  ///< of the method that is timed
   unsigned threads = 1;     ///< on one scan; with one, all that is timed shares one core
   std::string target = {};  ///< instruction set; empty for the best
   std::size_t rounds = 0;   ///< over all scans; 0 for as many as take about ten seconds
@@ -31,7 +31,7 @@ struct BenchmarkWatch {
   std::function<bool()> stop;
 };
 
-/// Times Patchwork on scans, each at least one point, beside the bare pass, its own scalar build
+/// Times a method on scans, each at least one point, beside the bare pass, its own scalar build
 /// and peers. All take every scan of a round, one contestant after the other, so that a scan was
 /// not touched for a whole rotation when its turn comes; the order of contestants changes from
 /// round to round. Peers, which are slow, join in fewer rounds, so that they take about as long as

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bench/sample_times.hpp"
+#include "bench/timed_method.hpp"
 #include "flagstone/stage_times.hpp"
 
 namespace flagstone::bench {
@@ -29,15 +31,27 @@ struct PeerResult {
   std::string left_out;  ///< why it was not measured, or not to the end; else empty
 };
 
+/// What a stage of the method took.
+struct StageResult {
+  Stage stage;
+  SampleTimes times;
+};
+
 /// What came of a benchmark.
 struct Results {
-  explicit Results(std::vector<std::size_t> points_of_scans)
-      : points(std::move(points_of_scans)),
+  /// `name` is one of `timed_methods`.
+  Results(std::string_view name, std::vector<std::size_t> points_of_scans)
+      : method(name),
+        points(std::move(points_of_scans)),
         segment(points.size()),
         floor(points.size()),
-        scalar(points.size()),
-        stages(stage_count, SampleTimes(points.size())) {}
+        scalar(points.size()) {
+    for (const Stage stage : stages_of(name)) {
+      stages.push_back({.stage = stage, .times = SampleTimes(points.size())});
+    }
+  }
 
+  std::string method;               ///< its name
   std::vector<std::size_t> points;  ///< of each scan
   std::size_t rounds = 0;           ///< that were begun, after warming up
   std::string target;               ///< instruction set
@@ -45,8 +59,8 @@ struct Results {
   std::optional<int> core;  ///< that everything ran on; none where it was free to move
   Measured segment;
   Measured floor;                   ///< the bare pass
-  Measured scalar;                  ///< Patchwork without vectors
-  std::vector<SampleTimes> stages;  ///< in the order of `Stage`
+  Measured scalar;                  ///< the method without vectors
+  std::vector<StageResult> stages;  ///< those that the method has, in order
   std::vector<PeerResult> peers;
   std::optional<std::size_t> allocations;  ///< most in one scan; none where nobody counts
   std::optional<std::size_t> bytes_held;   ///< by segmenter and result, once warm

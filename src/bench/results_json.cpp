@@ -30,11 +30,10 @@ Json segment_json(const Results& results, const Measured& measured) {
 
 Json stages_json(const Results& results) {
   Json json = Json::object();
-  for (std::size_t stage = 0; stage < stage_count; ++stage) {
-    const SampleTimes& times = results.stages[stage];
-    Json& entry = json[to_string(static_cast<Stage>(stage))];
-    entry = times_json(times);
-    entry["ratio"] = times.ratio_to(results.floor.times);
+  for (const StageResult& stage : results.stages) {
+    Json& entry = json[to_string(stage.stage)];
+    entry = times_json(stage.times);
+    entry["ratio"] = stage.times.ratio_to(results.floor.times);
   }
   return json;
 }
@@ -56,6 +55,7 @@ Json peers_json(const Results& results) {
 
 Json to_json(const Results& results) {
   Json json;
+  json["method"] = results.method;
   json["segment"] = segment_json(results, results.segment);
   json["floor"] = times_json(results.floor.times);
   json["ratio_to_floor"] = results.segment.times.ratio_to(results.floor.times);

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "eval/machine.hpp"
+#include "eval/method.hpp"
 
 namespace flagstone::bench {
 namespace {
@@ -35,11 +36,11 @@ std::string heading(const Results& results) {
   const std::string place =
       results.core ? fmt::format("pinned to core {}", *results.core) : "not pinned to a core";
   return fmt::format(
-      "Patchwork with {}, {}; {} of {:.0f} points (mean) in rotation, {} after warm-up\n"
+      "{} with {}, {}; {} of {:.0f} points (mean) in rotation, {} after warm-up\n"
       "{}, {}; {}\n",
-      results.target, counted(results.threads, "thread"), counted(results.points.size(), "scan"),
-      mean_points(results), counted(results.rounds, "round"), eval::machine_name(), place,
-      eval::today());
+      eval::title_of(results.method), results.target, counted(results.threads, "thread"),
+      counted(results.points.size(), "scan"), mean_points(results),
+      counted(results.rounds, "round"), eval::machine_name(), place, eval::today());
 }
 
 std::string row(const Results& results, std::string_view name, const Measured& measured,
@@ -70,14 +71,14 @@ std::string contestants(const Results& results) {
 
 std::string stages(const Results& results) {
   double sum = 0;
-  for (const SampleTimes& times : results.stages) sum += times.median();
+  for (const StageResult& stage : results.stages) sum += stage.times.median();
   std::string text = fmt::format("{:<27}{:>10}{:>10}{:>12}{:>9}{:>11}\n", "stage", "median µs",
                                  "p99 µs", "ns a point", "x floor", "share %");
-  for (std::size_t stage = 0; stage < stage_count; ++stage) {
-    const SampleTimes& times = results.stages[stage];
+  for (const StageResult& stage : results.stages) {
+    const SampleTimes& times = stage.times;
     text += fmt::format(
-        "{:<27}{}{}{}{}{}\n", to_string(static_cast<Stage>(stage)),
-        cell(1000 * times.median(), 10, 1), cell(1000 * times.percentile_99(), 10, 1),
+        "{:<27}{}{}{}{}{}\n", to_string(stage.stage), cell(1000 * times.median(), 10, 1),
+        cell(1000 * times.percentile_99(), 10, 1),
         cell(1e6 * times.median() / mean_points(results), 12, 3),
         cell(times.ratio_to(results.floor.times), 9, 2), cell(100 * times.median() / sum, 11, 1));
   }

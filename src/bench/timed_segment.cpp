@@ -12,7 +12,7 @@
 namespace flagstone::bench {
 namespace {
 
-/// The name, once it is in use: whatever Patchwork prepares when it is made is prepared for it.
+/// The name, once it is in use: whatever a method prepares when it is made is prepared for it.
 std::string used(std::string target) {
   use_simd_target(target);
   return target;
@@ -20,18 +20,18 @@ std::string used(std::string target) {
 
 }  // namespace
 
-TimedSegment::TimedSegment(std::span<const CloudView> scans, const PatchworkConfig& config,
+TimedSegment::TimedSegment(std::span<const CloudView> scans, const TimedConfig& config,
                            unsigned threads, std::string target, Stages stages)
-    : scans_(scans), target_(used(std::move(target))), patchwork_(config, threads) {
-  if (stages == Stages::timed) patchwork_.time_stages(&stage_times_);
-}
+    : scans_(scans),
+      target_(used(std::move(target))),
+      segmenter_(make_timed(config, threads, stages == Stages::timed ? &stage_times_ : nullptr)) {}
 
 Visit TimedSegment::visit(std::size_t scan) {
   use_simd_target(target_);
   stage_times_ = {};
   const std::size_t calls_before = allocation_count().calls;
   Stopwatch stopwatch;
-  const Status status = patchwork_.segment(scans_[scan], result_);
+  const Status status = segmenter_->segment(scans_[scan], result_);
   const double milliseconds = stopwatch.lap();
   allocations_ = allocation_count().calls - calls_before;
   if (status.code() == StatusCode::out_of_memory) {

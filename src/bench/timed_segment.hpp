@@ -3,23 +3,26 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 
 #include "bench/contestant.hpp"
+#include "bench/timed_method.hpp"
 #include "flagstone/cloud_view.hpp"
-#include "flagstone/patchwork.hpp"
 #include "flagstone/segmentation.hpp"
+#include "flagstone/segmenter.hpp"
+#include "flagstone/stage_times.hpp"
 
 namespace flagstone::bench {
 
-/// Patchwork with one instruction set.
+/// A method with one instruction set.
 class TimedSegment final : public Contestant {
  public:
   enum class Stages : bool { not_timed, timed };
 
   /// Throws std::invalid_argument where configuration, threads or instruction set are not allowed.
-  TimedSegment(std::span<const CloudView> scans, const PatchworkConfig& config, unsigned threads,
+  TimedSegment(std::span<const CloudView> scans, const TimedConfig& config, unsigned threads,
                std::string target, Stages stages = Stages::not_timed);
 
   Visit visit(std::size_t scan) override;
@@ -30,9 +33,9 @@ class TimedSegment final : public Contestant {
  private:
   std::span<const CloudView> scans_;
   std::string target_;
-  Patchwork patchwork_;
-  Segmentation result_;
   StageTimes stage_times_{};
+  std::unique_ptr<Segmenter> segmenter_;
+  Segmentation result_;
   std::size_t allocations_ = 0;
 };
 

@@ -18,6 +18,7 @@
 #include "bench/benchmark.hpp"
 #include "bench/results_json.hpp"
 #include "bench/results_text.hpp"
+#include "bench/timed_method.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/method_options.hpp"
 #include "cli/print_error.hpp"
@@ -58,9 +59,16 @@ std::vector<io::Cloud> read_scans(const std::vector<ScanInput>& inputs, int colu
   return clouds;
 }
 
+/// The settings of the method that is timed. --method lets no other through.
+bench::TimedConfig timed_config(const MethodOptions& options) {
+  const MethodConfig config = options.resolve();
+  if (const auto* const surface = std::get_if<SurfaceConfig>(&config)) return *surface;
+  return std::get<PatchworkConfig>(config);
+}
+
 int bench(const BenchOptions& options) {
   bench::BenchmarkSettings settings = options.settings;
-  settings.config = std::get<PatchworkConfig>(options.method.resolve());
+  settings.config = timed_config(options.method);
   if (options.peers) settings.peers = options.places;
   const std::vector<ScanInput> inputs = find_scans(options.scans);
   const std::vector<io::Cloud> clouds = read_scans(inputs, options.columns);
@@ -97,7 +105,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand(
       "bench",
-      "Time Patchwork on scans, stage by stage, beside other programs.\n\n"
+      "Time Patchwork or surface on scans, stage by stage, beside other programs.\n\n"
       "Example:  flagstone bench scans/ --peers\n\n"
       "Scans are taken in rotation. The bare pass reads x, y and z of every point and writes one\n"
       "byte a point. Ratios are medians of times of the same scan and round.\n");
@@ -106,7 +114,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
                    "Scans, or folders of them (.bin, .pcd.bin, .pcd, .ply, .npy)")
       ->required()
       ->type_name("SCAN...");
-  options->method.add_settings_to(*command);
+  options->method.add_to(*command, bench::timed_methods);
   command
       ->add_option("--columns", options->columns,
                    "Floats a point in .bin files. Default: 5 for .pcd.bin, else 4")

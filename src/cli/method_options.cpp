@@ -17,16 +17,11 @@
 
 namespace flagstone::cli {
 
-void MethodOptions::add_to(CLI::App& command) {
-  const auto names = method_names();
+void MethodOptions::add_to(CLI::App& command, std::span<const std::string_view> names) {
   command.add_option("--method", method, fmt::format("How to segment: {}", fmt::join(names, ", ")))
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())).description(""))
       ->capture_default_str()
       ->type_name("NAME");
-  add_settings_to(command);
-}
-
-void MethodOptions::add_settings_to(CLI::App& command) {
   add_preset_option(command, preset);
   command
       .add_option("--config", config_file, "TOML file of settings, as 'flagstone config' prints")

@@ -4,7 +4,9 @@
 
 #include <CLI/App.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "flagstone/make_segmenter.hpp"
@@ -19,11 +21,8 @@ struct MethodOptions {
   std::vector<std::string> settings;  ///< key=value
   std::optional<float> sensor_height;
 
-  /// Adds the options to a command.
-  void add_to(CLI::App& command);
-
-  /// Adds all but --method: to a command that runs Patchwork and nothing else.
-  void add_settings_to(CLI::App& command);
+  /// Adds the options to a command that runs any of these methods.
+  void add_to(CLI::App& command, std::span<const std::string_view> names = method_names());
 
   /// Do the method's settings start from a preset of Patchwork?
   [[nodiscard]] bool starts_from_preset() const;

@@ -49,15 +49,17 @@ TEST(AllocationCount, AlignedMemoryIsAligned) {
 TEST(AllocationCount, TheFirstScanAllocatesAndTheSecondDoesNot) {
   const std::vector<Point> cloud = tests::made_up_cloud(5000, 1);
   const std::vector<CloudView> views = {tests::view_of(cloud)};
-  TimedSegment segment(views, {}, 1, simd_target());
+  for (const TimedConfig& config : {TimedConfig(PatchworkConfig{}), TimedConfig(SurfaceConfig{})}) {
+    TimedSegment segment(views, config, 1, simd_target());
 
-  segment.visit(0);
-  const std::size_t first = segment.allocations();
-  segment.visit(0);
-  use_simd_target("");
+    segment.visit(0);
+    const std::size_t first = segment.allocations();
+    segment.visit(0);
+    use_simd_target("");
 
-  EXPECT_GT(first, 0U);
-  EXPECT_EQ(segment.allocations(), 0U);
+    EXPECT_GT(first, 0U) << method_name(config);
+    EXPECT_EQ(segment.allocations(), 0U) << method_name(config);
+  }
 }
 
 }  // namespace

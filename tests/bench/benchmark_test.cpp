@@ -9,10 +9,12 @@
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/simd_target.hpp"
-#include "flagstone/patchwork.hpp"
+#include "flagstone/segmentation.hpp"
 #include "made_up_cloud.hpp"
 
 namespace flagstone::bench {
@@ -43,21 +45,46 @@ TEST(Benchmark, TimesEveryContestantOnEveryScanOfEveryRound) {
     EXPECT_EQ(measured->times.count(), 12U);
     EXPECT_GT(measured->times.median(), 0);
   }
-  for (const SampleTimes& stage : results.stages) EXPECT_EQ(stage.count(), 12U);
+  for (const StageResult& stage : results.stages) EXPECT_EQ(stage.times.count(), 12U);
   EXPECT_TRUE(results.peers.empty());
 }
 
-TEST(Benchmark, FindsTheGroundThatPatchworkFindsWithAnyInstructionSet) {
+class BenchmarkOf : public testing::TestWithParam<std::string_view> {
+ protected:
+  static TimedConfig config() {
+    if (GetParam() == "surface") return SurfaceConfig{};
+    return PatchworkConfig{};
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, BenchmarkOf, testing::ValuesIn(timed_methods),
+                         [](const auto& method) { return std::string(method.param); });
+
+TEST_P(BenchmarkOf, TimesEveryStageOfTheMethod) {
+  const std::vector<io::Cloud> scans = {cloud_of(5000, 1)};
+
+  const Results results = run_benchmark(scans, {.config = config(), .rounds = 3}, nobody);
+
+  EXPECT_EQ(results.method, GetParam());
+  for (const StageResult& stage : results.stages) {
+    EXPECT_EQ(stage.times.count(), 3U) << to_string(stage.stage);
+    EXPECT_GT(stage.times.median(), 0) << to_string(stage.stage);
+  }
+}
+
+TEST_P(BenchmarkOf, FindsTheGroundThatTheMethodFindsWithAnyInstructionSet) {
   const std::vector<io::Cloud> scans = {cloud_of(4000, 1), cloud_of(3000, 2)};
   Segmentation expected;
   std::vector<std::optional<std::size_t>> ground;
+  const auto segmenter = make_timed(config(), 1, nullptr);
   for (const io::Cloud& scan : scans) {
-    ASSERT_TRUE(Patchwork().segment(scan.view(), expected).ok());
-    ground.push_back(expected.count(Label::ground));
+    ASSERT_TRUE(segmenter->segment(scan.view(), expected).ok());
+    ground.emplace_back(expected.count(Label::ground));
   }
 
   for (const std::string& target : simd_targets()) {
-    const Results results = run_benchmark(scans, {.target = target, .rounds = 1}, nobody);
+    const Results results =
+        run_benchmark(scans, {.config = config(), .target = target, .rounds = 1}, nobody);
 
     EXPECT_EQ(results.target, target);
     EXPECT_EQ(results.segment.ground, ground);
@@ -79,8 +106,12 @@ TEST(Benchmark, SettingsThatAreNotAllowedAreRefused) {
 
   EXPECT_THROW(static_cast<void>(run_benchmark(scans, {.target = "abacus"}, nobody)),
                std::invalid_argument);
-  EXPECT_THROW(static_cast<void>(run_benchmark(scans, {.config = {.distance_margin = -1}}, nobody)),
+  EXPECT_THROW(static_cast<void>(run_benchmark(
+                   scans, {.config = PatchworkConfig{.distance_margin = -1}}, nobody)),
                std::invalid_argument);
+  EXPECT_THROW(
+      static_cast<void>(run_benchmark(scans, {.config = SurfaceConfig{.max_range = -1}}, nobody)),
+      std::invalid_argument);
 }
 
 TEST(Benchmark, StoppedInItsThirdRoundReturnsWhatWasMeasured) {

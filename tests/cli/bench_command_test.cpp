@@ -59,6 +59,7 @@ TEST(Bench, JsonHasTheTimesOfSegmentFloorAndEveryStage) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err, "");
   const json bench = json::parse(outcome.out);
+  EXPECT_EQ(bench["method"], "patchwork");
   for (const char* what : {"segment", "floor"}) {
     EXPECT_GT(bench[what]["median_ms"].get<double>(), 0);
     EXPECT_GE(bench[what]["p99_ms"].get<double>(), bench[what]["median_ms"].get<double>());
@@ -76,6 +77,27 @@ TEST(Bench, JsonHasTheTimesOfSegmentFloorAndEveryStage) {
   EXPECT_GT(bench["bytes_held"].get<double>(), 3000);
   EXPECT_EQ(bench["points"], json::array({1000, 3000}));
   EXPECT_EQ(bench["rounds"], 3);
+}
+
+TEST(Bench, SurfaceIsTimedWithItsOwnSettingsAndStages) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.bin");
+  const std::string scan = (folder / "scan.bin").string();
+  const auto ground_with = [&](const std::string& setting) {
+    const Outcome outcome =
+        run({"bench", scan, "--method", "surface", "--set", setting, "--rounds", "1", "--json"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return json::parse(outcome.out)["segment"]["ground"].get<double>();
+  };
+
+  const Outcome outcome = run({"bench", scan, "--method", "surface", "--rounds", "2"});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::StartsWith("Surface with "));
+  for (const char* stage : {"join", "refine", "measure", "label"}) {
+    EXPECT_THAT(outcome.out, ContainsRegex(std::string("\n") + stage + " "));
+  }
+  EXPECT_GT(ground_with("point.margin=1"), ground_with("point.margin=0.1"));
 }
 
 TEST(Bench, WithoutJsonPrintsATableOfContestantsAndOneOfStages) {
