@@ -53,7 +53,7 @@ struct Refinement {
 /// When a point is ground.
 struct PointRule {
   /// Points lower than this above the surface are ground; metres, 0 to 10.
-  float margin = 0.22f;
+  float margin = 0.24f;
 
   /// The same where something stands: in cells of 0.5 m with a point 1.25 times `standing_height`
   /// to 2.5 m above the surface. Where the highest lies above 0.75 times `standing_height` only,
@@ -61,7 +61,7 @@ struct PointRule {
   /// ground beside them.
   float margin_at_obstacles = 0.06f;
   /// Metres, 0 to 2.
-  float standing_height = 0.8f;
+  float standing_height = 0.72f;
 
   /// Points farther below the surface are noise; metres, 0 to 1,000.
   float noise_depth = 1.0f;
