@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <string>
@@ -193,6 +194,22 @@ TEST_P(SurfaceSameBits, WherePointsAreNowhere) {
   expect_same(std::vector<Point>(9000, Point{5, 5, -1e30f}), "far below");
   expect_same(std::vector<Point>(9000, Point{1e-40f, -1e-40f, 1e-42f}), "nearly at the sensor");
   expect_same(std::vector<Point>(9000, Point{10, 0, -9999}), "noise");
+}
+
+TEST_P(SurfaceSameBits, AtTheEdgeOfARangeOfWholeBlocks) {
+  for (const float range : {8.0f, 16.0f, 104.0f, 200.0f}) {
+    const Setting setting = changed("range", [&](SurfaceConfig& c) { c.max_range = range; });
+    const float last = std::nextafter(range, 0.0f);
+    std::vector<Point> cloud = made_up_cloud(9000, 4);
+    for (int i = 0; i < 20; ++i) {
+      const float z = -1 + 0.1f * static_cast<float>(i);
+      for (const Point& p :
+           {Point{last, 0, z}, Point{0, last, z}, Point{-last, 0, z}, Point{0, -last, z}}) {
+        cloud.push_back(p);
+      }
+    }
+    expect_same(setting, view_of(cloud), std::to_string(range));
+  }
 }
 
 TEST_P(SurfaceSameBits, WithDenormalHeightsAndPlaces) {
