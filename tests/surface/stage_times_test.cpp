@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "flagstone/patchwork.hpp"
 #include "flagstone/surface_segmenter.hpp"
 #include "made_up_cloud.hpp"
 #include "surface/outcome.hpp"
@@ -36,6 +37,17 @@ TEST_P(SurfaceStageTimes, AddUpToNoMoreThanTheWholeScanTakes) {
   EXPECT_GT(sum, 0);
   EXPECT_LE(sum, whole.count());
   for (const double stage : times) EXPECT_GE(stage, 0);
+}
+
+TEST_P(SurfaceStageTimes, OfSurfaceAloneAreNotPatchworks) {
+  Patchwork patchwork({}, GetParam());
+  patchwork.time_stages(&times);
+  Segmentation result;
+  ASSERT_TRUE(patchwork.segment(tests::view_of(cloud), result).ok());
+
+  for (const Stage stage : {Stage::join, Stage::refine, Stage::measure}) {
+    EXPECT_EQ(times.at(static_cast<std::size_t>(stage)), 0) << to_string(stage);
+  }
 }
 
 TEST_P(SurfaceStageTimes, AreAddedScanAfterScan) {
