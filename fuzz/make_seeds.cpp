@@ -150,7 +150,7 @@ void add_labels(SeedFolder& seeds) {
                     npy_file("{'descr': '>i4', 'fortran_order': False, 'shape': (10,), }", 40)}));
 }
 
-/// A few hundred places on the ground, as the fuzzer of Patchwork takes them, for each of its
+/// A few hundred places on the ground, as the fuzzer of segmenters takes them, for each method's
 /// settings.
 void add_segment(SeedFolder& seeds) {
   Bytes places;
@@ -161,7 +161,7 @@ void add_segment(SeedFolder& seeds) {
   }
   const Bytes odd =
       numbers<float>({5, 5, -1.7F, 1e20F, 0, 0, 0, 0, 0, 3e38F, 6, -1.7F, 6, 2, -9999});
-  for (std::uint8_t settings = 0; settings < 12; ++settings) {
+  for (std::uint8_t settings = 0; settings < 20; ++settings) {
     const auto choice = std::byte{settings};
     seeds.add("segment", "ground" + std::to_string(settings),
               joined({Bytes{choice, choice, std::byte{1}}, places}));

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -12,12 +15,13 @@
 #include "cloud_properties.hpp"
 #include "core/simd_target.hpp"
 #include "flagstone/patchwork.hpp"
+#include "flagstone/surface_segmenter.hpp"
 
 namespace flagstone {
 namespace {
 
 /// The presets, and the presets' numbers over layouts of zones that take other paths.
-PatchworkConfig chosen_config(std::size_t choice) {
+PatchworkConfig patchwork_config(std::size_t choice) {
   const auto names = PatchworkConfig::preset_names();
   PatchworkConfig config = PatchworkConfig::preset(names[choice % names.size()]);
   const auto one_zone = [&](int rings, int sectors, float range) {
@@ -32,21 +36,72 @@ PatchworkConfig chosen_config(std::size_t choice) {
   }
   return config;
 }
-constexpr std::size_t config_count = 12;
+constexpr std::size_t patchwork_count = 12;
 
-/// One choice of settings, in one thread and in three. Kept, as programs keep them: what came
-/// before must not matter.
+/// The smallest and the largest surface, every number of levels, and hardly a limit.
+SurfaceConfig surface_config(std::size_t choice) {
+  constexpr float infinite = std::numeric_limits<float>::infinity();
+  SurfaceConfig config;
+  switch (choice) {
+    case 1: config.max_range = 8; break;
+    case 2: config.max_range = 200; break;
+    case 3: config.refinement.levels = 0; break;
+    case 4: config.refinement.levels = 2; break;
+    case 5: config.sensor_height = 100; break;
+    case 6:
+      config.max_range = 16;
+      config.sensor_height = 0;
+      config.noise_depth = 1000;
+      config.noise_slope = 10;
+      config.acceptance = {.upright_angle = 0,
+                           .contrast = infinite,
+                           .height = 1000,
+                           .rise = 10,
+                           .step = infinite,
+                           .step_growth = 10};
+      break;
+    case 7:
+      config.refinement = {.levels = 4,
+                           .gate = 10,
+                           .gate_factor = 1,
+                           .gate_growth = 1,
+                           .contrast = infinite,
+                           .lower_bound_weight = 1};
+      config.point = {.margin = 10,
+                      .margin_at_obstacles = 0,
+                      .standing_height = 0,
+                      .noise_depth = 0,
+                      .noise_growth = 0};
+      break;
+    default: break;
+  }
+  return config;
+}
+constexpr std::size_t surface_count = 8;
+
+/// A method with one choice of settings, in one thread and in three. Kept, as programs keep them:
+/// what came before must not matter.
 struct Segmenters {
-  explicit Segmenters(const PatchworkConfig& config) : alone(config), crew(config, 3) {}
-  Patchwork alone;
-  Patchwork crew;
+  std::unique_ptr<Segmenter> alone;
+  std::unique_ptr<Segmenter> crew;
 };
 
-Segmenters& chosen_segmenters(std::size_t choice) {
-  static std::array<std::unique_ptr<Segmenters>, config_count> made;
-  std::unique_ptr<Segmenters>& segmenters = made.at(choice % config_count);
-  if (!segmenters) segmenters = std::make_unique<Segmenters>(chosen_config(choice));
-  return *segmenters;
+Segmenters made_segmenters(std::size_t choice) {
+  if (choice < patchwork_count) {
+    const PatchworkConfig config = patchwork_config(choice);
+    return {std::make_unique<Patchwork>(config), std::make_unique<Patchwork>(config, 3)};
+  }
+  const SurfaceConfig config = surface_config(choice - patchwork_count);
+  return {std::make_unique<SurfaceSegmenter>(config),
+          std::make_unique<SurfaceSegmenter>(config, 3)};
+}
+
+Segmenters& chosen_segmenters(std::size_t byte) {
+  static std::array<Segmenters, patchwork_count + surface_count> made;
+  const std::size_t choice = byte % made.size();
+  Segmenters& segmenters = made.at(choice);
+  if (!segmenters.alone) segmenters = made_segmenters(choice);
+  return segmenters;
 }
 
 /// Reads numbers from the input until it ends.
@@ -129,9 +184,20 @@ bool has_same_bytes(std::span<const T> a, std::span<const T> b) {
          (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
+bool has_same_surface(const Surface& a, const Surface& b) {
+  const auto is_same = [](const Surface::Grid& left, const Surface::Grid& right) {
+    return left.cell == right.cell &&
+           has_same_bytes(std::span(left.heights), std::span(right.heights)) &&
+           has_same_bytes(std::span(left.confidences), std::span(right.confidences));
+  };
+  return std::ranges::equal(a.grids(), b.grids(), is_same);
+}
+
 void require_same(const Segmentation& a, const Segmentation& b, const char* property) {
-  fuzz::require(has_same_bytes(a.labels(), b.labels()) && has_same_bytes(a.patches(), b.patches()),
-                property);
+  fuzz::require(
+      has_same_bytes(a.labels(), b.labels()) && has_same_bytes(a.patches(), b.patches()) &&
+          has_same_bytes(a.heights(), b.heights()) && has_same_surface(a.surface(), b.surface()),
+      property);
 }
 
 void check_counts(const Segmentation& result, std::size_t points) {
@@ -146,16 +212,46 @@ void check_counts(const Segmentation& result, std::size_t points) {
   }
 }
 
-void segment(Patchwork& patchwork, CloudView cloud, Segmentation& result) {
-  fuzz::require(patchwork.segment(cloud, result).ok(), "every cloud can be segmented");
+/// What must hold of heights and of the ground where a method makes a surface.
+void check_surface(const Segmentation& result, CloudView cloud) {
+  const Surface& surface = result.surface();
+  if (surface.empty()) return fuzz::require(result.heights().empty(), "heights need a surface");
+  for (const Surface::Grid& grid : surface.grids()) {
+    for (std::size_t i = 0; i < grid.heights.size(); ++i) {
+      const float confidence = grid.confidences[i];
+      fuzz::require(confidence >= 0 && confidence <= 1, "confidence is 0 to 1");
+      fuzz::require((confidence == 0) == std::isnan(grid.heights[i]), "0 where not known");
+      fuzz::require(!std::isinf(grid.heights[i]), "no ground is infinitely high");
+    }
+  }
+  fuzz::require(result.heights().size() == cloud.size(), "every point has a height");
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const float height = result.heights()[i];
+    const Label label = result.labels()[i];
+    fuzz::require(label != Label::ground || !std::isnan(height), "ground is known to be there");
+    if (label == Label::invalid || label == Label::out_of_range) {
+      fuzz::require(std::isnan(height), "points that are nowhere have no height");
+      continue;
+    }
+    const Point p = cloud[i];
+    const float above = p.z - surface.height(p.x, p.y);
+    fuzz::require(std::isnan(height) == std::isnan(above), "heights are known where ground is");
+    // Segmenters take numbers below 1.2e-38 for zero.
+    const bool is_tiny = std::abs(above) < 1e-37f && std::abs(height) < 1e-37f;
+    fuzz::require(std::isnan(height) || height == above || is_tiny, "heights are above ground");
+  }
+}
+
+void segment(Segmenter& segmenter, CloudView cloud, Segmentation& result) {
+  fuzz::require(segmenter.segment(cloud, result).ok(), "every cloud can be segmented");
 }
 
 }  // namespace
 }  // namespace flagstone
 
-// The first byte chooses settings, the second the layout in memory, the third how the rest becomes
-// points. Labels and patches must be the same on the best instruction set, in plain C++ and with
-// three threads.
+// The first byte chooses the method and its settings, the second the layout in memory, the third
+// how the rest becomes points. Labels, patches, heights and surface must be the same on the best
+// instruction set, in plain C++ and with three threads.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   if (size < 3) return 0;
@@ -167,14 +263,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static Segmentation best;
   static Segmentation other;
 
-  segment(segmenters.alone, memory.view(), best);
+  segment(*segmenters.alone, memory.view(), best);
   check_counts(best, memory.view().size());
+  check_surface(best, memory.view());
 
-  segment(segmenters.crew, memory.view(), other);
+  segment(*segmenters.crew, memory.view(), other);
   require_same(best, other, "threads change nothing");
 
   use_simd_target("scalar");
-  segment(segmenters.alone, memory.view(), other);
+  segment(*segmenters.alone, memory.view(), other);
   use_simd_target("");
   require_same(best, other, "the instruction set changes nothing");
   return 0;

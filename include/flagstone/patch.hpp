@@ -36,6 +36,11 @@ constexpr const char* to_string(Verdict verdict) noexcept {
 
 /// One bin S_n of the zone model that holds points, the plane fitted to it and what was made of it.
 /// Paper: sections III-B to III-D. Where no plane was fitted, the plane's fields are zero.
+///
+/// The bins of `surface` are squares: zone 0 those of 4 m, zone 1 those of 8 m; ring is the row and
+/// sector the column, counted from the smallest y and x. It fits planes to samples, so that
+/// ground_count is an estimate, and judges points by their heights, whatever their patch is; the
+/// terms of the likelihood are zero.
 struct Patch {
   std::uint16_t zone = 0;    ///< m - 1: 0 is the zone nearest the sensor
   std::uint16_t ring = 0;    ///< i - 1: ring within the zone, 0 is the innermost

@@ -21,7 +21,8 @@ class Segmentation {
   /// One label per input point, in input order.
   [[nodiscard]] std::span<const Label> labels() const noexcept { return labels_; }
 
-  /// The bins that hold at least one point, ordered by zone, ring and sector.
+  /// The bins that hold at least one point, ordered by zone, ring and sector; those of `surface`
+  /// nearest to the sensor first.
   /// Empty for methods that do not work on patches.
   [[nodiscard]] std::span<const Patch> patches() const noexcept { return patches_; }
 

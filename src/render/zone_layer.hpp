@@ -20,7 +20,8 @@ struct VerdictLook {
   Color color;
 };
 
-/// All verdicts in the legend's order.
+/// All verdicts on bins of zones in the legend's order: those that `surface` alone gives are not
+/// among them.
 std::span<const VerdictLook> verdict_looks() noexcept;
 
 /// How much of what lies below a tinted bin its colour covers, 0 to 1.

@@ -68,7 +68,17 @@ HWY_INLINE FloatVector blend(FloatVector a, FloatVector b, FloatVector share_of_
   return hn::Add(a, hn::Mul(share_of_b, hn::Sub(b, a)));
 }
 
-/// The surface below points, bilinear. Takes any bit pattern, and says something for all.
+/// The same, but the end that has no weight has no influence: not that of rounding, nor that of not
+/// being a number.
+HWY_INLINE FloatVector blend_with_care(FloatVector a, FloatVector b, FloatVector share_of_b) {
+  const FloatTag d;
+  const FloatVector from_b =
+      hn::IfThenElse(hn::Ge(share_of_b, hn::Set(d, 1.0f)), b, blend(a, b, share_of_b));
+  return hn::IfThenElse(hn::Le(share_of_b, hn::Zero(d)), a, from_b);
+}
+
+/// The surface below points, bilinear, to the bit as Surface::height has it. Takes any bit pattern,
+/// and says something for all.
 HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables& tables) {
   const FloatTag d;
   const IntTag di;
@@ -91,8 +101,13 @@ HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables
   FloatVector near_left, near_right, far_left, far_right;
   gather_pairs(tables.heights, near, near_left, near_right);
   gather_pairs(tables.heights, far, far_left, far_right);
-  return blend(blend(near_left, near_right, column.share), blend(far_left, far_right, column.share),
-               row.share);
+  const FloatVector height = blend(blend(near_left, near_right, column.share),
+                                   blend(far_left, far_right, column.share), row.share);
+  const FloatVector one = hn::Set(d, 1.0f);
+  const auto on_last_center = hn::Or(hn::Ge(column.share, one), hn::Ge(row.share, one));
+  if (HWY_LIKELY(hn::AllFalse(d, hn::Or(on_last_center, hn::IsNaN(height))))) return height;
+  return blend_with_care(blend_with_care(near_left, near_right, column.share),
+                         blend_with_care(far_left, far_right, column.share), row.share);
 }
 
 /// The cell of 0.5 m that a point within the extent lies in.

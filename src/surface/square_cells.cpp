@@ -26,6 +26,12 @@ int class_of_ring(int ring, int half_blocks) {
   return ring_class;
 }
 
+/// Coordinates up to this share of the extent stay inside where cells are counted from the edge:
+/// the sum of the two is rounded. Only matters where the range ends with a block.
+constexpr float last_inside = 1 - 1.0f / (1 << 22);
+
+float squared(float value) { return value * value; }
+
 /// Cells along a block's side: 32, 16, 8, 4.
 constexpr int cells_along(int ring_class) { return 32 >> ring_class; }
 
@@ -33,7 +39,7 @@ constexpr int cells_along(int ring_class) { return 32 >> ring_class; }
 
 SquareCells::SquareCells(const SurfaceConfig& config)
     : half_blocks_(static_cast<int>(std::ceil(config.max_range / block_size))),
-      max_squared_range_(config.max_range * config.max_range),
+      max_squared_range_(squared(std::min(config.max_range, last_inside * extent()))),
       noise_height_(-config.sensor_height - config.noise_depth),
       noise_slope_(config.noise_slope) {
   std::array<std::uint32_t, level_count> bases{};

@@ -21,9 +21,11 @@ struct Method {
   std::unique_ptr<Segmenter> (*make)();
   /// Labels do not depend on the order of the points.
   bool order_free = false;
-  /// Mean F1 measured elsewhere on 17 KITTI scans, percent, by protocol.
+  /// Mean F1 measured elsewhere on 17 to 29 KITTI scans, percent, by protocol.
   double f1_patchwork = 0;
   double f1_patchwork_plusplus = 0;
+  /// A point is ground by what was said of its patch.
+  bool labels_follow_patches = true;
 };
 
 /// All of them.

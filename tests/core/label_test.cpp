@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
+#include "flagstone/patch.hpp"
 #include "flagstone/segmentation.hpp"
+#include "flagstone/stage_times.hpp"
 #include "flagstone/status.hpp"
 
 namespace flagstone {
@@ -25,6 +30,34 @@ TEST(Label, NamesAreThoseOfTheDataContract) {
   EXPECT_STREQ(to_string(Label::noise), "noise");
   EXPECT_STREQ(to_string(Label::out_of_range), "out_of_range");
   EXPECT_STREQ(to_string(Label::invalid), "invalid");
+}
+
+TEST(Verdict, NamesAreThoseOfTheEnumeration) {
+  EXPECT_STREQ(to_string(Verdict::ground), "ground");
+  EXPECT_STREQ(to_string(Verdict::ground_flat), "ground_flat");
+  EXPECT_STREQ(to_string(Verdict::too_few_points), "too_few_points");
+  EXPECT_STREQ(to_string(Verdict::no_plane), "no_plane");
+  EXPECT_STREQ(to_string(Verdict::not_upright), "not_upright");
+  EXPECT_STREQ(to_string(Verdict::too_high), "too_high");
+  EXPECT_STREQ(to_string(Verdict::mixed), "mixed");
+  EXPECT_STREQ(to_string(Verdict::off_surface), "off_surface");
+}
+
+TEST(Verdict, MixedAndOffSurfaceAreNoGround) {
+  EXPECT_FALSE(Patch{.verdict = Verdict::mixed}.is_ground());
+  EXPECT_FALSE(Patch{.verdict = Verdict::off_surface}.is_ground());
+  EXPECT_TRUE(Patch{.verdict = Verdict::ground}.is_ground());
+}
+
+TEST(Stage, EveryOneHasANameOfItsOwnAndThereAreNoMore) {
+  std::set<std::string> names;
+  for (std::size_t stage = 0; stage < stage_count; ++stage) {
+    names.insert(to_string(static_cast<Stage>(stage)));
+  }
+
+  EXPECT_EQ(names.size(), stage_count);
+  EXPECT_FALSE(names.contains("unknown"));
+  EXPECT_STREQ(to_string(static_cast<Stage>(stage_count)), "unknown");
 }
 
 TEST(Segmentation, CountsAddUpToTheNumberOfPoints) {

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <string_view>
 
 #include "render/birds_eye.hpp"
 #include "render/picture.hpp"
 #include "render/top_view.hpp"
+#include "render/zone_layer.hpp"
 
 namespace flagstone::render {
 namespace {
@@ -77,7 +81,7 @@ TEST_F(ZonedPicture, FillsBinsOnlyOnRequest) {
   EXPECT_EQ(at(draw(scan), 15, -157.5), panel_color);
 }
 
-TEST_F(ZonedPicture, GivesEachVerdictAColourOfItsOwn) {
+TEST_F(ZonedPicture, GivesEachVerdictOnABinAColourOfItsOwn) {
   options_.tint_patches = true;
   std::vector<Color> colors = {panel_color};
   for (const Verdict verdict : {Verdict::ground, Verdict::ground_flat, Verdict::too_few_points,
@@ -89,6 +93,17 @@ TEST_F(ZonedPicture, GivesEachVerdictAColourOfItsOwn) {
 
   for (std::size_t i = 0; i < colors.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(colors[i] == colors[j]) << i << " and " << j;
+}
+
+TEST_F(ZonedPicture, KnowsEveryVerdictButThoseOfSurface) {
+  for (std::uint16_t code = 0; std::string_view("unknown") != to_string(Verdict{code}); ++code) {
+    const Verdict verdict{code};
+    const bool is_of_surface = verdict == Verdict::mixed || verdict == Verdict::off_surface;
+
+    EXPECT_EQ(std::ranges::count(verdict_looks(), verdict, &VerdictLook::verdict),
+              is_of_surface ? 0 : 1)
+        << to_string(verdict);
+  }
 }
 
 }  // namespace
