@@ -35,14 +35,14 @@ OTHER_VALUES = {
 
 def difference(study, names, settings):
     """F1 with settings less F1 without, over the scans of some sets."""
-    changed = [result for name in names for result in study.evaluate(name, "surface", settings)]
-    before = [result for name in names for result in study.evaluate(name, "surface")]
+    changed = [result for name in names for result in study.evaluate(name, settings=settings)]
+    before = [result for name in names for result in study.evaluate(name)]
     return paired(per_scan(changed, "surface"), per_scan(before, "surface"), "f1")
 
 
 def level_of(study, name):
     """F1 of a set, mean over scans."""
-    return mean_of([scan["f1"] for scan in per_scan(study.evaluate(name, "surface"), "surface")["per_scan"]])
+    return mean_of([scan["f1"] for scan in per_scan(study.evaluate(name), "surface")["per_scan"]])
 
 
 def measure_ablation(study):

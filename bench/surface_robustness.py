@@ -175,8 +175,8 @@ def measure_robustness(study):
             folder = place / f"disturbed-{number}"
             write_copies(study.work / "kitti", place / "before", disturbance.disturb, folder)
             arguments = f"{folder} --protocol patchwork++ --sensor-height {disturbance.sensor_height:g}"
-            labels = "".join(f" --labels before-{method}={folder / method}" for method in METHODS)
-            result = study.evaluate_command(study.command(arguments, ",".join(METHODS) + labels))
+            arguments += "".join(f" --labels before-{method}={folder / method}" for method in METHODS)
+            result = study.evaluate_command(study.command(arguments, METHODS))
             rows.append({"disturbance": disturbance.name, **row_of(result)})
     return {"rows": rows}
 

@@ -9,6 +9,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tempfile
 import tomllib
 import typing
 
@@ -110,25 +111,23 @@ class Study:
             )
 
     def command(self, arguments, methods, settings=()):
-        words = [f"flagstone eval {arguments} --methods {methods}"]
-        if "surface" in re.split("[,]", methods.split()[0]) or methods == "all":
-            words += [f"--set surface.{setting}" for setting in (*self.settings, *settings)]
+        words = [f"flagstone eval {arguments} --methods {','.join(methods)}"]
+        words += [f"--set surface.{setting}" for setting in (*self.settings, *settings)]
         return " ".join(words)
 
-    def evaluate(self, name, methods, settings=()):
-        """The results of a set, one for each of its `arguments`."""
-        found = []
-        for arguments in self.sets[name].arguments:
-            command = self.command(arguments, methods, settings)
+    def evaluate(self, name, methods=("surface",), settings=()):
+        """The results of a set, one for each of its `arguments`; settings are those of `surface`."""
+        commands = [self.command(arguments, methods, settings) for arguments in self.sets[name].arguments]
+        for command in commands:
             if command not in self.known:
                 self.known[command] = self.evaluate_command(command)
-            found.append(self.known[command])
-        return found
+        return [self.known[command] for command in commands]
 
     def evaluate_command(self, command):
-        file = self.work / "result.json"
-        self.call(f"{command} --json $WORK/result.json")
-        result = json.loads(file.read_text())
+        with tempfile.TemporaryDirectory(prefix="flagstone-eval-") as place:
+            file = pathlib.Path(place) / "result.json"
+            self.call(f"{command} --json {file}")
+            result = json.loads(file.read_text())
         for key in ("flagstone", "machine", "date"):
             self.made_by[key] = result.pop(key)
         return {"command": command, **result}

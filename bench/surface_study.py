@@ -20,6 +20,7 @@ import pathlib
 import sys
 
 import surface_ablation
+import surface_accuracy
 import surface_robustness
 from surface_scans import ROOT, Study, show_progress
 from tables import check, filled, rounded
@@ -31,6 +32,8 @@ RESULTS = ROOT / "docs" / "results" / "surface.json"
 MEASUREMENTS = {
     "ablation": surface_ablation.measure_ablation,
     "settings": surface_ablation.measure_settings,
+    "accuracy": surface_accuracy.measure_accuracy,
+    "heights": surface_accuracy.measure_heights,
     "robustness": surface_robustness.measure_robustness,
 }
 
@@ -44,6 +47,11 @@ def tables(results):
         found["ablation-simulated"] = surface_ablation.ablation_table(results["ablation"], sets, simulated=True)
     if "settings" in results:
         found["settings"] = surface_ablation.settings_table(results["settings"], sets)
+    if "accuracy" in results:
+        found |= surface_accuracy.accuracy_tables(results["accuracy"], sets)
+    if "heights" in results:
+        for points in ("ground", "everywhere"):
+            found[f"heights-{points}"] = surface_accuracy.heights_table(results["heights"], sets, points)
     if "robustness" in results:
         found["robustness"] = surface_robustness.robustness_table(results["robustness"])
     return found
