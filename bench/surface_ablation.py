@@ -78,9 +78,7 @@ def measure_settings(study):
             settings = [f"{key}={other:g}"]
             f1 = {name: difference(study, [name], settings) for name in real}
             f1["simulated"] = difference(study, simulated, settings)
-            rows.append(
-                {"setting": key, "meaning": meaning, "default": value, "value": other, "f1": f1}
-            )
+            rows.append({"setting": key, "meaning": meaning, "default": value, "value": other, "f1": f1})
     return {"rows": rows}
 
 
@@ -103,18 +101,23 @@ def ablation_table(results, titles, simulated):
     return table(head, [whole, *rows], left=2)
 
 
-def settings_table(results, titles):
+def settings_table(results):
+    rows = {
+        row["setting"]: [f"`{row['setting']}`", f"{row['default']:g}", row["meaning"]]
+        for row in results["rows"]
+    }
+    return table(["setting", "default", "meaning; allowed values and unit"], rows.values(), left=3)
+
+
+def effects_table(results, titles):
     names = [*(name for name, scans in titles.items() if not scans["simulated"]), "simulated"]
-    rows = []
-    for row in results["rows"]:
-        first = not rows or row["setting"] != results["rows"][len(rows) - 1]["setting"]
-        rows.append(
-            [
-                f"`{row['setting']}`" if first else "",
-                row["meaning"] if first else "",
-                f"{row['default']:g} → {row['value']:g}",
-                *(points_more(row["f1"][name]) for name in names),
-            ]
-        )
-    head = ["setting", "meaning; allowed", "changed", *(titles[name]["title"] for name in names[:-1]), "simulated"]
-    return table(head, rows, left=3)
+    rows = [
+        [
+            f"`{row['setting']}`",
+            f"{row['default']:g} → {row['value']:g}",
+            *(points_more(row["f1"][name]) for name in names),
+        ]
+        for row in results["rows"]
+    ]
+    head = ["setting", "changed", *(titles[name]["title"] for name in names[:-1]), "simulated"]
+    return table(head, rows, left=2)

@@ -32,9 +32,14 @@ def method_row(results, method):
     scans = per_scan(results, method)["per_scan"]
     return {
         "name": method,
-        **{figure: mean_of([scan[figure] for scan in scans]) for figure in ("precision", "recall", "f1", "iou")},
+        **{
+            figure: mean_of([scan[figure] for scan in scans])
+            for figure in ("precision", "recall", "f1", "iou")
+        },
         # Pooled over the scans that were evaluated together, then the mean.
-        "by_range": [mean_if_any([entry["by_range"][band]["f1"] for entry in entries]) for band in range(len(BANDS))],
+        "by_range": [
+            mean_if_any([entry["by_range"][band]["f1"] for entry in entries]) for band in range(len(BANDS))
+        ],
         "by_area": mean_if_any([entry["by_area"]["f1"] for entry in entries]),
     }
 
@@ -62,7 +67,11 @@ def measure_heights(study):
         show_progress(f"heights of {name}")
         result = study.evaluate(name)[0]
         heights = result["methods"][0]["heights"]
-        found[name] = {"command": result["command"], "ground": heights["ground"], "everywhere": heights["everywhere"]}
+        found[name] = {
+            "command": result["command"],
+            "ground": heights["ground"],
+            "everywhere": heights["everywhere"],
+        }
     return found
 
 
@@ -137,11 +146,7 @@ def heights_table(results, titles, points):
         )
     head = [
         "cm",
-        *(
-            text
-            for low, high in HEIGHT_BANDS
-            for text in (f"{low}–{high} m: median", "95 %", "bias")
-        ),
+        *(text for low, high in HEIGHT_BANDS for text in (f"{low}–{high} m: median", "95 %", "bias")),
         "with a height, %",
     ]
     return table(head, rows)

@@ -10,7 +10,6 @@ import shlex
 import subprocess
 import sys
 import tempfile
-import tomllib
 import typing
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -43,7 +42,9 @@ def scan_sets(work):
         "kitti/patchwork++": Scans("KITTI `patchwork++`", (f"{kitti} patchwork++",), False),
         "nuscenes": Scans(
             "nuScenes",
-            ("$FLAGSTONE_DATA/nuscenes --sensor-height 1.84 --protocol $FLAGSTONE_DATA/nuscenes/classes.json",),
+            (
+                "$FLAGSTONE_DATA/nuscenes --sensor-height 1.84 --protocol $FLAGSTONE_DATA/nuscenes/classes.json",
+            ),
             False,
         ),
         "livox": Scans(
@@ -57,7 +58,9 @@ def scan_sets(work):
     }
     for number, scene in enumerate(SCENES):
         # The first scan of each drive: as many worlds as scans.
-        arguments = f"$WORK/simulated --sequences {number:02} --every 10 --sensor-height 1.73 --protocol simulation"
+        arguments = (
+            f"$WORK/simulated --sequences {number:02} --every 10 --sensor-height 1.73 --protocol simulation"
+        )
         sets[scene] = Scans(scene.replace("_", " "), (arguments,), True)
     return sets
 
@@ -134,6 +137,8 @@ class Study:
 
     def surface_defaults(self):
         """The settings of `surface` but for the sensor's height: key -> (value, meaning with unit)."""
+        import tomllib  # from Python 3.11 on; tables are written and checked with less
+
         overriding = "".join(f" --set {setting}" for setting in self.settings)
         text = self.call(f"flagstone config --method surface{overriding}")
         values = flat(tomllib.loads(text))

@@ -21,6 +21,7 @@ import sys
 
 import surface_ablation
 import surface_accuracy
+import surface_errors
 import surface_robustness
 from surface_scans import ROOT, Study, show_progress
 from tables import check, filled, rounded
@@ -34,6 +35,8 @@ MEASUREMENTS = {
     "settings": surface_ablation.measure_settings,
     "accuracy": surface_accuracy.measure_accuracy,
     "heights": surface_accuracy.measure_heights,
+    "errors": surface_errors.measure_errors,
+    "true_heights": surface_errors.measure_true_heights,
     "robustness": surface_robustness.measure_robustness,
 }
 
@@ -44,14 +47,22 @@ def tables(results):
     found = {}
     if "ablation" in results:
         found["ablation-real"] = surface_ablation.ablation_table(results["ablation"], sets, simulated=False)
-        found["ablation-simulated"] = surface_ablation.ablation_table(results["ablation"], sets, simulated=True)
+        found["ablation-simulated"] = surface_ablation.ablation_table(
+            results["ablation"], sets, simulated=True
+        )
     if "settings" in results:
-        found["settings"] = surface_ablation.settings_table(results["settings"], sets)
+        found["settings"] = surface_ablation.settings_table(results["settings"])
+        found["settings-effect"] = surface_ablation.effects_table(results["settings"], sets)
     if "accuracy" in results:
         found |= surface_accuracy.accuracy_tables(results["accuracy"], sets)
     if "heights" in results:
         for points in ("ground", "everywhere"):
             found[f"heights-{points}"] = surface_accuracy.heights_table(results["heights"], sets, points)
+    if "errors" in results:
+        titles = {"kitti": "KITTI `patchwork++`", "nuscenes": "nuScenes", "livox": "Livox"}
+        found["errors"] = surface_errors.errors_table(results["errors"], titles)
+    if "true_heights" in results:
+        found["true-heights"] = surface_errors.true_heights_table(results["true_heights"])
     if "robustness" in results:
         found["robustness"] = surface_robustness.robustness_table(results["robustness"])
     return found

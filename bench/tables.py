@@ -16,8 +16,11 @@ def with_interval(value):
 
 
 def points_more(difference):
-    """A difference of shares in points: +0.12 ± 0.05."""
-    return f"{100 * difference['mean']:+.2f} ± {percent(difference['ci95'])}"
+    """A difference of shares in points: +0.12 ± 0.05; in bold where the interval does not hold 0."""
+    mean = round(100 * difference["mean"], 2) + 0.0  # no minus zero
+    text = f"{mean:+.2f} ± {percent(difference['ci95'])}"
+    beyond = difference["ci95"] is not None and abs(difference["mean"]) > difference["ci95"]
+    return f"**{text}**" if beyond and mean != 0 else text
 
 
 def table(head, rows, left=1):
