@@ -6,8 +6,8 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test sanitize format format-check tidy growth latency primitives sharpness bench-compare install \
-        clean
+.PHONY: help build demo test sanitize format format-check tidy growth latency primitives sharpness bench-compare \
+        surface-study surface-figures install clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
@@ -48,6 +48,12 @@ sharpness: ## how sharp the surface shows kerbs, ditches and drops of known shap
 
 bench-compare: build ## is METHOD in the working tree slower than in REVISION, on SCANS?
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(SCANS)
+
+surface-study: build ## measures the method surface, writes the tables of docs/surface.md; WORK: a folder with 4 GB to spare
+	@scripts/setup plot && "$$(scripts/plotting-python)" bench/surface_study.py run --work $(or $(WORK),out/study)
+
+surface-figures: ## draws the figures of docs/surface.md
+	@scripts/setup build benchmark plot && scripts/benchmark surface_stages
 
 install: build ## install the library and the command under PREFIX (/usr/local)
 	@cmake --install build --prefix $(PREFIX)

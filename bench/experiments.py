@@ -12,16 +12,16 @@ are there. Tables stand in the page between <!-- table NAME --> and <!-- end -->
 """
 
 import argparse
-import difflib
 import json
-import math
 import os
 import pathlib
 import re
 import shlex
-import statistics
 import subprocess
 import sys
+
+from intervals import paired
+from tables import check, filled, percent, rounded, table, with_interval
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "experiments.md"
@@ -100,20 +100,6 @@ class Runner:
             self.results[key] = found.pop(key)
         self.results["experiments"][name] = {"command": command, **found}
         return self.results["experiments"][name]
-
-
-def t_975(degrees):
-    """Quantile 0.975 of Student's t for 30 degrees of freedom or more: Abramowitz and Stegun, 26.7.5."""
-    z = statistics.NormalDist().inv_cdf(0.975)
-    return z + (z**3 + z) / (4 * degrees) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * degrees**2)
-
-
-def paired(of, other, figure):
-    """Mean of the difference scan by scan and the half width of its 95 % interval."""
-    theirs = {scan["scan"]: scan[figure] for scan in other["per_scan"]}
-    differences = [scan[figure] - theirs[scan["scan"]] for scan in of["per_scan"]]
-    half_width = t_975(len(differences) - 1) * statistics.stdev(differences) / math.sqrt(len(differences))
-    return {"mean": statistics.fmean(differences), "ci95": half_width, "scans": len(differences)}
 
 
 def largest(of, other, figure, count):
@@ -217,29 +203,7 @@ def run(work, flagstone):
     RESULTS.write_text(json.dumps(rounded(runner.results), indent=1) + "\n")
 
 
-def rounded(value):
-    """The same with shares to a thousandth of a percent."""
-    if isinstance(value, float):
-        return round(value, 5)
-    if isinstance(value, dict):
-        return {key: rounded(entry) for key, entry in value.items()}
-    return [rounded(entry) for entry in value] if isinstance(value, list) else value
-
-
 # --- tables ------------------------------------------------------------------------------------------------
-
-
-def percent(share, digits=2):
-    return "–" if share is None else f"{100 * share:.{digits}f}"
-
-
-def with_interval(value):
-    return f"{percent(value['mean'])} ± {percent(value['ci95'])}"
-
-
-def table(head, rows):
-    lines = [head, ["---"] + ["---:"] * (len(head) - 1), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
 def origin(results, experiment):
@@ -428,19 +392,6 @@ def tables(results):
     return found
 
 
-def filled(page, results):
-    """The page with the tables of the results."""
-    found = tables(results)
-
-    def replace(match):
-        name = match.group(1)
-        if name not in found:
-            sys.exit(f"{PAGE.name}: there is no table {name}")
-        return f"<!-- table {name} -->\n\n{found[name]}\n\n<!-- end -->"
-
-    return re.sub(r"<!-- table (\S+) -->.*?<!-- end -->", replace, page, flags=re.DOTALL)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)
@@ -454,12 +405,9 @@ def main():
     if options.command == "run":
         run(options.work.resolve(), options.flagstone.resolve())
     results = json.loads(RESULTS.read_text())
-    page = PAGE.read_text()
-    wanted = filled(page, results)
     if options.command == "check":
-        sys.stdout.writelines(difflib.unified_diff(page.splitlines(True), wanted.splitlines(True)))
-        sys.exit(page != wanted)
-    PAGE.write_text(wanted)
+        check(PAGE, tables(results))
+    PAGE.write_text(filled(PAGE.read_text(), tables(results)))
 
 
 if __name__ == "__main__":

@@ -113,7 +113,7 @@ void SurfaceSteps::observe(std::size_t level) {
        .lower_bound_weight = settings.lower_bound_weight,
        .corrections = corrections_.data(),
        .weights = weights_.data()},
-      occupied_[level]);
+      occupied_[level], surface::CellSize::any);
 }
 
 void SurfaceSteps::fill() {

@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+//
+// What each stage of the method `surface` makes of one simulated scan, as files for
+// bench/surface_figures.py: points, patches, grids level by level, what cells observe, the truth.
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <flagstone/segmentation.hpp>
+#include <flagstone/surface_segmenter.hpp>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "io/atomic_file.hpp"
+#include "io/npy.hpp"
+#include "patches/bin_groups.hpp"
+#include "patches/scan_points.hpp"
+#include "sim/drive.hpp"
+#include "sim/noise.hpp"
+#include "sim/scene_kind.hpp"
+#include "sim/step_view.hpp"
+#include "surface/cell_observations.hpp"
+#include "surface/grid.hpp"
+#include "surface/grid_steps.hpp"
+#include "surface/read_scan.hpp"
+#include "surface/square_cells.hpp"
+
+namespace flagstone::performance {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using surface::OccupiedCell;
+
+/// The true ground is written within this, every so many metres.
+constexpr double truth_extent = 24;
+constexpr double truth_cell = 0.1;
+
+/// A place on disk for what is shown.
+class Folder {
+ public:
+  explicit Folder(std::filesystem::path path) : path_(std::move(path)) {
+    std::filesystem::create_directories(path_);
+  }
+
+  void write(const std::string& name, std::span<const float> values,
+             std::span<const std::size_t> shape) const {
+    check(io::write_npy_file(path_ / (name + ".npy"), values, shape));
+  }
+  void write(const std::string& name, const Json& json) const {
+    check(io::write_file(path_ / (name + ".json"), std::string_view(json.dump(1) + "\n")));
+  }
+
+ private:
+  static void check(const Status& status) {
+    if (!status.ok()) throw std::runtime_error(std::string(status.message()));
+  }
+
+  std::filesystem::path path_;
+};
+
+/// A grid that owns what it holds, as src/surface takes it.
+struct OwnGrid {
+  explicit OwnGrid(float cell, std::size_t width)
+      : heights(width * width),
+        confidences(width * width),
+        grid{.cell = cell,
+             .width = width,
+             .heights = heights.data(),
+             .confidences = confidences.data()} {}
+  explicit OwnGrid(const Surface::Grid& from) : OwnGrid(from.cell, from.width) {
+    std::ranges::copy(from.heights, heights.begin());
+    std::ranges::copy(from.confidences, confidences.begin());
+  }
+
+  OwnGrid(const OwnGrid&) = delete;
+  OwnGrid(OwnGrid&&) = default;  // vectors that are moved stay where they are in memory
+  OwnGrid& operator=(const OwnGrid&) = delete;
+  OwnGrid& operator=(OwnGrid&&) = delete;
+  ~OwnGrid() = default;
+
+  std::vector<float> heights, confidences;
+  surface::Grid grid;
+};
+
+Segmentation segment(const sim::SimulatedScan& scan, SurfaceConfig config, int levels) {
+  config.refinement.levels = levels;
+  Segmentation result;
+  if (!SurfaceSegmenter(config).segment(CloudView(scan.xyzi.data(), scan.size(), 4), result).ok()) {
+    throw std::runtime_error("not enough memory");
+  }
+  return result;
+}
+
+void write_points(const Folder& folder, const sim::SimulatedScan& scan,
+                  const Segmentation& result) {
+  std::vector<float> rows;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const float* const p = scan.xyzi.data() + 4 * i;
+    rows.insert(rows.end(), {p[0], p[1], p[2], static_cast<float>(scan.classes[i]),
+                             static_cast<float>(result.labels()[i]), result.heights()[i]});
+  }
+  folder.write("points", rows, std::array{scan.size(), std::size_t{6}});
+}
+
+Json patches_json(const Segmentation& result, const SurfaceConfig& config) {
+  const float extent =
+      std::ceil(config.max_range / surface::block_size) * static_cast<float>(surface::block_size);
+  Json patches = Json::array();
+  for (const Patch& patch : result.patches()) {
+    const float size = patch.zone == 0 ? 4.0f : 8.0f;
+    patches.push_back({{"x", (static_cast<float>(patch.sector) + 0.5f) * size - extent},
+                       {"y", (static_cast<float>(patch.ring) + 0.5f) * size - extent},
+                       {"size", size},
+                       {"verdict", to_string(patch.verdict)},
+                       {"points", patch.point_count},
+                       {"mean", patch.mean},
+                       {"normal", patch.normal}});
+  }
+  return patches;
+}
+
+/// A scan's points as the method sorts them: cell by cell, so that the points of every level's
+/// cells lie together.
+class SortedPoints {
+ public:
+  SortedPoints(const sim::SimulatedScan& scan, const SurfaceConfig& config)
+      : cells_(config), groups_(patches::Listing::points) {
+    const CloudView cloud(scan.xyzi.data(), scan.size(), 4);
+    patches::ScanPoints points;
+    points.reserve(cloud.size());
+    groups_.reserve(cloud.size(), cells_.group_count());
+    for (std::size_t i = 0; i < patches::ScanPoints::chunk_count(cloud.size()); ++i) {
+      surface::read_chunk(cloud, i, cells_, points);
+    }
+    groups_.group(points, cloud.size(), cells_.group_count());
+  }
+
+  [[nodiscard]] std::span<const patches::MovedPoint> all() const {
+    return groups_.points(0, cells_.cell_count());
+  }
+
+  /// The cells of a grid that hold three points or more.
+  [[nodiscard]] std::vector<OccupiedCell> cells_of(const surface::Grid& grid) const {
+    std::vector<OccupiedCell> found;
+    const std::span<const patches::MovedPoint> points = all();
+    for (std::uint32_t begin = 0; begin < points.size();) {
+      const OccupiedCell cell = cell_around(points[begin], grid);
+      std::uint32_t end = begin + 1;
+      while (end < points.size() && is_in(points[end], cell, grid)) ++end;
+      if (cell.row < grid.width && end - begin >= 3) {
+        found.push_back(
+            {.first = begin, .count = end - begin, .row = cell.row, .column = cell.column});
+      }
+      begin = end;
+    }
+    return found;
+  }
+
+ private:
+  /// Its place; row and column are too large outside of the grid.
+  static OccupiedCell cell_around(const patches::MovedPoint& point, const surface::Grid& grid) {
+    const auto outside = static_cast<std::uint32_t>(grid.width);
+    const bool inside = std::max(std::abs(point.x), std::abs(point.y)) < grid.extent();
+    const auto index = [&](float metres) {
+      return inside ? static_cast<std::uint32_t>((metres + grid.extent()) / grid.cell) : outside;
+    };
+    return {.first = 0, .count = 0, .row = index(point.y), .column = index(point.x)};
+  }
+  static bool is_in(const patches::MovedPoint& point, const OccupiedCell& cell,
+                    const surface::Grid& grid) {
+    const OccupiedCell its = cell_around(point, grid);
+    return its.row == cell.row && its.column == cell.column;
+  }
+
+  surface::SquareCells cells_;
+  patches::BinGroups groups_;
+};
+
+/// The surface that a level starts from: what the levels before it made, on its own grid.
+OwnGrid surface_before(const Segmentation& before, int level) {
+  OwnGrid coarse(before.surface().grids().back());
+  if (level == 0) return coarse;
+  const surface::Level shape = surface::levels[static_cast<std::size_t>(level)];
+  OwnGrid fine(shape.cell, static_cast<std::size_t>(2 * shape.reach / shape.cell));
+  surface::upsample(coarse.grid, fine.grid);
+  return fine;
+}
+
+/// What the cells of a level say about the surface that the levels before it made.
+void write_observations(const Folder& folder, const SortedPoints& points,
+                        const Segmentation& before, const SurfaceConfig& config, int level) {
+  const OwnGrid below = surface_before(before, level);
+  const surface::Grid& grid = below.grid;
+  const std::vector<OccupiedCell> cells = points.cells_of(grid);
+  std::vector<float> corrections(grid.size());
+  std::vector<float> weights(grid.size());
+  const Refinement& settings = config.refinement;
+  surface::observe(
+      {.points = points.all().data(),
+       .surface = &grid,
+       .gate = settings.gate * std::pow(settings.gate_factor, static_cast<float>(level)),
+       .gate_growth = settings.gate_growth,
+       .contrast = settings.contrast,
+       .lower_bound_weight = settings.lower_bound_weight,
+       .corrections = corrections.data(),
+       .weights = weights.data()},
+      cells, surface::CellSize::any);
+  std::vector<float> occupied(grid.size());
+  for (const OccupiedCell& cell : cells) {
+    occupied[cell.row * grid.width + cell.column] = static_cast<float>(cell.count);
+  }
+  std::vector<float> all = std::move(corrections);
+  all.insert(all.end(), weights.begin(), weights.end());
+  all.insert(all.end(), occupied.begin(), occupied.end());
+  folder.write("observed-" + std::to_string(level), all,
+               std::array{std::size_t{3}, grid.width, grid.width});
+}
+
+void write_truth(const Folder& folder, const sim::Scene& scene, const sim::Frame& pose) {
+  const sim::HeightAt height = sim::true_heights(scene.ground(), pose);
+  const auto width = static_cast<std::size_t>(std::lround(2 * truth_extent / truth_cell));
+  std::vector<float> heights;
+  for (std::size_t row = 0; row < width; ++row) {
+    for (std::size_t column = 0; column < width; ++column) {
+      const auto metres = [](std::size_t index) {
+        return (static_cast<double>(index) + 0.5) * truth_cell - truth_extent;
+      };
+      heights.push_back(static_cast<float>(height(metres(column), metres(row))));
+    }
+  }
+  folder.write("truth", heights, std::array{width, width});
+}
+
+void write_stages(const Folder& folder, std::string_view scene_name, std::uint64_t seed) {
+  const sim::SceneKind* const kind = sim::find_scene_kind(scene_name);
+  if (kind == nullptr) {
+    throw std::invalid_argument("no scene " + std::string(scene_name) +
+                                "; `flagstone simulate --help` lists them");
+  }
+  const sim::Drive drive(*kind, sim::hdl_64e(), sim::drive_seed(seed, 0));
+  const sim::Scene scene = drive.scene();
+  const sim::SimulatedScan scan = drive.scan(scene, sim::Noise{}, 0);
+  const SurfaceConfig config;
+  const SortedPoints points(scan, config);
+
+  Json grids = Json::array();
+  for (int levels = 0; levels <= config.refinement.levels; ++levels) {
+    const Segmentation result = segment(scan, config, levels);
+    const Surface::Grid& finest = result.surface().grids().back();
+    std::vector<float> all = finest.heights;
+    all.insert(all.end(), finest.confidences.begin(), finest.confidences.end());
+    folder.write("grid-" + std::to_string(levels), all,
+                 std::array{std::size_t{2}, finest.width, finest.width});
+    grids.push_back({{"cell", finest.cell}, {"width", finest.width}});
+    if (levels < config.refinement.levels) {
+      write_observations(folder, points, result, config, levels);
+    } else {
+      write_points(folder, scan, result);
+      folder.write("patches", patches_json(result, config));
+    }
+  }
+  write_truth(folder, scene, drive.poses().front());
+  folder.write("stages", Json{{"scene", scene_name},
+                              {"seed", seed},
+                              {"sensor_height", config.sensor_height},
+                              {"lower_bound_weight", config.refinement.lower_bound_weight},
+                              {"margin", config.point.margin},
+                              {"margin_at_obstacles", config.point.margin_at_obstacles},
+                              {"standing_height", config.point.standing_height},
+                              {"truth", {{"cell", truth_cell}, {"extent", truth_extent}}},
+                              {"grids", grids}});
+}
+
+}  // namespace
+}  // namespace flagstone::performance
+
+int main(int argc, char** argv) {
+  std::uint64_t seed = 0;
+  const std::string_view text = argc == 4 ? argv[2] : "";
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (argc != 4 || error != std::errc() || end != text.data() + text.size()) {
+    std::fputs("usage: surface_stages SCENE SEED FOLDER\n", stderr);
+    return 2;
+  }
+  try {
+    flagstone::performance::write_stages(flagstone::performance::Folder(argv[3]), argv[1], seed);
+    return 0;
+  } catch (const std::exception& error_of_run) {
+    std::fprintf(stderr, "surface_stages: %s\n", error_of_run.what());
+    return 1;
+  }
+}

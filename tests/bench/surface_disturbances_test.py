@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Disturbed scans are what the table of robustness says they are.
+
+    python3 surface_disturbances_test.py BENCH    BENCH: the folder bench
+
+Leaves with 77, which ctest takes for skipped, where NumPy is not there.
+"""
+
+import sys
+import unittest
+
+sys.path.insert(0, sys.argv.pop(1))
+try:
+    import numpy as np
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+import surface_disturbances as disturbances
+
+ROAD, BUILDING = 40, 50
+
+
+def a_scan():
+    """Four beams of 90 points on level ground, 1.73 m below the sensor, then a wall."""
+    azimuths = np.radians(np.arange(90) * 4 + 1.5)
+    points, classes = [], []
+    for ring in (4, 6, 8, 10):
+        flat = np.full(90, -disturbances.HEIGHT)
+        points.append(np.stack([ring * np.cos(azimuths), ring * np.sin(azimuths), flat, flat], axis=1))
+        classes.append(np.full(90, ROAD))
+    azimuths = np.radians(np.arange(80) + 1.5)
+    heights = np.linspace(-1.2, 1.0, 80)
+    points.append(np.stack([6.2 * np.cos(azimuths), 6.2 * np.sin(azimuths), heights, heights], axis=1))
+    classes.append(np.full(80, BUILDING))
+    return np.concatenate(points).astype("<f4"), np.concatenate(classes).astype("<u4")
+
+
+def disturbed(name):
+    points, classes = a_scan()
+    disturbance = next(entry for entry in disturbances.DISTURBANCES if entry.name == name)
+    moved, their_classes, sources = disturbance.disturb(points, classes, np.random.default_rng(1))
+    return points, classes, moved, their_classes, np.asarray(sources)
+
+
+class Disturbances(unittest.TestCase):
+    def test_rolling_by_3_degrees_lifts_what_is_left_and_keeps_distances(self):
+        points, _, moved, _, _ = disturbed("rolled by +3°")
+        left = np.argmax(points[:, 1])
+        self.assertAlmostEqual(
+            float(moved[left, 2] - points[left, 2]), np.sin(np.radians(3)) * points[left, 1], delta=0.01
+        )
+        np.testing.assert_allclose(
+            np.linalg.norm(moved[:, :3], axis=1), np.linalg.norm(points[:, :3], axis=1), rtol=1e-5
+        )
+
+    def test_pitching_by_3_degrees_lowers_what_is_ahead(self):
+        points, _, moved, _, _ = disturbed("pitched by +3°")
+        ahead = np.argmax(points[:, 0])
+        self.assertLess(moved[ahead, 2], points[ahead, 2] - 0.3)
+
+    def test_half_the_beams_are_every_other_one_whole(self):
+        points, classes, moved, their_classes, sources = disturbed("half the beams")
+        np.testing.assert_array_equal(sources, np.r_[0:90, 180:270, 360:440])
+        np.testing.assert_array_equal(moved, points[sources])
+        np.testing.assert_array_equal(their_classes, classes[sources])
+
+    def test_the_four_quarters_of_the_view_are_the_scan(self):
+        kept = [disturbed(f"90° of the view, {where}")[4] for where in ("ahead", "left", "behind", "right")]
+        np.testing.assert_array_equal(np.sort(np.concatenate(kept)), np.arange(440))
+
+    def test_the_left_is_where_y_is_positive(self):
+        _, _, moved, _, _ = disturbed("90° of the view, left")
+        self.assertGreater(moved[:, 1].min(), 0)
+
+    def test_ghosts_mirror_what_stands_on_the_ground_one_in_a_hundred(self):
+        points, _, moved, their_classes, sources = disturbed("1 % ghosts")
+        ghosts = sources < 0
+        self.assertEqual(ghosts.sum(), len(points) // 100)
+        np.testing.assert_array_equal(their_classes[ghosts], disturbances.OUTLIER)
+        np.testing.assert_array_equal(moved[~ghosts], points)
+        for ghost in moved[ghosts]:
+            above = points[(points[:, :2] == ghost[:2]).all(axis=1)]
+            self.assertAlmostEqual(float(ghost[2]), -2 * disturbances.HEIGHT - float(above[0, 2]), places=4)
+
+
+if __name__ == "__main__":
+    unittest.main()
