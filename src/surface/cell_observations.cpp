@@ -50,6 +50,9 @@ inline constexpr float fewest_points = 3;
 inline constexpr float points_of_full_weight = 10;
 inline constexpr float fewest_for_lower_bound = 8;
 
+/// A point that lies so far below the next is no ground, metres.
+inline constexpr float reflection_gap = 0.2f;
+
 /// A lower bound is worth it where it lies below the surface by this, metres.
 inline constexpr float least_lowering = 0.03f;
 
@@ -137,11 +140,13 @@ HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, con
   const FloatVector bottom = hn::Neg(hn::Add(gate, hn::Set(d, depth_below_gate)));
   const FloatVector top = hn::Add(gate, hn::Set(d, height_above_gate));
 
-  // How many points there are, how many within the gate, the lowest of both. From here on points
-  // out of sight are infinitely high.
+  // How many points there are, how many within the gate, the three lowest of both. From here on
+  // points out of sight are infinitely high.
   FloatVector seen = zero;
   FloatVector gated = zero;
   FloatVector lowest = none;
+  FloatVector second_lowest = none;
+  FloatVector third_lowest = none;
   FloatVector first = none;
   FloatVector second = none;
   FloatVector third = none;
@@ -151,7 +156,11 @@ HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, con
     const FloatVector h = hn::IfThenElse(is_seen, height, none);
     hn::Store(h, d, heights + row * tile_cells);
     seen = hn::Add(seen, hn::IfThenElseZero(is_seen, one));
+    const FloatVector not_lowest = hn::Max(lowest, h);
     lowest = hn::Min(lowest, h);
+    const FloatVector not_second_lowest = hn::Max(second_lowest, not_lowest);
+    second_lowest = hn::Min(second_lowest, not_lowest);
+    third_lowest = hn::Min(third_lowest, not_second_lowest);
     const auto is_gated = hn::Le(hn::Abs(h), gate);
     gated = hn::Add(gated, hn::IfThenElseZero(is_gated, one));
     const FloatVector candidate = hn::IfThenElse(is_gated, h, none);
@@ -161,6 +170,14 @@ HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, con
     second = hn::Min(second, not_first);
     third = hn::Min(third, not_second);
   }
+
+  // One or two points far below all others are reflections.
+  const auto is_alone = [&](FloatVector low, FloatVector next) HWY_ATTR {
+    return hn::Gt(hn::Sub(next, low), hn::Set(d, reflection_gap));
+  };
+  const FloatVector of_the_rest =
+      hn::IfThenElse(is_alone(second_lowest, third_lowest), third_lowest, second_lowest);
+  const FloatVector bound = hn::IfThenElse(is_alone(lowest, second_lowest), of_the_rest, lowest);
 
   // A mode of the heights near the low end: means of a window that moves to its mean, within the
   // gate.
@@ -207,16 +224,16 @@ HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, con
   const auto something_stands = hn::Gt(above, hn::Mul(hn::Set(d, o.contrast), at_surface));
   const auto is_mode = hn::And(hn::AndNot(something_stands, has_mode),
                                hn::Le(below, hn::Mul(hn::Set(d, most_below), at_surface)));
-  const auto only_below = hn::And(hn::Lt(gated, fewest), hn::Lt(lowest, gate_below));
+  const auto only_below = hn::And(hn::Lt(gated, fewest), hn::Lt(bound, gate_below));
   const auto is_bound = hn::And(hn::And(hn::Or(only_below, hn::And(has_mode, something_stands)),
                                         hn::Ge(seen, hn::Set(d, fewest_for_lower_bound))),
-                                hn::Lt(lowest, hn::Set(d, -least_lowering)));
+                                hn::Lt(bound, hn::Set(d, -least_lowering)));
 
   const FloatVector mode_weight =
       hn::Min(one, hn::Mul(at_surface, hn::Set(d, 1 / points_of_full_weight)));
   weight = hn::IfThenElse(is_mode, mode_weight,
                           hn::IfThenElseZero(is_bound, hn::Set(d, o.lower_bound_weight)));
-  correction = hn::IfThenElse(is_mode, mean, hn::IfThenElseZero(is_bound, lowest));
+  correction = hn::IfThenElse(is_mode, mean, hn::IfThenElseZero(is_bound, bound));
 }
 
 /// Writes what is known of the cells of a tile into the grid.

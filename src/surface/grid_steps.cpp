@@ -19,7 +19,7 @@ namespace {
 // Plain loops: the compiler makes vectors of them, for each instruction set its own.
 
 /// Cells over which corrections fade at an inner edge.
-inline constexpr std::size_t fading = 2;
+inline constexpr std::size_t fading = 3;
 
 void upsample_values(const float* coarse, std::size_t coarse_width, float* fine,
                      std::size_t fine_width) {
@@ -54,15 +54,14 @@ void correct_values(const float* HWY_RESTRICT corrections, const float* HWY_REST
   for (std::size_t row = 0; row < grid.width; ++row) {
     const std::size_t from_edge = std::min(row, grid.width - 1 - row);
     const float row_share =
-        inner && from_edge < fading ? (static_cast<float>(from_edge) + 0.5f) / fading : 1.0f;
+        inner && from_edge < fading ? static_cast<float>(from_edge) / fading : 1.0f;
     const float* HWY_RESTRICT from = corrections + row * grid.width;
     const float* HWY_RESTRICT known = confidences + row * grid.width;
     float* HWY_RESTRICT heights = grid.heights + row * grid.width;
     float* HWY_RESTRICT confidence = grid.confidences + row * grid.width;
     const auto faded = [&](std::size_t column) {
       const std::size_t edge = std::min(column, grid.width - 1 - column);
-      const float share =
-          inner && edge < fading ? (static_cast<float>(edge) + 0.5f) / fading : 1.0f;
+      const float share = inner && edge < fading ? static_cast<float>(edge) / fading : 1.0f;
       heights[column] += std::min(share, row_share) * from[column];
     };
     const std::size_t side = std::min(fading, grid.width / 2);

@@ -11,8 +11,8 @@ namespace flagstone::surface {
 void upsample(const Grid& coarse, const Grid& fine) noexcept;
 
 /// Adds corrections to heights, by cell, metres. Where something else borders the grid (`inner`),
-/// they fade towards the edge, so that the surface has no step there. Confidence becomes the larger
-/// of what it was and that of the correction.
+/// they fade to nothing at the outermost cells, so that the surface has no step there. Confidence
+/// becomes the larger of what it was and that of the correction.
 void correct(const float* corrections, const float* confidences, bool inner,
              const Grid& grid) noexcept;
 
