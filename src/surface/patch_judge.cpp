@@ -12,6 +12,10 @@ namespace {
 /// A plane through fewer points says nothing.
 constexpr double fewest_points = 5;
 
+/// Patches nearer to upright walls have no slope to speak of, whatever the setting: z of their
+/// normal.
+constexpr double least_normal_z = 0.05;
+
 /// How much farther below what is expected than above it a patch may lie, metres.
 constexpr float extra_step_down = 0.5f;
 
@@ -25,7 +29,8 @@ constexpr float neighbour_metres = 8;
 }  // namespace
 
 PatchJudge::PatchJudge(const SurfaceConfig& config)
-    : least_normal_z_(std::sin(config.acceptance.upright_angle * std::numbers::pi / 180)),
+    : least_normal_z_(std::max(least_normal_z,
+                               std::sin(config.acceptance.upright_angle * std::numbers::pi / 180))),
       contrast_(config.acceptance.contrast),
       sensor_height_(config.sensor_height),
       height_(config.acceptance.height),

@@ -110,14 +110,16 @@ HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables
                          blend_with_care(far_left, far_right, column.share), row.share);
 }
 
-/// The cell of 0.5 m that a point within the extent lies in.
-HWY_INLINE IntVector standing_cell(FloatVector x, FloatVector y, const StandingCells& standing) {
+/// The cells of 0.5 m that points within the extent lie in; of others, `there` being false, that
+/// beside the sensor.
+HWY_INLINE IntVector standing_cell(FloatMask there, FloatVector x, FloatVector y,
+                                   const StandingCells& standing) {
   const FloatTag d;
   const IntTag di;
   const FloatVector two = hn::Set(d, 2.0f);
   const FloatVector edge = hn::Set(d, standing.edge);
-  const IntVector column = whole_part(hn::Add(hn::Mul(x, two), edge));
-  const IntVector row = whole_part(hn::Add(hn::Mul(y, two), edge));
+  const IntVector column = whole_part(hn::Add(hn::IfThenElseZero(there, hn::Mul(x, two)), edge));
+  const IntVector row = whole_part(hn::Add(hn::IfThenElseZero(there, hn::Mul(y, two)), edge));
   return hn::Add(hn::Mul(row, hn::Set(di, standing.width)), column);
 }
 
@@ -148,7 +150,8 @@ void measure_points(const MeasuredPoints& points, const GridTables& tables,
         hn::And(hn::Gt(height, hn::Set(d, standing.low)), hn::Lt(height, hn::Set(d, overhang)));
     if (hn::AllFalse(d, stands)) continue;
     const auto is_high = hn::RebindMask(di, hn::Gt(height, hn::Set(d, standing.high)));
-    const IntVector byte = increment_if(is_high, hn::ShiftLeft<1>(standing_cell(x, y, standing)));
+    const IntVector byte =
+        increment_if(is_high, hn::ShiftLeft<1>(standing_cell(stands, x, y, standing)));
     const std::size_t count = compress_store(byte, hn::RebindMask(di, stands), marked.data());
     for (std::size_t k = 0; k < count; ++k) {
       // Other threads may say the same.
@@ -188,8 +191,7 @@ void label_points(const MeasuredPoints& points, const PointRule& rule, const Squ
     if (HWY_UNLIKELY(!whole)) there = hn::FirstN(d, points.count - i);
     const auto good = hn::And(is_good(x, y, z, cells), there);
 
-    const IntVector cell =
-        hn::IfThenElseZero(hn::RebindMask(di, good), standing_cell(x, y, standing));
+    const IntVector cell = standing_cell(good, x, y, standing);
     const IntVector word = hn::GatherIndex(
         di, reinterpret_cast<const std::int32_t*>(standing.words), hn::ShiftRight<1>(cell));
     const IntVector shift = hn::ShiftLeft<4>(hn::And(cell, hn::Set(di, 1)));

@@ -143,6 +143,13 @@ class CellObservations : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, CellObservations, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
+/// So many heights from `lowest` on, each higher than the one before.
+std::vector<float> rising(float lowest, float step, std::size_t count) {
+  std::vector<float> heights(count);
+  for (std::size_t i = 0; i < count; ++i) heights[i] = lowest + step * static_cast<float>(i);
+  return heights;
+}
+
 TEST_P(CellObservations, FlatGroundSaysHowFarItLiesAboveTheSurface) {
   const Said ground = said_of(std::vector<float>(20, 0.1f));
 
@@ -169,8 +176,7 @@ TEST_P(CellObservations, OfAKerbTheLowerSideCounts) {
 }
 
 TEST_P(CellObservations, AWallSaysOnlyThatGroundIsNotAboveItsFoot) {
-  std::vector<float> wall;
-  for (int i = 0; i < 24; ++i) wall.push_back(-0.2f + 0.05f * static_cast<float>(i));
+  const std::vector<float> wall = rising(-0.2f, 0.05f, 24);
 
   const Said foot = said_of(wall);
 
@@ -179,8 +185,7 @@ TEST_P(CellObservations, AWallSaysOnlyThatGroundIsNotAboveItsFoot) {
 }
 
 TEST_P(CellObservations, AWallWhoseFootIsAtTheSurfaceSaysNothing) {
-  std::vector<float> wall;
-  for (int i = 0; i < 24; ++i) wall.push_back(-0.02f + 0.05f * static_cast<float>(i));
+  const std::vector<float> wall = rising(-0.02f, 0.05f, 24);
 
   EXPECT_EQ(said_of(wall).weight, 0);
 }
@@ -204,8 +209,7 @@ TEST_P(CellObservations, WhereSeveralPointsLieBelowTheModeThereIsNoSaying) {
 }
 
 TEST_P(CellObservations, ABushSaysNothingUnlessItReachesBelowTheSurface) {
-  std::vector<float> bush;
-  for (int i = 0; i < 20; ++i) bush.push_back(0.1f + 0.04f * static_cast<float>(i));
+  const std::vector<float> bush = rising(0.1f, 0.04f, 20);
 
   EXPECT_EQ(said_of(bush).weight, 0);
 }
@@ -233,8 +237,8 @@ TEST_P(CellObservations, OnlyThePlacesOfCellsThatSaySomethingAreWritten) {
 
 TEST_P(CellObservations, OfManyPointsThirtyTwoAreTakenEvenly) {
   // Every second one lies 0.3 m higher, and is not among number j * 64 / 32.
-  std::vector<float> heights;
-  for (int i = 0; i < 64; ++i) heights.push_back(i % 2 == 0 ? 0.0f : 0.3f);
+  std::vector<float> heights(64, 0.0f);
+  for (std::size_t i = 1; i < heights.size(); i += 2) heights[i] = 0.3f;
 
   const Said ground = said_of(heights);
 

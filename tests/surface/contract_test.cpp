@@ -186,6 +186,25 @@ TEST(SurfaceContract, ConfidenceIsZeroWhereHeightsAreNotKnownAndAtMostOne) {
   }
 }
 
+TEST(SurfaceContract, AWallAloneLeavesTheSurfaceANumberEvenIfAnyAngleIsUpright) {
+  SurfaceConfig config;
+  config.acceptance.upright_angle = 0;
+  std::vector<Point> wall;
+  wall.reserve(2000);
+  for (int i = 0; i < 2000; ++i) {
+    wall.push_back(
+        {10, 0.004f * static_cast<float>(i % 500), -1.7f + 0.2f * static_cast<float>(i / 500)});
+  }
+
+  const tests::SurfaceOutcome outcome = tests::segmented(config, view_of(wall));
+
+  for (const Surface::Grid& grid : outcome.grids) {
+    for (std::size_t i = 0; i < grid.heights.size(); ++i) {
+      ASSERT_EQ(std::isnan(grid.heights[i]), grid.confidences[i] == 0);
+    }
+  }
+}
+
 TEST(SurfaceContract, GridsAreFinerTowardsTheSensorAndReachAsFarAsTheRange) {
   for (const int levels : {0, 1, 2, 3, 4}) {
     for (const float range : {8.0f, 20.0f, 100.0f, 200.0f}) {
@@ -255,6 +274,28 @@ TEST(SurfaceContract, AMovedSegmenterStillSegments) {
   EXPECT_EQ(moved.config().max_range, 50);
   EXPECT_TRUE(tests::is_same(tests::segmented(config, view_of(cloud)),
                              tests::segmented(moved, view_of(cloud))));
+}
+
+TEST(SurfaceContract, NoScanLeavesATraceInTheNext) {
+  // Full, odd, and with too little for a patch, a cell or anything.
+  const std::vector<std::vector<Point>> clouds = {made_up_cloud(20000, 1),
+                                                  corrupted_cloud(9000, 2),
+                                                  {},
+                                                  {{6, 2, -1.5f}},
+                                                  made_up_cloud(64, 3),
+                                                  std::vector<Point>(40, Point{6, 2, -1.2f}),
+                                                  std::vector<Point>(100, Point{nan, 0, 0}),
+                                                  std::vector<Point>(500, Point{10, 0, -900})};
+  SurfaceSegmenter segmenter;
+  for (const std::vector<Point>& first : clouds) {
+    for (const std::vector<Point>& second : clouds) {
+      tests::segmented(segmenter, view_of(first));
+
+      EXPECT_TRUE(tests::is_same(tests::segmented(SurfaceConfig{}, view_of(second)),
+                                 tests::segmented(segmenter, view_of(second))))
+          << second.size() << " points after " << first.size();
+    }
+  }
 }
 
 TEST(SurfaceContract, AResultThatAnotherMethodFilledIsReplaced) {

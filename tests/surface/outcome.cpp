@@ -6,14 +6,15 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <string>
 
 namespace flagstone::tests {
 namespace {
 
-bool has_same_bytes(const Patch& a, const Patch& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool has_same_bytes(const Patch& a, const Patch& b) {
+  return std::ranges::equal(std::as_bytes(std::span(&a, 1)), std::as_bytes(std::span(&b, 1)));
+}
 
 /// Index of the first number with other bits; the size if there is none.
 std::size_t first_difference(std::span<const float> a, std::span<const float> b) {

@@ -48,6 +48,14 @@ TEST(PatchJudge, SteepPatchesAreNotUpright) {
   EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 30.1), clear), Verdict::not_upright);
 }
 
+TEST(PatchJudge, AWallIsNeverGround) {
+  SurfaceConfig config;
+  config.acceptance.upright_angle = 0;
+
+  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 90), clear), Verdict::not_upright);
+  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 80), clear), Verdict::ground);
+}
+
 TEST(PatchJudge, PatchesWithAsManyPointsAboveThemAreMixed) {
   SurfaceConfig config;
   config.acceptance.contrast = 0.5f;

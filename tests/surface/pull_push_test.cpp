@@ -169,8 +169,8 @@ TEST_P(PullPushOn, AGridLeavesNoTraceInTheNext) {
   std::vector<float> values(1600, 100.0f);
   std::vector<float> weights(1600, 1.0f);
   used.fill(values.data(), weights.data(), 40, 0.5f);
-  std::vector<float> some(20 * 20, 1.0f);
-  std::vector<float> of_some(20 * 20, 0.0f);
+  std::vector<float> some(400, 1.0f);
+  std::vector<float> of_some(400, 0.0f);
   of_some[210] = 0.25f;
   std::vector<float> same = some;
   std::vector<float> of_same = of_some;

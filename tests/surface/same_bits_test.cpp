@@ -165,10 +165,8 @@ TEST_P(SurfaceSameBits, OnPointsThatAreAllEqual) {
 TEST_P(SurfaceSameBits, OnPointsInOneCell) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> inside(0, 0.25f);
-  std::vector<Point> cloud;
-  for (int i = 0; i < 5000; ++i) {
-    cloud.push_back({6 + inside(random), 2 + inside(random), -1.8f + inside(random)});
-  }
+  std::vector<Point> cloud(5000);
+  for (Point& p : cloud) p = {6 + inside(random), 2 + inside(random), -1.8f + inside(random)};
   for (const std::size_t size : {11U, 31U, 32U, 33U, 128U, 129U, 5000U}) {
     expect_same({cloud.begin(), cloud.begin() + static_cast<std::ptrdiff_t>(size)},
                 std::to_string(size) + " points in one cell");

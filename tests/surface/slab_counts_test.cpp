@@ -107,7 +107,7 @@ TEST_P(SlabCountsOn, ManyPointsAreCountedAsOneByOne) {
 
 TEST_P(SlabCountsOn, EachPatchIsCountedByItsOwnPlane) {
   BinBatch batch;
-  batch.reserve(16 * 32);
+  batch.reserve(512);
   PlaneBatch planes{};
   for (std::size_t i = 0; i < batch_size; ++i) {
     const Plane plane = tilted(0.05 * static_cast<double>(i));

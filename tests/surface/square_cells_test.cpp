@@ -6,6 +6,7 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -46,11 +47,11 @@ float side_at(double x, double y) {
 /// The cell that a place lies in, by block() and the Z-order of what side_at() says; a point less
 /// than 1e-4 m from an edge may count to either side.
 std::uint32_t naive_cell(const SquareCells& cells, double x, double y) {
-  const double edge = static_cast<double>(cells.extent());
+  const auto edge = static_cast<double>(cells.extent());
   const auto block_of = [&](double v) { return static_cast<int>(std::floor((v + edge) / 8)); };
   const CellRange block = cells.block(block_of(x), block_of(y));
   const auto inside = [&](double v) { return v + edge - 8 * block_of(v); };
-  const double side = static_cast<double>(side_at(x, y));
+  const auto side = static_cast<double>(side_at(x, y));
   return block.first + z_order(static_cast<std::uint32_t>(inside(x) / side),
                                static_cast<std::uint32_t>(inside(y) / side));
 }
@@ -58,7 +59,7 @@ std::uint32_t naive_cell(const SquareCells& cells, double x, double y) {
 /// All that a point may be told within the rounding of its coordinates.
 std::vector<std::uint32_t> allowed_cells(const SquareCells& cells, const Point& p) {
   std::vector<std::uint32_t> allowed;
-  const double most = static_cast<double>(cells.extent()) - 1e-6;
+  const auto most = static_cast<double>(cells.extent()) - 1e-6;
   for (const double dx : {-1e-4, 0.0, 1e-4}) {
     for (const double dy : {-1e-4, 0.0, 1e-4}) {
       allowed.push_back(naive_cell(cells, std::clamp(static_cast<double>(p.x) + dx, -most, most),
@@ -80,7 +81,7 @@ TEST_P(SquareCellsOn, APointIsToldTheCellItLiesIn) {
   EXPECT_TRUE(rc::check([] {
     const float range = *rc::gen::elementOf(ranges);
     const SquareCells cells(with_range(range));
-    const int most = static_cast<int>(range * 1000);
+    const auto most = static_cast<int>(range * 1000);
     std::vector<Point> cloud;
     for (int i = 0; i < 40; ++i) {
       // Millimetres, or whole quarters of a metre: edges of cells, blocks and levels.
@@ -156,8 +157,8 @@ TEST_P(SquareCellsOn, PointsWithoutACellAreToldWhy) {
                                    // Lowest at 10 m: -1.73 - 2 - 0.35 * 10.
                                    {{10, 0, -7.24f}, cells.noise()},
                                    {{0, -10, -9999}, cells.noise()}};
-  std::vector<Point> cloud;
-  for (const Case& c : cases) cloud.push_back(c.point);
+  std::vector<Point> cloud(cases.size());
+  std::ranges::transform(cases, cloud.begin(), &Case::point);
 
   const std::vector<std::uint32_t> found = tests::cells_of(cloud, cells);
 
@@ -172,10 +173,10 @@ TEST_P(SquareCellsOn, PointsWithoutACellAreToldWhy) {
 TEST_P(SquareCellsOn, AnyBitPatternIsToldSomething) {
   const SquareCells cells{SurfaceConfig{}};
   EXPECT_TRUE(rc::check([&](const std::vector<std::array<std::uint32_t, 3>>& bits) {
-    std::vector<Point> cloud;
-    for (const auto& [x, y, z] : bits) {
-      cloud.push_back({std::bit_cast<float>(x), std::bit_cast<float>(y), std::bit_cast<float>(z)});
-    }
+    std::vector<Point> cloud(bits.size());
+    std::ranges::transform(bits, cloud.begin(), [](const std::array<std::uint32_t, 3>& xyz) {
+      return std::bit_cast<Point>(xyz);
+    });
 
     const std::vector<std::uint32_t> found = tests::cells_of(cloud, cells);
 

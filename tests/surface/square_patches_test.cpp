@@ -88,8 +88,8 @@ TEST(SquarePatches, HoldTheCellsOfTheirSquare) {
   std::vector<bool> taken(cells.cell_count());
 
   for (const SquarePatch& patch : patches.list()) {
-    const int column = static_cast<int>((patch.x + cells.extent()) / block_size);
-    const int row = static_cast<int>((patch.y + cells.extent()) / block_size);
+    const auto column = static_cast<int>((patch.x + cells.extent()) / block_size);
+    const auto row = static_cast<int>((patch.y + cells.extent()) / block_size);
     const CellRange block = cells.block(column, row);
     EXPECT_GE(patch.cells.first, block.first);
     EXPECT_LE(patch.cells.last, block.last);

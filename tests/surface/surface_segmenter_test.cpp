@@ -264,10 +264,10 @@ std::vector<std::size_t> shuffled_order(std::size_t count, std::uint32_t seed) {
   return order;
 }
 
-std::vector<Point> in_order(const std::vector<Point>& cloud,
-                            const std::vector<std::size_t>& order) {
-  std::vector<Point> ordered;
-  for (const std::size_t i : order) ordered.push_back(cloud[i]);
+template <class T>
+std::vector<T> in_order(const std::vector<T>& values, const std::vector<std::size_t>& order) {
+  std::vector<T> ordered(values.size());
+  std::ranges::transform(order, ordered.begin(), [&](std::size_t i) { return values[i]; });
   return ordered;
 }
 
@@ -280,9 +280,7 @@ TEST(SurfaceMethod, TheOrderOfTheCloudMattersWhereSamplesAreTaken) {
 
     const std::vector<Label> of_shuffled = segmented(in_order(cloud, order)).labels;
 
-    std::vector<Label> expected;
-    for (const std::size_t i : order) expected.push_back(labels[i]);
-    EXPECT_LE(share_of_different(expected, of_shuffled), 0.004);
+    EXPECT_LE(share_of_different(in_order(labels, order), of_shuffled), 0.004);
   }
 }
 
