@@ -21,12 +21,19 @@
 namespace flagstone {
 namespace {
 
+/// Gives the setting of that number this value.
+void set(SurfaceConfig& config, std::size_t setting, double value) {
+  const Setting chosen = settings_of(config)[setting];
+  if (float* const* number = std::get_if<float*>(&chosen.value)) {
+    **number = static_cast<float>(value);
+  }
+  if (int* const* number = std::get_if<int*>(&chosen.value)) **number = static_cast<int>(value);
+}
+
 /// What check() says if a setting has this value; empty if it is content.
 std::string complaint(std::size_t setting, double value) {
   SurfaceConfig config;
-  const auto& where = settings_of(config)[setting].value;
-  if (float* const* number = std::get_if<float*>(&where)) **number = static_cast<float>(value);
-  if (int* const* number = std::get_if<int*>(&where)) **number = static_cast<int>(value);
+  set(config, setting, value);
   try {
     config.check();
   } catch (const std::invalid_argument& error) {
@@ -66,12 +73,7 @@ TEST(SurfaceConfigCheck, EverySettingAtEitherEndOfItsRangeLeavesHeightsThatAreNu
       const Allowed& allowed = setting.allowed;
       const double lowest = allowed.without_low ? 1e-6 : allowed.low;
       const double value = highest ? allowed.high : lowest;
-      if (float* const* number = std::get_if<float*>(&setting.value)) {
-        **number = static_cast<float>(value);
-      }
-      if (int* const* number = std::get_if<int*>(&setting.value)) {
-        **number = static_cast<int>(value);
-      }
+      set(config, i, value);
       SurfaceSegmenter segmenter(config);
       Segmentation result;
 
