@@ -190,10 +190,8 @@ TEST(SurfaceContract, AWallAloneLeavesTheSurfaceANumberEvenIfAnyAngleIsUpright) 
   SurfaceConfig config;
   config.acceptance.upright_angle = 0;
   std::vector<Point> wall;
-  wall.reserve(2000);
-  for (int i = 0; i < 2000; ++i) {
-    wall.push_back(
-        {10, 0.004f * static_cast<float>(i % 500), -1.7f + 0.2f * static_cast<float>(i / 500)});
+  for (float up = 0; up < 0.8f; up += 0.2f) {
+    for (float y = 0; y < 2; y += 0.004f) wall.push_back({10, y, -1.7f + up});
   }
 
   const tests::SurfaceOutcome outcome = tests::segmented(config, view_of(wall));
