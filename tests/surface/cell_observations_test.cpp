@@ -37,16 +37,18 @@ struct Said {
 /// `heights`: above the surface, metres, of up to 32 points.
 Said naive(const std::vector<double>& heights, double reach) {
   std::vector<double> gated;
-  double lowest = std::numeric_limits<double>::infinity();
-  std::size_t seen = 0;
+  std::vector<double> seen;
   for (const double h : heights) {
     if (std::abs(h) <= reach) gated.push_back(h);
     if (h <= -(reach + 1.5) || h >= reach + 1) continue;
-    ++seen;
-    lowest = std::min(lowest, h);
+    seen.push_back(h);
   }
+  std::ranges::sort(seen);
+  std::size_t alone = 0;  // up to two points far below the next
+  while (alone < 2 && alone + 1 < seen.size() && seen[alone + 1] - seen[alone] > 0.2) ++alone;
+  const double lowest = seen.empty() ? std::numeric_limits<double>::infinity() : seen[alone];
   const auto lower_bound = [&]() -> Said {
-    if (seen < 8 || lowest >= -0.03) return {};
+    if (seen.size() < 8 || lowest >= -0.03) return {};
     return {.weight = static_cast<double>(lower_bound_weight), .correction = lowest};
   };
   if (gated.size() < 3) return lowest < -reach ? lower_bound() : Said{};
@@ -93,7 +95,7 @@ class CellObservations : public testing::TestWithParam<std::string> {
     }
   }
 
-  void observe_all() {
+  void observe_all(CellSize size = CellSize::any) {
     grid_.set([](float x, float y) { return ground(x, y); });
     std::vector<MovedPoint> readable = points_;
     readable.resize(points_.size() + 16);
@@ -105,7 +107,7 @@ class CellObservations : public testing::TestWithParam<std::string> {
              .lower_bound_weight = lower_bound_weight,
              .corrections = corrections_.data(),
              .weights = weights_.data()},
-            cells_);
+            cells_, size);
   }
 
   /// What one cell near the sensor says.
@@ -244,6 +246,26 @@ TEST_P(CellObservations, OfManyPointsThirtyTwoAreTakenEvenly) {
 
   EXPECT_EQ(ground.weight, 1);
   EXPECT_NEAR(ground.correction, 0, 1e-6);
+}
+
+TEST_P(CellObservations, TwoReflectionsBelowAWallAreNoFoot) {
+  std::vector<float> wall = rising(-0.1f, 0.05f, 24);
+  wall.insert(wall.end(), {-1.2f, -0.7f});
+
+  EXPECT_NEAR(said_of(wall).correction, -0.1, 1e-6);
+}
+
+TEST_P(CellObservations, SmallCellsAreObservedAlikeEitherWay) {
+  add_cell(1, 1, rising(-0.2f, 0.06f, small_cell));
+  add_cell(2, 5, std::vector<float>(small_cell, 0.15f));
+  observe_all(CellSize::any);
+  const std::vector<float> corrections(corrections_.begin(), corrections_.end());
+  const std::vector<float> weights(weights_.begin(), weights_.end());
+
+  observe_all(CellSize::small);
+
+  EXPECT_THAT(corrections, testing::ElementsAreArray(corrections_));
+  EXPECT_THAT(weights, testing::ElementsAreArray(weights_));
 }
 
 TEST_P(CellObservations, AreThoseOfTheNaiveOne) {
