@@ -56,12 +56,34 @@ void add_plane(const Grid& grid, const PlaneOnGrid& plane) {
   }
 }
 
-void divide(const Grid& grid) {
+/// Calls `work(cell, trend there)` for every cell.
+template <class Work>
+HWY_INLINE void along_trend(const Grid& grid, const Trend& trend, const Work& work) {
+  for (std::size_t row = 0; row < grid.width; ++row) {
+    const float first_x = grid.center(0);
+    const float row_height = trend.height + trend.slope_y * grid.center(row);
+    const std::size_t first = row * grid.width;
+    for (std::size_t column = 0; column < grid.width; ++column) {
+      const float x = static_cast<float>(static_cast<int>(column)) * grid.cell + first_x;
+      work(first + column, row_height + trend.slope_x * x);
+    }
+  }
+}
+
+/// Sums become means, seen from the trend; 0 where there are none.
+void divide(const Grid& grid, const Trend& trend) {
   float* HWY_RESTRICT sums = grid.heights;
   const float* HWY_RESTRICT weights = grid.confidences;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    sums[i] = sums[i] / (weights[i] > 0 ? weights[i] : 1.0f);
-  }
+  along_trend(grid, trend, [=](std::size_t cell, float height) {
+    const float weight = weights[cell];
+    const float mean = sums[cell] / (weight > 0 ? weight : 1.0f) - height;
+    sums[cell] = weight > 0 ? mean : 0.0f;
+  });
+}
+
+void add_trend(const Grid& grid, const Trend& trend) {
+  float* HWY_RESTRICT heights = grid.heights;
+  along_trend(grid, trend, [=](std::size_t cell, float height) { heights[cell] += height; });
 }
 
 }  // namespace
@@ -73,6 +95,7 @@ namespace flagstone::surface {
 namespace {
 HWY_EXPORT(add_plane);
 HWY_EXPORT(divide);
+HWY_EXPORT(add_trend);
 
 /// A plane through as many points is trusted fully.
 constexpr double points_of_full_trust = 50;
@@ -80,14 +103,31 @@ constexpr double points_of_full_trust = 50;
 /// From this weight on a node needs no others.
 constexpr float full_weight = 0.5f / (least_deviation * least_deviation);
 
+/// Patches that lie together within some metres give the trend no slope, metres^2.
+constexpr double least_spread = 30;
+
 /// Weight of the height that is expected below the sensor.
 constexpr float foot_weight = 0.1f / (least_deviation * least_deviation);
 
 }  // namespace
 
+void CoarseSurface::WeightedSums::add(const Vector3& mean, double mean_weight) noexcept {
+  const auto& [mx, my, mz] = mean;
+  weight += mean_weight;
+  x += mean_weight * mx;
+  y += mean_weight * my;
+  z += mean_weight * mz;
+  xx += mean_weight * mx * mx;
+  xy += mean_weight * mx * my;
+  yy += mean_weight * my * my;
+  xz += mean_weight * mx * mz;
+  yz += mean_weight * my * mz;
+}
+
 void CoarseSurface::clear() noexcept {
   std::fill_n(grid_.heights, grid_.size(), 0.0f);
   std::fill_n(grid_.confidences, grid_.size(), 0.0f);
+  means_ = {};
 }
 
 void CoarseSurface::add(const Plane& plane, float size) noexcept {
@@ -116,6 +156,26 @@ void CoarseSurface::add(const Plane& plane, float size) noexcept {
       .first_column = first(x),
       .last_column = last(x)};
   HWY_DYNAMIC_DISPATCH(add_plane)(grid_, on_grid);
+  means_.add(plane.mean, static_cast<double>(on_grid.trust * size * size));
+}
+
+Trend CoarseSurface::trend() const noexcept {
+  if (means_.weight <= 0) return {.height = foot_, .slope_x = 0, .slope_y = 0};
+  const auto mean = [&](double sum) { return sum / means_.weight; };
+  const double x = mean(means_.x);
+  const double y = mean(means_.y);
+  const double z = mean(means_.z);
+  const double xx = mean(means_.xx) - x * x + least_spread;
+  const double xy = mean(means_.xy) - x * y;
+  const double yy = mean(means_.yy) - y * y + least_spread;
+  const double xz = mean(means_.xz) - x * z;
+  const double yz = mean(means_.yz) - y * z;
+  const double determinant = xx * yy - xy * xy;  // at least least_spread^2
+  const double slope_x = (xz * yy - xy * yz) / determinant;
+  const double slope_y = (xx * yz - xz * xy) / determinant;
+  return {.height = static_cast<float>(z - slope_x * x - slope_y * y),
+          .slope_x = static_cast<float>(slope_x),
+          .slope_y = static_cast<float>(slope_y)};
 }
 
 void CoarseSurface::finish(PullPush& pull_push) noexcept {
@@ -126,8 +186,10 @@ void CoarseSurface::finish(PullPush& pull_push) noexcept {
       grid_.confidences[row * grid_.width + column] += foot_weight;
     }
   }
-  HWY_DYNAMIC_DISPATCH(divide)(grid_);
+  const Trend along = trend();
+  HWY_DYNAMIC_DISPATCH(divide)(grid_, along);
   pull_push.fill(grid_.heights, grid_.confidences, grid_.width, full_weight);
+  HWY_DYNAMIC_DISPATCH(add_trend)(grid_, along);
 }
 
 }  // namespace flagstone::surface

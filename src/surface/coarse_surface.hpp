@@ -4,14 +4,22 @@
 
 #include <cstddef>
 
+#include "core/moments.hpp"
 #include "core/plane.hpp"
 #include "surface/grid.hpp"
 #include "surface/pull_push.hpp"
 
 namespace flagstone::surface {
 
+/// A plane over the whole grid.
+struct Trend {
+  float height;            ///< at the sensor, metres
+  float slope_x, slope_y;  ///< metres a metre
+};
+
 /// Joins accepted patches to a surface on a grid: near a patch its plane counts, the more the
-/// closer and the better it fits; between patches what lies around.
+/// closer and the better it fits; between patches what lies around, as seen from the plane that
+/// follows all of them, so that a slope goes on where nothing was measured.
 class CoarseSurface {
  public:
   /// On `grid`, whose cells it fills; foot: the ground below the sensor is expected at height
@@ -28,8 +36,21 @@ class CoarseSurface {
   void finish(PullPush& pull_push) noexcept;
 
  private:
+  /// The plane of least squares through the patches' means.
+  [[nodiscard]] Trend trend() const noexcept;
+
   Grid grid_;  ///< until finish(): sums of weighted heights, and of weights
   float foot_;
+
+  /// Weighted sums over the patches' means, for the trend.
+  struct WeightedSums {
+    double weight = 0;
+    double x = 0, y = 0, z = 0;
+    double xx = 0, xy = 0, yy = 0, xz = 0, yz = 0;
+
+    void add(const Vector3& mean, double mean_weight) noexcept;
+  };
+  WeightedSums means_;
 };
 
 }  // namespace flagstone::surface
