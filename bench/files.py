@@ -4,7 +4,7 @@
 
     python3 bench/files.py build/flagstone SCANS --output /dev/shm/labels
     python3 bench/files.py build/flagstone SCANS --output /dev/shm/labels --segment --format u8
-    python3 bench/files.py build/flagstone SCANS --output /dev/shm/labels --segment --method surface
+    python3 bench/files.py build/flagstone SCANS --output /dev/shm/labels --segment --method patchwork
 
 Round after round it runs the command with one thread and with all cores, into an empty folder, and measures the
 bound beside it. The bound of one core is one scan in the time it takes to read(2) a file of SCANS into memory

@@ -138,22 +138,40 @@ void assign_zones(const toml::node& node, std::string_view source, std::vector<Z
   }
 }
 
+/// Is there a setting of this name, or a section?
+bool is_known(std::string_view key, const std::vector<Setting>& settings) {
+  return std::ranges::any_of(settings, [&](const Setting& setting) {
+    return setting.key == key || setting.key.starts_with(std::string(key) + ".");
+  });
+}
+
+/// What to say of a setting that is not among `settings`, those of the method at hand.
+std::string no_setting(const std::string& key, const std::vector<Setting>& settings) {
+  const bool is_section_here = is_known(key, settings);
+  for (const std::string_view method : {"surface", "patchwork"}) {
+    if (is_section_here) break;
+    MethodConfig config = default_config(method);
+    const bool are_zones = key == "zones" && std::holds_alternative<PatchworkConfig>(config);
+    if (!are_zones && !is_known(key, settings_of(config))) continue;
+    return fmt::format("{} is no setting of this method, but of --method {}", key, method);
+  }
+  return key + " is no setting; 'flagstone config --method NAME' prints all there are";
+}
+
 void apply_table(const toml::table& table, const std::string& prefix, std::string_view source,
                  const std::vector<Setting>& settings, std::vector<Zone>* zones) {
   for (const auto& [key, node] : table) {
     const std::string full = prefix + std::string(key.str());
     const Place place(source, node.source());
     const auto setting = std::ranges::find(settings, full, &Setting::key);
-    const bool is_section = std::ranges::any_of(
-        settings, [&](const Setting& s) { return s.key.starts_with(full + "."); });
     if (full == "zones" && zones != nullptr) {
       assign_zones(node, source, *zones);
     } else if (setting != settings.end()) {
       std::visit([&](auto* value) { assign(node, full, place, *value); }, setting->value);
-    } else if (is_section && node.is_table()) {
+    } else if (is_known(full, settings) && node.is_table()) {
       apply_table(*node.as_table(), full + ".", source, settings, zones);
     } else {
-      place.refuse(full + " is no setting; 'flagstone config' prints all there are");
+      place.refuse(no_setting(full, settings));
     }
   }
 }

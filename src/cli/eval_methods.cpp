@@ -51,6 +51,11 @@ std::pair<std::string, std::string> split_setting(const std::string& setting) {
   return {method, setting.substr(dot + 1)};
 }
 
+/// Do the settings of this method start from Patchwork's?
+bool starts_from_patchwork(std::string_view method) {
+  return method == "patchwork" || method.starts_with("czm");
+}
+
 eval::Method labels_made_elsewhere(const std::string& entry, io::LabelMap map) {
   const std::size_t equals = entry.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == entry.size()) {
@@ -131,6 +136,13 @@ std::vector<eval::Method> EvalMethods::resolve() const {
       throw std::invalid_argument(
           fmt::format("--set {}.{}: {} is not among --methods", method, setting, method));
     }
+  }
+  const bool are_given =
+      preset != "default" || !config_file.empty() || own_settings.size() < settings.size();
+  if (are_given && std::ranges::none_of(evaluated, starts_from_patchwork)) {
+    throw std::invalid_argument(
+        "--preset, --config and --set patchwork...: are of patchwork and czm+..., and none of them "
+        "is among --methods");
   }
   std::vector<eval::Method> methods;
   for (const std::string& name : evaluated) {

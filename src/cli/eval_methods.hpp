@@ -13,7 +13,7 @@ namespace flagstone::cli {
 
 /// The options that say which methods are evaluated, and with which settings.
 struct EvalMethods {
-  std::vector<std::string> names = {"patchwork"};
+  std::vector<std::string> names = {"surface", "patchwork"};
   std::string preset = "default";
   std::string config_file{};
   std::vector<std::string> settings{};  ///< method.key=value

@@ -40,7 +40,8 @@ bool MethodOptions::starts_from_preset() const {
 MethodConfig MethodOptions::resolve() const {
   if (!starts_from_preset() && preset != "default") {
     throw std::invalid_argument(fmt::format(
-        "--preset {}: method {} has settings of its own; presets are of patchwork and czm+...",
+        "--preset {}: method {} has settings of its own; presets are of --method patchwork and "
+        "czm+...",
         preset, method));
   }
   MethodConfig config = default_config(method, PatchworkConfig::preset(preset));
@@ -56,8 +57,7 @@ MethodConfig MethodOptions::resolve() const {
 CLI::Option* add_preset_option(CLI::App& command, std::string& preset) {
   const auto names = PatchworkConfig::preset_names();
   return command
-      .add_option("--preset", preset,
-                  "Patchwork's settings to start from: default, paper or reference")
+      .add_option("--preset", preset, "With patchwork and czm+...: settings to start from")
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())))
       ->capture_default_str();
 }

@@ -15,7 +15,7 @@ namespace flagstone::cli {
 
 /// The options that say how to segment, shared by the commands that run one method.
 struct MethodOptions {
-  std::string method = "patchwork";
+  std::string method = "surface";
   std::string preset = "default";
   std::string config_file;
   std::vector<std::string> settings;  ///< key=value

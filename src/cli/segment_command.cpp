@@ -123,7 +123,8 @@ class Reporter {
 void check_tint(const SegmentOptions& options, const MethodConfig& config) {
   if (!options.tint_patches || std::holds_alternative<PatchworkConfig>(config)) return;
   throw std::invalid_argument(
-      fmt::format("--tint-patches: method {} has no zones to tint; patchwork, r_gpf and czm+... do",
+      fmt::format("--tint-patches: method {} has no zones to tint; --method patchwork has, r_gpf "
+                  "and czm+... too",
                   options.method.method));
 }
 
@@ -236,7 +237,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
       command->add_flag("--picture", options->picture, "Draw each scan from above, as PNG");
   command
       ->add_flag("--tint-patches", options->tint_patches,
-                 "In the picture, tint every patch by its verdict")
+                 "In the picture, tint every patch by its verdict; with patchwork, r_gpf, czm+...")
       ->needs(picture);
   command->add_flag("--heights", options->heights,
                     "Write each point's height above the ground: STEM.heights.npy, and with "

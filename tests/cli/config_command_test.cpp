@@ -16,14 +16,22 @@
 namespace flagstone::cli {
 namespace {
 
-/// The configuration that `flagstone config` prints.
+/// The configuration of Patchwork that `flagstone config` prints.
 PatchworkConfig printed_config(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "config");
+  arguments.insert(arguments.begin(), {"config", "--method", "patchwork"});
   const Outcome outcome = run(arguments);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   PatchworkConfig config;
   apply_toml(outcome.out, "config", config);
   return config;
+}
+
+TEST(ConfigCommand, PrintsTheSettingsOfSurfaceUnlessAnotherMethodIsNamed) {
+  const Outcome outcome = run({"config"});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, run({"config", "--method", "surface"}).out);
+  EXPECT_THAT(outcome.out, testing::StartsWith("# flagstone, method surface\n"));
 }
 
 TEST(ConfigCommand, PrintsThePresetThatIsNamed) {
@@ -56,13 +64,17 @@ TEST(ConfigCommand, WhatItPrintsGivesTheSameLabelsAsThePreset) {
   const std::string scan = (folder / "scan.bin").string();
   const std::string toml = (folder / "paper.toml").string();
   put_scan(scan);
-  io::put_file(toml, run({"config", "--preset", "paper"}).out);
+  io::put_file(toml, run({"config", "--method", "patchwork", "--preset", "paper"}).out);
 
-  const Outcome named =
-      run({"segment", scan, "--output", (folder / "named").string(), "--preset", "paper"});
-  const Outcome printed =
-      run({"segment", scan, "--output", (folder / "printed").string(), "--config", toml});
-  run({"segment", scan, "--output", (folder / "default").string()});
+  const auto segment = [&](const char* output, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"segment",   scan,       "--method",
+                                          "patchwork", "--output", (folder / output).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  };
+  const Outcome named = segment("named", {"--preset", "paper"});
+  const Outcome printed = segment("printed", {"--config", toml});
+  segment("default", {});
 
   EXPECT_EQ(named.exit_code, 0);
   EXPECT_EQ(printed.exit_code, 0);

@@ -161,9 +161,10 @@ TEST_F(EvalCommand, JsonAgreesWithCountsMadeByHand) {
   EXPECT_EQ(results["scans"], 3);
   EXPECT_EQ(results["datasets"], json::array({"kitti"}));
   EXPECT_EQ(results["failed"], json::array());
-  ASSERT_THAT(results["methods"], SizeIs(1));
+  ASSERT_THAT(results["methods"], SizeIs(2));
   const json& method = results["methods"][0];
-  EXPECT_EQ(method["name"], "patchwork");
+  EXPECT_EQ(method["name"], "surface");
+  EXPECT_EQ(results["methods"][1]["name"], "patchwork") << "to compare with";
   EXPECT_GT(method["hz"].get<double>(), 0);
   EXPECT_LE(method["hz_slowest_1_percent"].get<double>(), method["hz"].get<double>());
 
@@ -213,12 +214,13 @@ TEST_F(EvalCommand, JsonAgreesWithCountsMadeByHand) {
 }
 
 TEST_F(EvalCommand, TrueHeightsChangeNothingForMethodsThatGiveNone) {
-  const json before = without_times(results("kitti"));
+  const std::vector<std::string> patchwork = {"--methods", "patchwork"};
+  const json before = without_times(results("kitti", patchwork));
   for (const std::string name : {"a", "b", "c"}) {
     put_ground(name, std::vector<float>(scan(name).size(), -1.7F));
   }
 
-  EXPECT_EQ(without_times(results("kitti")), before);
+  EXPECT_EQ(without_times(results("kitti", patchwork)), before);
 }
 
 TEST_F(EvalCommand, TrueHeightsOfAnotherScanCostThatScanAndOneLine) {
@@ -698,6 +700,8 @@ TEST_F(EvalCommand, WrongUsageIsOneLine) {
       {{"--labels", "peer"}, "NAME=DIR"},
       {{"--set", "patchwork.seed_cuont=3"}, "seed_cuont is no setting"},
       {{"--set", "patchwork.distance_margin=-1"}, "distance_margin = -1"},
+      {{"--set", "surface.distance_margin=1"}, "but of --method patchwork"},
+      {{"--methods", "surface", "--preset", "paper"}, "none of them is among --methods"},
       {{"--pictures", "-1"}, "--pictures"},
       {{"--label-map", "mine"}, "{flagstone,semantic-kitti}"},
       {{path("empty")}, "empty: no dataset"},

@@ -177,6 +177,18 @@ TEST(EvalMethods, ASettingOfAMethodThatIsNotEvaluatedIsRefused) {
               AllOf(HasSubstr("--set gpf.segments=5"), HasSubstr("not among --methods")));
 }
 
+TEST(EvalMethods, WhatOnlyPatchworkHasIsRefusedWhereItIsNotEvaluated) {
+  const io::TemporaryFolder folder;
+  io::put_file(folder / "mine.toml", "seed_count = 11\n");
+  const auto said = AllOf(HasSubstr("of patchwork and czm+..."), HasSubstr("--methods"));
+
+  EXPECT_THAT(refusal({.names = {"surface"}, .preset = "paper"}), said);
+  EXPECT_THAT(refusal({.names = {"surface"}, .config_file = (folder / "mine.toml").string()}),
+              said);
+  EXPECT_THAT(refusal({.names = {"surface"}, .settings = {"patchwork.seed_count=5"}}), said);
+  EXPECT_EQ(refusal({.names = {"czm+u"}, .preset = "paper"}), "nothing was refused");
+}
+
 TEST(EvalMethods, LabelsNeedANameAndAFolderThatIsThere) {
   const io::TemporaryFolder folder;
   const std::string there = folder.path().string();

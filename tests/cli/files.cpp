@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "flagstone/patchwork.hpp"
+#include "flagstone/surface_segmenter.hpp"
 #include "io/file_contents.hpp"
 #include "io/read_cloud.hpp"
 #include "io/write_cloud.hpp"
@@ -52,9 +52,9 @@ io::Cloud scan_of(const fs::path& file) {
 }
 
 std::vector<Label> labels_of(const io::Cloud& scan) {
-  Patchwork patchwork;
+  SurfaceSegmenter surface;
   Segmentation result;
-  must(patchwork.segment(scan.view(), result));
+  must(surface.segment(scan.view(), result));
   return {result.labels().begin(), result.labels().end()};
 }
 

@@ -24,7 +24,7 @@ void put_scan(const std::filesystem::path& file, const io::Cloud& scan = small_s
 /// The scan of a file.
 io::Cloud scan_of(const std::filesystem::path& file);
 
-/// What the library says of a scan, under the preset `default`.
+/// What the library says of a scan, by the command's default method.
 std::vector<Label> labels_of(const io::Cloud& scan);
 
 /// The numbers of a .label file.

@@ -164,7 +164,7 @@ TEST(Segment, APictureIsAPngBesideTheLabels) {
   put_scan(folder / "scan.bin");
 
   const Outcome outcome = run({"segment", (folder / "scan.bin").string(), "--output",
-                               (folder / "out").string(), "--picture", "--tint-patches", "--json"});
+                               (folder / "out").string(), "--picture", "--json"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(names_below(folder / "out"), ElementsAre("scan.label", "scan.png"));
