@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -30,7 +31,7 @@ class Segmentation {
   /// is known and for points that are invalid or out of range. Empty for methods that make no
   /// surface.
   [[nodiscard]] std::span<const float> heights() const noexcept {
-    return {heights_.data(), height_count_};
+    return {heights_.data(), std::min(height_count_, heights_.size())};  // none if moved from
   }
 
   /// The ground itself. Empty for methods that make no surface.

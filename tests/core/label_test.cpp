@@ -6,6 +6,7 @@
 
 #include <set>
 #include <string>
+#include <utility>
 
 #include "flagstone/patch.hpp"
 #include "flagstone/segmentation.hpp"
@@ -86,6 +87,19 @@ TEST(Segmentation, StartForgetsWhatWasThere) {
   EXPECT_EQ(result.labels().size(), 2u);
   EXPECT_EQ(result.count(Label::ground), 0u);
   EXPECT_TRUE(result.patches().empty());
+}
+
+TEST(Segmentation, HasNoHeightsOnceMovedFromAndMayBeFilledAgain) {
+  Segmentation result;
+  result.start(3);
+  result.start_heights()[0] = 1;
+  const Segmentation taken = std::move(result);
+
+  EXPECT_EQ(taken.heights().size(), 3u);
+  EXPECT_TRUE(result.heights().empty());  // NOLINT(bugprone-use-after-move): that is the subject
+  result.start(2);
+  EXPECT_EQ(result.start_heights().size(), 2u);
+  EXPECT_EQ(result.heights().size(), 2u);
 }
 
 TEST(Status, IsOkUnlessItSaysWhatIsWrong) {

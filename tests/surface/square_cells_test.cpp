@@ -11,12 +11,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <string>
 #include <vector>
 
 #include "core/simd_target.hpp"
 #include "flagstone/surface_segmenter.hpp"
 #include "forced_target.hpp"
+#include "guarded_memory.hpp"
 #include "made_up_cloud.hpp"
 #include "surface/square_scan.hpp"
 
@@ -183,6 +185,16 @@ TEST_P(SquareCellsOn, AnyBitPatternIsToldSomething) {
     RC_ASSERT(found.size() == cloud.size());
     for (const std::uint32_t cell : found) RC_ASSERT(cell < cells.group_count());
   }));
+}
+
+TEST_P(SquareCellsOn, NothingIsReadBehindTheirTables) {
+  const tests::GuardedMemory memory(sizeof(SquareCells));
+  const SquareCells* const cells =
+      new (memory.last(sizeof(SquareCells)).data()) SquareCells(SurfaceConfig{});
+
+  const std::vector<std::uint32_t> found = tests::cells_of(tests::made_up_cloud(1000, 1), *cells);
+
+  EXPECT_EQ(found, tests::cells_of(tests::made_up_cloud(1000, 1), SquareCells(SurfaceConfig{})));
 }
 
 TEST(SquareCells, BlocksAreNumberedApart) {

@@ -56,9 +56,13 @@ HWY_INLINE FloatVector lookup_16(const float* HWY_RESTRICT table, IntVector inde
 #endif
 }
 
-/// The same for an index of 0 to 7.
+/// The same for a table of 8 and an index of 0 to 7.
 HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index) {
-#if HWY_TARGET <= HWY_AVX3 || HWY_TARGET == HWY_AVX2
+#if HWY_TARGET <= HWY_AVX3
+  // Half a vector: behind the table there may be nothing.
+  const FloatVector numbers{_mm512_castps256_ps512(_mm256_loadu_ps(table))};
+  return hn::TableLookupLanes(numbers, hn::IndicesFromVec(FloatTag(), index));
+#elif HWY_TARGET == HWY_AVX2
   const FloatTag d;
   return hn::TableLookupLanes(hn::LoadU(d, table), hn::IndicesFromVec(d, index));
 #else
