@@ -94,11 +94,11 @@ TEST(PatchJudge, TheFirstPatchIsMeasuredByTheSensorsHeight) {
   AcceptedPatches none;
   none.reserve(1);
 
-  // At 5 m: 0.5 + 0.1 * 5 above, 0.3 more below.
+  // At 5 m: 0.5 + 0.1 * 5 above, 0.5 more below.
   EXPECT_EQ(judge.judge_step(level_at(5, -1.73f + 0.99f), none), Verdict::ground);
   EXPECT_EQ(judge.judge_step(level_at(5, -1.73f + 1.01f), none), Verdict::off_surface);
-  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f - 1.29f), none), Verdict::ground);
-  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f - 1.31f), none), Verdict::off_surface);
+  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f - 1.49f), none), Verdict::ground);
+  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f - 1.51f), none), Verdict::off_surface);
 }
 
 TEST(PatchJudge, LaterPatchesAreMeasuredByNearerOnes) {

@@ -136,23 +136,41 @@ TEST_P(PointHeightsOn, AreNotKnownForPointsThatAreInvalidOrOutOfRange) {
 }
 
 TEST_P(PointHeightsOn, LowerThanTheMarginIsGround) {
-  EXPECT_EQ(label_of({10, 0, -2 + 0.199f}), Label::ground);
-  EXPECT_EQ(label_of({10, 0, -2 + 0.201f}), Label::nonground);
+  const float margin = PointRule{}.margin;
+
+  EXPECT_EQ(label_of({10, 0, -2 + margin - 0.001f}), Label::ground);
+  EXPECT_EQ(label_of({10, 0, -2 + margin + 0.001f}), Label::nonground);
   EXPECT_EQ(label_of({10, 0, -2 - 0.5f}), Label::ground);
 }
 
 TEST_P(PointHeightsOn, WhereSomethingStandsTheMarginIsSmaller) {
-  const std::vector<Point> pole = {{10.1f, 0.1f, -2 + 0.81f}};
+  const PointRule rule;
+  const float margin = rule.margin_at_obstacles;
+  const std::vector<Point> pole = {{10.1f, 0.1f, -2 + 1.25f * rule.standing_height + 0.01f}};
 
-  EXPECT_EQ(label_of({10.4f, 0.4f, -2 + 0.059f}, pole), Label::ground);
-  EXPECT_EQ(label_of({10.4f, 0.4f, -2 + 0.061f}, pole), Label::nonground);
-  EXPECT_EQ(label_of({10.6f, 0.4f, -2 + 0.061f}, pole), Label::ground) << "the next cell";
+  EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin - 0.001f}, pole), Label::ground);
+  EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin + 0.001f}, pole), Label::nonground);
+  EXPECT_EQ(label_of({10.6f, 0.4f, -2 + margin + 0.001f}, pole), Label::ground) << "the next cell";
+}
+
+TEST_P(PointHeightsOn, WhereSomethingLowStandsTheMeanOfBothMarginsHolds) {
+  const PointRule rule;
+  const float margin = (rule.margin + rule.margin_at_obstacles) / 2;
+  for (const float height :
+       {0.75f * rule.standing_height + 0.01f, 1.25f * rule.standing_height - 0.01f}) {
+    const std::vector<Point> stone = {{10.1f, 0.1f, -2 + height}};
+
+    EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin - 0.001f}, stone), Label::ground);
+    EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin + 0.001f}, stone), Label::nonground);
+  }
 }
 
 TEST_P(PointHeightsOn, OnlyWhatIsHighEnoughAndDoesNotHangOverTheGroundStands) {
-  const Point low{10.4f, 0.4f, -2 + 0.1f};
+  const PointRule rule;
+  const Point low{10.4f, 0.4f, -2 + rule.margin - 0.01f};
 
-  EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 0.79f}}), Label::ground);
+  EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 0.75f * rule.standing_height - 0.01f}}),
+            Label::ground);
   EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 2.49f}}), Label::nonground);
   EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 2.51f}}), Label::ground);
 }
