@@ -14,7 +14,7 @@ enum class Label : std::uint8_t {
   ground = 1,     ///< belongs to the ground surface
   noise = 2,      ///< below any ground there can be at that place (multipath, reflections)
   out_of_range =
-      3,  ///< nearer than the first ring, beyond the last, or over 10 km above or below the sensor
+      3,  ///< too far for the method, within Patchwork's first ring, or over 10 km up or down
   invalid = 4,  ///< a coordinate is not finite, or all three are zero ("no echo")
 };
 
