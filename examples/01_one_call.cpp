@@ -37,11 +37,11 @@ int main() {
   const std::vector<float> xyz = make_scan();
   const std::size_t count = xyz.size() / 3;
 
-  flagstone::PatchworkConfig config;
+  flagstone::SurfaceConfig config;
   config.sensor_height = 1.73f;  // how high the sensor sits above the ground
-  flagstone::Patchwork patchwork(config);
+  flagstone::SurfaceSegmenter segmenter(config);
   flagstone::Segmentation scan;
-  const flagstone::Status status = patchwork.segment(flagstone::CloudView(xyz.data(), count), scan);
+  const flagstone::Status status = segmenter.segment(flagstone::CloudView(xyz.data(), count), scan);
   if (!status.ok()) {
     std::fprintf(stderr, "%s\n", status.message().c_str());
     return 1;

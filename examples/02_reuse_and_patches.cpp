@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// Scan after scan with the same two objects, and what was made of each patch of ground.
+// Scan after scan with the same two objects, and what Patchwork made of each patch of ground.
 
 #include <cmath>
 #include <cstdio>

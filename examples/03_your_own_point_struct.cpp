@@ -37,11 +37,11 @@ std::vector<Return> make_scan() {
 
 int main() {
   const std::vector<Return> returns = make_scan();
-  flagstone::Patchwork patchwork;
+  flagstone::SurfaceSegmenter segmenter;
   flagstone::Segmentation scan;
 
   const flagstone::CloudView structs{std::span<const Return>(returns)};
-  if (!patchwork.segment(structs, scan).ok()) return 1;
+  if (!segmenter.segment(structs, scan).ok()) return 1;
   std::printf("structs, ground: %zu of %zu points\n", scan.count(flagstone::Label::ground),
               scan.labels().size());
 
@@ -51,7 +51,7 @@ int main() {
                                       .x = offsetof(Return, x),
                                       .y = offsetof(Return, y),
                                       .z = offsetof(Return, z)};
-  if (!patchwork.segment(flagstone::CloudView(message.data(), returns.size(), layout), scan).ok())
+  if (!segmenter.segment(flagstone::CloudView(message.data(), returns.size(), layout), scan).ok())
     return 1;
   std::printf("bytes, ground: %zu of %zu points\n", scan.count(flagstone::Label::ground),
               scan.labels().size());

@@ -105,7 +105,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   CLI::App* command = app.add_subcommand(
       "bench",
-      "Time Patchwork or surface on scans, stage by stage, beside other programs.\n\n"
+      "Time surface or Patchwork on scans, stage by stage, beside other programs.\n\n"
       "Example:  flagstone bench scans/ --peers\n\n"
       "Scans are taken in rotation. The bare pass reads x, y and z of every point and writes one\n"
       "byte a point. Ratios are medians of times of the same scan and round.\n");

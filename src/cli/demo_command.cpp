@@ -18,18 +18,22 @@
 
 #include "core/stopwatch.hpp"
 #include "eval/confusion.hpp"
+#include "eval/height_score.hpp"
 #include "eval/protocol.hpp"
-#include "flagstone/patchwork.hpp"
+#include "flagstone/surface_segmenter.hpp"
 #include "io/cloud.hpp"
 #include "io/label_files.hpp"
 #include "io/write_cloud.hpp"
 #include "render/birds_eye.hpp"
+#include "render/surface_picture.hpp"
 #include "sim/simulate_street.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr float picture_range = 50;  // metres to the sides; the same for all, to lay side by side
 
 struct DemoOptions {
   std::string output = "flagstone-demo";
@@ -43,9 +47,10 @@ struct DemoFiles {
         truth(folder / "labels" / "000000.label"),
         labels(folder / "predictions" / "000000.label"),
         picture(folder / "000000.png"),
-        comparison(folder / "000000-compared.png") {}
+        comparison(folder / "000000-compared.png"),
+        surface(folder / "000000-surface.png") {}
 
-  fs::path scan, truth, labels, picture, comparison;
+  fs::path scan, truth, labels, picture, comparison, surface;
 };
 
 void must(const Status& status) {
@@ -53,11 +58,11 @@ void must(const Status& status) {
 }
 
 /// Median time of segmenting the scan again and again, milliseconds.
-double median_time(Patchwork& patchwork, CloudView cloud, Segmentation& result) {
+double median_time(Segmenter& method, CloudView cloud, Segmentation& result) {
   std::vector<double> times(21);
   for (double& time : times) {
     Stopwatch watch;
-    must(patchwork.segment(cloud, result));
+    must(method.segment(cloud, result));
     time = watch.lap();
   }
   std::ranges::nth_element(times, times.begin() + 10);
@@ -79,16 +84,20 @@ void write_files(const DemoFiles& files, const sim::SimulatedScan& scan, const i
   must(io::write_label_file(files.labels, result.labels(), io::LabelMap::flagstone));
 }
 
-void draw_pictures(const DemoFiles& files, const Patchwork& patchwork, const io::Cloud& cloud,
-                   const Segmentation& result, std::span<const Truth> truth,
-                   const std::string& scores) {
+void draw_pictures(const DemoFiles& files, const io::Cloud& cloud, const Segmentation& result,
+                   std::span<const Truth> truth, const std::string& scores,
+                   const std::string& heights) {
   render::BirdsEye options;
   options.title = "Simulated street, 64 beams";
   options.subtitle = scores;
-  options.zones = &patchwork.config();
+  options.range = picture_range;
   must(render::draw_birds_eye(files.picture, cloud.view(), result, options));
   options.reference = truth;
   must(render::draw_birds_eye(files.comparison, cloud.view(), result, options));
+  must(render::draw_surface(files.surface, result.surface(),
+                            {.title = "The same street: the ground itself",
+                             .subtitle = heights,
+                             .range = picture_range}));
 }
 
 void run_demo(const DemoOptions& options) {
@@ -98,13 +107,17 @@ void run_demo(const DemoOptions& options) {
   io::Cloud cloud;
   must(io::Cloud::from_floats(scan.xyzi, 4, cloud));
 
-  Patchwork patchwork;
+  SurfaceSegmenter surface;
   Segmentation result;
-  const double ms = median_time(patchwork, cloud.view(), result);
+  const double ms = median_time(surface, cloud.view(), result);
 
   const std::vector<Truth> truth =
       eval::truth_of(eval::simulation_protocol(), cloud.view(), scan.classes);
   const eval::Confusion score = eval::compare(result.labels(), truth);
+  const eval::HeightErrors heights =
+      eval::score_heights(cloud.view(), truth, sim::street_ground(options.seed, scan.xyzi),
+                          result.heights())
+          .ground.by_range[0];
   const auto ground_patches = std::ranges::count_if(result.patches(), &Patch::is_ground);
   const std::string scores =
       fmt::format("precision {:.2f} %, recall {:.2f} %, F1 {:.2f} %", 100 * score.precision(),
@@ -112,7 +125,9 @@ void run_demo(const DemoOptions& options) {
 
   const DemoFiles files(options.output);
   write_files(files, scan, cloud, result);
-  draw_pictures(files, patchwork, cloud, result, truth, scores);
+  draw_pictures(files, cloud, result, truth, scores,
+                fmt::format("median error {:.1f} cm within 20 m, where the ground was seen",
+                            100 * heights.median));
 
   const double share =
       static_cast<double>(result.count(Label::ground)) / static_cast<double>(cloud.size());
@@ -123,9 +138,13 @@ void run_demo(const DemoOptions& options) {
   fmt::print("  recall       {:.2f} %\n", 100 * score.recall());
   fmt::print("  F1           {:.2f} %   (every point, against the simulated truth)\n",
              100 * score.f1());
+  fmt::print(
+      "  heights      {:.1f} cm   (median error of ground within 20 m, 95 % below {:.1f} cm)\n",
+      100 * heights.median, 100 * heights.percentile95);
   fmt::print("  time         {:.2f} ms  (one core, median of 21 runs)\n\n", ms);
   fmt::print("  picture      {}\n", files.picture.string());
   fmt::print("  compared     {}\n", files.comparison.string());
+  fmt::print("  surface      {}\n", files.surface.string());
   fmt::print("  labels       {}\n", files.labels.string());
   fmt::print("  scan, truth  {}, {}\n", files.scan.string(), files.truth.string());
 }
@@ -135,7 +154,7 @@ void run_demo(const DemoOptions& options) {
 void add_demo_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DemoOptions>();
   CLI::App* command = app.add_subcommand("demo",
-                                         "Simulate a street, segment it and draw it.\n\n"
+                                         "Simulate a street, segment it by surface and draw it.\n\n"
                                          "Example:  flagstone demo --output demo --seed 11\n");
   command->add_option("-o,--output", options->output, "Folder for what is written; made if missing")
       ->type_name("DIR")

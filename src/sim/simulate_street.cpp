@@ -5,15 +5,28 @@
 #include "sim/noise.hpp"
 #include "sim/sensor.hpp"
 #include "sim/street.hpp"
+#include "sim/true_ground.hpp"
 
 namespace flagstone::sim {
+namespace {
+
+/// Where the sensor is in a street.
+Frame pose_in(const Scene& street, const Sensor& sensor) {
+  constexpr double right_lane = -1.6;  // metres left of the centre line
+  return sensor_pose(street.ground(), sensor, 0, right_lane, 0);
+}
+
+}  // namespace
 
 SimulatedScan simulate_street(std::uint64_t seed, unsigned threads) {
-  constexpr double right_lane = -1.6;  // metres left of the centre line
   const Scene street = make_street(seed);
   const Sensor sensor = hdl_64e();
-  const Frame pose = sensor_pose(street.ground(), sensor, 0, right_lane, 0);
-  return simulate(street, sensor, Noise{}, pose, seed, threads);
+  return simulate(street, sensor, Noise{}, pose_in(street, sensor), seed, threads);
+}
+
+std::vector<float> street_ground(std::uint64_t seed, std::span<const float> xyzi) {
+  const Scene street = make_street(seed);
+  return true_ground(street.ground(), pose_in(street, hdl_64e()), xyzi);
 }
 
 }  // namespace flagstone::sim

@@ -28,19 +28,23 @@ TEST(DemoCommand, MakesTheFilesItNamesAndTheSameBytesForTheSameSeed) {
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(again.exit_code, 0) << again.err;
-  for (const char* row : {"points", "ground", "patches", "precision", "recall", "F1", "time"}) {
+  for (const char* row :
+       {"points", "ground", "patches", "precision", "recall", "F1", "heights", "time"}) {
     EXPECT_THAT(outcome.out, ContainsRegex("\n  " + std::string(row) + " +[0-9]"));
   }
   auto one = files_below(folder / "one");
   auto two = files_below(folder / "two");
-  EXPECT_THAT(names_below(folder / "one"),
-              ElementsAre("000000-compared.png", "000000.png", "labels/000000.label",
-                          "predictions/000000.label", "velodyne/000000.bin"));
+  EXPECT_THAT(
+      names_below(folder / "one"),
+      ElementsAre("000000-compared.png", "000000-surface.png", "000000.png", "labels/000000.label",
+                  "predictions/000000.label", "velodyne/000000.bin"));
   for (const auto& [name, contents] : one) {
     EXPECT_THAT(outcome.out, HasSubstr((folder / ("one/" + name)).string()));
     EXPECT_EQ(contents == two[name], true) << name;
   }
-  EXPECT_THAT(one["000000.png"], StartsWith("\x89PNG"));
+  for (const char* picture : {"000000.png", "000000-compared.png", "000000-surface.png"}) {
+    EXPECT_THAT(one[picture], StartsWith("\x89PNG")) << picture;
+  }
   const std::size_t points = one["velodyne/000000.bin"].size() / 16;
   EXPECT_GT(points, 50000U);
   EXPECT_EQ(one["labels/000000.label"].size(), 4 * points);

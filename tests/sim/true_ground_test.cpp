@@ -13,6 +13,7 @@
 #include "core/random.hpp"
 #include "sim/drive.hpp"
 #include "sim/scene_kind.hpp"
+#include "sim/simulate_street.hpp"
 #include "sim/street_shape.hpp"
 
 namespace flagstone::sim {
@@ -160,6 +161,28 @@ TEST_P(TrueGroundOfScene, IsWhereGroundPointsWithoutNoiseAre) {
     // Rounding carries a point off the edge of a steep face, and then the ground lies well below.
     EXPECT_LE(faces, scan.size() / 2'000);
   }
+}
+
+TEST(StreetGround, IsWhereTheGroundPointsOfThatStreetsScanAre) {
+  const SimulatedScan scan = simulate_street(3, 2);
+
+  const std::vector<float> heights = street_ground(3, scan.xyzi);
+  const std::vector<float> of_another = street_ground(4, scan.xyzi);
+
+  ASSERT_EQ(heights.size(), scan.size());
+  std::size_t near = 0;
+  std::size_t near_another = 0;
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!is_ground(static_cast<SemanticClass>(scan.classes[i]))) continue;
+    constexpr float range_noise = 0.1F;  // metres; what it makes of a height is less
+    const float z = scan.xyzi[4 * i + 2];
+    ++all;
+    near += std::abs(z - heights[i]) < range_noise;
+    near_another += std::abs(z - of_another[i]) < range_noise;
+  }
+  EXPECT_GT(near, all - all / 100);
+  EXPECT_LT(near_another, near);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TrueGroundOfScene,

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+
+// How high each point stands above the ground, and the ground itself at any place.
+
+#include <cmath>
+#include <cstdio>
+#include <flagstone/flagstone.hpp>
+#include <vector>
+
+namespace {
+
+/// Ground that climbs ahead of the sensor by 5 cm a metre, and a post 1.2 m high at x = 12, y = 3.
+std::vector<float> make_scan() {
+  std::vector<float> xyz;
+  for (int ring = 0; ring < 144; ++ring) {
+    const float range = 4 + 0.25f * static_cast<float>(ring);
+    for (int step = 0; step < 628; ++step) {
+      const float angle = 0.01f * static_cast<float>(step);
+      const float x = range * std::cos(angle);
+      xyz.insert(xyz.end(), {x, range * std::sin(angle), 0.05f * x - 1.73f});
+    }
+  }
+  for (int step = 0; step <= 24; ++step) {
+    const float foot = 0.05f * 12 - 1.73f;
+    xyz.insert(xyz.end(), {12.0f, 3.0f, foot + 0.05f * static_cast<float>(step)});
+  }
+  return xyz;
+}
+
+}  // namespace
+
+int main() {
+  const std::vector<float> xyz = make_scan();
+  const std::size_t count = xyz.size() / 3;
+
+  flagstone::SurfaceSegmenter segmenter({.sensor_height = 1.73f});
+  flagstone::Segmentation scan;
+  if (!segmenter.segment(flagstone::CloudView(xyz.data(), count), scan).ok()) return 1;
+  std::printf("ground: %zu of %zu points\n", scan.count(flagstone::Label::ground), count);
+
+  // heights()[i] belongs to point i: metres above the ground below it, NaN where none is known. The
+  // last point is the top of the post.
+  std::printf("the post is %.2f m high\n", static_cast<double>(scan.heights().back()));
+
+  // The ground can be asked anywhere, whether a point lies there or not.
+  const flagstone::Surface& surface = scan.surface();
+  for (const float x : {10.0f, 20.0f, 30.0f}) {
+    const flagstone::GroundAt ground = surface.at(x, 0);
+    std::printf("x %.0f m: ground at z %.2f m, slope %.3f rad, confidence %.2f, cells of %.2f m\n",
+                static_cast<double>(x), static_cast<double>(ground.height),
+                static_cast<double>(ground.slope), static_cast<double>(ground.confidence),
+                static_cast<double>(surface.resolution(x, 0)));
+  }
+
+  // height() alone takes less time. Below the sensor nothing was measured: what is there is filled
+  // in from around it.
+  std::printf("below the sensor: z %.2f m\n", static_cast<double>(surface.height(0, 0)));
+
+  // Far from all points nothing is known; such heights are NaN.
+  std::printf("%s 90 m to the left\n", std::isnan(surface.height(0, 90)) ? "unknown" : "known");
+}
