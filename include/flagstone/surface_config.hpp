@@ -6,8 +6,8 @@ namespace flagstone {
 
 /// Which patches are believed to be ground.
 struct PatchAcceptance {
-  /// Smallest angle between the normal and the x-y plane, degrees, 0 to 90. The larger, the
-  /// stricter: steep banks are lost.
+  /// Smallest angle between the normal and the x-y plane, degrees, 0 to 90; below 2.9 it counts as
+  /// 2.9. The larger, the stricter: steep banks are lost.
   float upright_angle = 53.0f;
 
   /// As many points as this share of those within 12.5 cm of the plane may lie 19 to 89 cm above

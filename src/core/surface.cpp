@@ -13,14 +13,14 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-/// The finest grid among whose cell centres the place lies; of the coarsest the edge counts too.
-/// Null for none.
+/// The finest grid among whose cell centres the place lies; of those as large as the coarsest the
+/// edge counts too. Null for none.
 const Surface::Grid* covering(std::span<const Surface::Grid> grids, float x, float y) noexcept {
   const float reach = std::max(std::abs(x), std::abs(y));
   if (std::isnan(x) || std::isnan(y)) return nullptr;
   for (const Surface::Grid& grid : std::views::reverse(grids)) {
-    const bool coarsest = &grid == grids.data();
-    const float extent = coarsest ? grid.extent() : grid.extent() - grid.cell / 2;
+    const bool outermost = grid.extent() >= grids.front().extent();
+    const float extent = outermost ? grid.extent() : grid.extent() - grid.cell / 2;
     if (grid.extent() > 0 && reach <= extent) return &grid;
   }
   return nullptr;

@@ -284,7 +284,8 @@ void PointHeights::set_surface(std::span<const Grid> grids) noexcept {
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const Grid& grid = grids[i];
     const auto width = static_cast<float>(grid.width);
-    tables_.extents[i] = grid.extent() - grid.cell / 2;  // to the last centres
+    const bool inner = grid.extent() < grids.front().extent();
+    tables_.extents[i] = inner ? grid.extent() - grid.cell / 2 : grid.extent();
     tables_.per_cell[i] = 1 / grid.cell;
     tables_.middles[i] = (width - 1) / 2;
     tables_.widths[i] = width;

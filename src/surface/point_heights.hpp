@@ -22,7 +22,7 @@ using LabelTotals = std::array<std::size_t, label_count>;
 /// The grids of a surface as tables, an entry for each; a place belongs to the last one that
 /// reaches it.
 struct GridTables {
-  std::array<float, 8> extents;   ///< to the last centres, metres
+  std::array<float, 8> extents;   ///< to the last centres, or to the edge, metres
   std::array<float, 8> per_cell;  ///< 1 / cell, 1/metre
   std::array<float, 8> middles;   ///< index of the sensor's place: between two cells
   std::array<float, 8> widths;    ///< cells

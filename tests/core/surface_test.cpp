@@ -90,6 +90,16 @@ TEST(Surface, HasTheResolutionOfTheFinestGridThatCoversThePlace) {
   EXPECT_TRUE(std::isnan(surface.resolution(32.001f, 0)));
 }
 
+TEST(Surface, TakesThemUpToTheEdgeFromTheFinestOfGridsThatReachAsFar) {
+  Surface surface = made_up_surface(
+      hills, std::vector<tests::GridSize>{{.cell = 2, .width = 8}, {.cell = 1, .width = 16}});
+  std::ranges::fill(surface.start()[1].heights, -1.0f);
+
+  EXPECT_EQ(surface.resolution(7.6f, 0), 1);
+  EXPECT_EQ(surface.height(7.6f, 0), -1);
+  EXPECT_EQ(surface.height(-8, 8), -1);
+}
+
 TEST(Surface, TakesHeightsFromTheFinestGridThatCoversThePlace) {
   Surface surface = made_up_surface([](float, float) { return -2.0f; }, two_grids);
   std::ranges::fill(surface.start()[1].heights, -1.0f);

@@ -226,6 +226,36 @@ TEST(SurfaceContract, GridsAreFinerTowardsTheSensorAndReachAsFarAsTheRange) {
   }
 }
 
+TEST(SurfaceContract, TheSurfaceHasNoStepWhereTheRangeEndsWithAFineGrid) {
+  std::mt19937 random(1);
+  for (const float range : {8.0f, 16.0f, 32.0f, 40.0f}) {
+    std::uniform_real_distribution<float> place(-range, range);
+    std::vector<Point> cloud(60000);
+    for (Point& p : cloud) {
+      p = {.x = place(random), .y = place(random)};
+      p.z = 0.15f * std::sin(0.8f * p.x) + 0.1f * std::sin(0.9f * p.y) + 0.05f * p.x - 1.73f;
+    }
+    SurfaceConfig config;
+    config.max_range = range;
+    SurfaceSegmenter segmenter(config);
+    Segmentation result;
+
+    ASSERT_TRUE(segmenter.segment(view_of(cloud), result).ok());
+
+    const Surface& surface = result.surface();
+    for (float y = -range / 2; y < range / 2; y += 0.1f) {
+      for (float x = range - 1; x < range - 0.01f; x += 0.01f) {
+        ASSERT_LT(std::abs(surface.height(x + 0.01f, y) - surface.height(x, y)), 0.03f)
+            << "range " << range << ", " << x << ", " << y;
+      }
+    }
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (std::isnan(result.heights()[i])) continue;
+      ASSERT_EQ(result.heights()[i], cloud[i].z - surface.height(cloud[i].x, cloud[i].y));
+    }
+  }
+}
+
 TEST(SurfaceContract, MillionsOfPointsAreSegmented) {
   constexpr std::size_t points = 3'000'000;
   const std::vector<Point> cloud = made_up_cloud(points, 13);
