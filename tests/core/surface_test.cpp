@@ -84,8 +84,8 @@ TEST(Surface, HasTheResolutionOfTheFinestGridThatCoversThePlace) {
   const Surface surface = made_up_surface(hills, two_grids);
 
   EXPECT_EQ(surface.resolution(0, 0), 0.25f);
-  EXPECT_EQ(surface.resolution(-8, 8), 0.25f);
-  EXPECT_EQ(surface.resolution(-8.001f, 8), 1);
+  EXPECT_EQ(surface.resolution(-7.875f, 7.875f), 0.25f);  // the last centre
+  EXPECT_EQ(surface.resolution(-7.876f, 7.875f), 1);
   EXPECT_EQ(surface.resolution(32, 32), 1);
   EXPECT_TRUE(std::isnan(surface.resolution(32.001f, 0)));
 }
@@ -104,8 +104,8 @@ TEST(Surface, TakesHeightsFromTheFinestGridThatCoversThePlace) {
   Surface surface = made_up_surface([](float, float) { return -2.0f; }, two_grids);
   std::ranges::fill(surface.start()[1].heights, -1.0f);
 
-  EXPECT_EQ(surface.height(8, 8), -1);
-  EXPECT_EQ(surface.height(8.001f, 8), -2);
+  EXPECT_EQ(surface.height(7.875f, 7.875f), -1);
+  EXPECT_EQ(surface.height(7.876f, 7.875f), -2);
 }
 
 TEST(Surface, IsWhatACellHoldsAtTheCellsCentre) {
