@@ -22,9 +22,10 @@ struct GroundAt {
 ///
 /// It is a nest of square grids around the sensor, finer towards it. A grid holds heights at the
 /// centres of its cells, between which they are bilinear. A place belongs to the finest grid among
-/// whose centres it lies; where grids meet they agree but for what lies between centres, so that
-/// the surface is continuous to some millimetres. Where nothing lies beyond, in the outer half of
-/// the outermost cells, the ground is as at the nearest place between centres.
+/// whose centres it lies; where grids meet they agree but for what lies between centres: the
+/// surface is continuous to some millimetres, where it bends strongly to some centimetres. Where
+/// nothing lies beyond, in the outer half of the outermost cells, the ground is as at the nearest
+/// place between centres.
 class Surface {
  public:
   /// A square grid of heights, centred on the sensor.

@@ -75,7 +75,7 @@ struct SurfaceConfig {
   /// by itself; this says where to begin. 0.3 m off costs nothing.
   float sensor_height = 1.73f;
 
-  /// Points farther away than this, seen from above, are out of range; metres, 8 to 200.
+  /// Points as far away as this, seen from above, or farther are out of range; metres, 8 to 200.
   float max_range = 100.0f;
 
   /// Points lower than -h_s - noise_depth - noise_slope * range are noise before all else. Metres,

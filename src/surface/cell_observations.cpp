@@ -80,14 +80,15 @@ CellPlane plane_in(const Grid& grid, const OccupiedCell& cell) {
   const std::size_t right = std::min<std::size_t>(cell.column + 1, last);
   const std::size_t before = cell.row > 0 ? cell.row - 1 : 0;
   const std::size_t after = std::min<std::size_t>(cell.row + 1, last);
-  const float per_two_cells = 0.5f / grid.cell;
+  const auto slope = [&](float from, float to, std::size_t cells) {
+    return (to - from) / (static_cast<float>(cells) * grid.cell);
+  };
   return {.x = grid.center(cell.column),
           .y = grid.center(cell.row),
           .z = row[cell.column],
-          .slope_x = (row[right] - row[left]) * per_two_cells,
-          .slope_y = (grid.heights[after * grid.width + cell.column] -
-                      grid.heights[before * grid.width + cell.column]) *
-                     per_two_cells};
+          .slope_x = slope(row[left], row[right], right - left),
+          .slope_y = slope(grid.heights[before * grid.width + cell.column],
+                           grid.heights[after * grid.width + cell.column], after - before)};
 }
 
 /// Heights above the plane of up to sixteen points, one after the other.
@@ -276,7 +277,11 @@ HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell
     }
     for (std::size_t block = 0; block < block_count; ++block) {
       const std::size_t first = block * block_rows;
-      measure(points + first, samples - std::min(first, samples), plane, column(block));
+      if (first < samples) {
+        measure(points + first, samples - first, plane, column(block));
+      } else {
+        std::fill_n(column(block), block_rows, nothing);
+      }
     }
   }
   for (HeightBlock& block : blocks) transpose(block);

@@ -190,6 +190,8 @@ void CoarseSurface::finish(PullPush& pull_push) noexcept {
   HWY_DYNAMIC_DISPATCH(divide)(grid_, along);
   pull_push.fill(grid_.heights, grid_.confidences, grid_.width, full_weight);
   HWY_DYNAMIC_DISPATCH(add_trend)(grid_, along);
+  // What is expected below the sensor is not known.
+  if (means_.weight <= 0) std::fill_n(grid_.confidences, grid_.size(), 0.0f);
 }
 
 }  // namespace flagstone::surface

@@ -138,17 +138,22 @@ void ResidualPyramid::refine(const patches::BinGroups& groups, PullPush& pull_pu
   }
 }
 
+float ResidualPyramid::gate_of(std::size_t level) const noexcept {
+  float gate = settings_.gate;  // step by step: std::pow is not the same everywhere
+  for (std::size_t i = 0; i < level; ++i) gate *= settings_.gate_factor;
+  return gate;
+}
+
 void ResidualPyramid::observe_level(std::size_t level, const patches::BinGroups& groups,
                                     Crew& crew) noexcept {
-  const Observations observations{
-      .points = groups.points(0, 0).data(),
-      .surface = &grids_[level],
-      .gate = settings_.gate * std::pow(settings_.gate_factor, static_cast<float>(level)),
-      .gate_growth = settings_.gate_growth,
-      .contrast = settings_.contrast,
-      .lower_bound_weight = settings_.lower_bound_weight,
-      .corrections = corrections_.data(),
-      .weights = weights_.data()};
+  const Observations observations{.points = groups.points(0, 0).data(),
+                                  .surface = &grids_[level],
+                                  .gate = gate_of(level),
+                                  .gate_growth = settings_.gate_growth,
+                                  .contrast = settings_.contrast,
+                                  .lower_bound_weight = settings_.lower_bound_weight,
+                                  .corrections = corrections_.data(),
+                                  .weights = weights_.data()};
   const LevelCells& list = cells_[level];
   const auto jobs_of = [](std::size_t count) {
     return (count + cells_of_a_job - 1) / cells_of_a_job;

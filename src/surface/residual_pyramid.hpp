@@ -49,6 +49,7 @@ class ResidualPyramid {
 
   void list_cells(const patches::BinGroups& groups) noexcept;
   void list_cells_of(const Block& block, std::size_t level) noexcept;
+  [[nodiscard]] float gate_of(std::size_t level) const noexcept;
   void observe_level(std::size_t level, const patches::BinGroups& groups, Crew& crew) noexcept;
 
   Refinement settings_;

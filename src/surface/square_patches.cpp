@@ -7,10 +7,16 @@
 #include <tuple>
 
 namespace flagstone::surface {
+namespace {
+
+/// However high the sensor, farther away it sees the ground, metres.
+constexpr float most_blind_range = 6;
+
+}  // namespace
 
 SquarePatches::SquarePatches(const SurfaceConfig& config, const SquareCells& cells) {
   const int blocks = 2 * cells.half_blocks();
-  const float blind_range = 2 * std::abs(config.sensor_height);
+  const float blind_range = std::min(2 * std::abs(config.sensor_height), most_blind_range);
   const auto add = [&](CellRange range, int row, int column, int size) {
     const auto side = static_cast<float>(size);
     const SquarePatch patch{.cells = range,

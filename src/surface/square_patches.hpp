@@ -21,7 +21,7 @@ struct SquarePatch {
 };
 
 /// The patches that planes are fitted to, nearest to the sensor first. Those that the sensor looks
-/// down on, within twice its height, are left out: only a car beside it can be there.
+/// down on, within twice its height and 6 m, are left out: only a car beside it can be there.
 class SquarePatches {
  public:
   SquarePatches(const SurfaceConfig& config, const SquareCells& cells);

@@ -257,8 +257,9 @@ struct SurfaceSegmenter::Pipeline {
       }
       Plane& plane = planes.data()[first + i];
       plane = fitted.judged[i].moved_by(fitted.origins[i]);
-      set_plane(plane, patch);
       patch.verdict = judge.judge_alone(plane, counts[i]);
+      if (patch.verdict == Verdict::no_plane) continue;
+      set_plane(plane, patch);
       const double share = plane.count / static_cast<double>(fitter.batch.size(i));
       patch.ground_count = static_cast<std::uint32_t>(share * patch.point_count);
     }

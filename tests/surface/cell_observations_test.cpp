@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "surface/cell_observations.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -232,7 +232,7 @@ TEST(SurfaceContract, TheSurfaceHasNoStepWhereTheRangeEndsWithAFineGrid) {
     std::uniform_real_distribution<float> place(-range, range);
     std::vector<Point> cloud(60000);
     for (Point& p : cloud) {
-      p = {.x = place(random), .y = place(random)};
+      p = {.x = place(random), .y = place(random), .z = 0};
       p.z = 0.15f * std::sin(0.8f * p.x) + 0.1f * std::sin(0.9f * p.y) + 0.05f * p.x - 1.73f;
     }
     SurfaceConfig config;
