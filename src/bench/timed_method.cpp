@@ -33,7 +33,7 @@ std::span<const Stage> stages_of(std::string_view method) noexcept {
   return patchwork_stages;
 }
 
-float sensor_height(const TimedConfig& config) noexcept {
+float sensor_height(const TimedConfig& config) {
   return std::visit([](const auto& settings) { return settings.sensor_height; }, config);
 }
 

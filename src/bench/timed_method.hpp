@@ -28,7 +28,7 @@ inline constexpr std::array<std::string_view, 2> timed_methods = {"patchwork", "
 [[nodiscard]] std::span<const Stage> stages_of(std::string_view method) noexcept;
 
 /// Height of the sensor, metres.
-[[nodiscard]] float sensor_height(const TimedConfig& config) noexcept;
+[[nodiscard]] float sensor_height(const TimedConfig& config);
 
 /// The method with these settings. From then on every scan adds the seconds of its stages to
 /// `stage_times`; null times no stage. Throws std::invalid_argument where configuration or threads

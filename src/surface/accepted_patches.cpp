@@ -99,7 +99,7 @@ void sum_neighbours(const PatchColumns& columns, const FittedPatch& patch, float
   sums = {.trust = sum_of_lanes(trusts),
           .continued = sum_of_lanes(continueds),
           .curved = sum_of_lanes(curveds),
-          .least_squared_distance = *std::min_element(nearests.begin(), nearests.end())};
+          .least_squared_distance = std::ranges::min(nearests)};
 }
 
 }  // namespace

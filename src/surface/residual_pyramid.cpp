@@ -102,7 +102,7 @@ void ResidualPyramid::list_cells(const patches::BinGroups& groups) noexcept {
 void ResidualPyramid::list_cells_of(const Block& block, std::size_t level) noexcept {
   LevelCells& list = cells_[level];
   const auto along = static_cast<std::uint32_t>(block_size / levels[level].cell);
-  const std::uint32_t each = (block.cells.last - block.cells.first) / (along * along);
+  const std::size_t each = (block.cells.last - block.cells.first) / (along * along);
   const std::uint32_t first_row = (block.row - list.first_block) * along;
   const std::uint32_t first_column = (block.column - list.first_block) * along;
   OccupiedCell* small = list.small.data() + list.small_count;
