@@ -72,7 +72,7 @@ struct PointRule {
 /// Settings of the method `surface`. They are the same for every sensor but for its height.
 struct SurfaceConfig {
   /// h_s: height of the sensor above the ground, metres, -100 to 100. The surface finds its height
-  /// by itself; this says where to begin. 0.3 m off costs nothing.
+  /// by itself; this says where to begin. 0.3 m off changes hardly a label.
   float sensor_height = 1.73f;
 
   /// Points as far away as this, seen from above, or farther are out of range; metres, 8 to 200.
