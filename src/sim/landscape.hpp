@@ -19,6 +19,10 @@ struct Landscape {
   std::vector<Stop> route;
   std::function<Mesh(const Ground&)> furnish;  ///< the same mesh on every call
   std::vector<GroundStep> steps{};             ///< those that are known, of scenes that list them
+
+  /// What moves: traffic and people as they are at the stop of this number, the same mesh on every
+  /// call. Empty where nothing moves.
+  std::function<Mesh(const Ground&, int stop)> moving{};
 };
 
 }  // namespace flagstone::sim

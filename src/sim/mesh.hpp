@@ -16,6 +16,7 @@ namespace flagstone::sim {
 struct Surface {
   SemanticClass semantic = SemanticClass::other_ground;
   float reflectivity = 0.3f;  ///< share of the light sent back at normal incidence, 0..1
+  float mirror = 0;  ///< how well it mirrors beams, 0..1: 0 dry, 1 window glass, still water
 };
 
 /// Triangles in the world frame. Which way round a triangle runs does not matter: a beam hits both
