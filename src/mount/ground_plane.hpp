@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mount/near_points.hpp"
+#include "mount/vectors.hpp"
+
+namespace flagstone::mount {
+
+/// A plane that near points agree on, in their frame: up . p = -height.
+struct GroundPlane {
+  Vector3f up{0, 0, 1};  ///< its normal, unit length
+  float height = 0;      ///< metres from the sensor to the plane
+};
+
+/// Searches the plane that most of the near points lie on and few below, all directions within the
+/// limit for its normal if it is to find the tilt, and refines it by the points close to it.
+class PlaneSearch {
+ public:
+  PlaneSearch(const MountLimits& limits, bool looks_for_tilt);
+
+  /// Nothing if there is no level at all.
+  std::optional<GroundPlane> find(std::span<const NearPoint> points) noexcept;
+
+ private:
+  struct Candidate {
+    GroundPlane plane;
+    float score = 0;
+  };
+  void rank_directions(std::span<const NearPoint> points) noexcept;
+  [[nodiscard]] Candidate level_along(std::span<const NearPoint> points,
+                                      const Vector3f& up) noexcept;
+  [[nodiscard]] float score(std::span<const NearPoint> points,
+                            const GroundPlane& plane) const noexcept;
+
+  MountLimits limits_;
+  bool looks_for_tilt_;
+  std::vector<Vector3f> directions_;
+  std::vector<NearPoint> few_;   // of the points, for the first look at every direction
+  std::vector<float> levels_;    // weights by height
+  std::vector<Candidate> best_;  // the directions worth refining, best first
+};
+
+}  // namespace flagstone::mount
