@@ -55,7 +55,7 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
   double weights = 0;
   for (const NearPoint& p : points) {
     const Vector3f place = turn.apply({p.x, p.y, p.z});
-    const float z = place[2] + plane.height;
+    const float z = plane.above(place[0], place[1], place[2]);
     const float range = std::abs(place[0]) + std::abs(place[1]);
     std::uint8_t& cell = cells_[index_of(place[1]) * width + index_of(place[0])];
     if (std::abs(z) < ground_gate + ground_gate_growth * range) {

@@ -32,44 +32,65 @@ constexpr std::array<float, 6> gates = {0.6f, 0.45f, 0.3f, 0.25f, 0.2f, 0.2f};
 constexpr float gate_growth = 0.015f;  // metres a metre of range
 constexpr std::size_t one_sided_from = 2;
 
-/// A straight line of points, or a patch far off to one side, does not tell the slope below the
-/// vehicle. As if so many square metres a unit of weight were seen level.
+/// The ground is a plane in the first rounds and may bend in the last ones: over crests, in dips.
+constexpr std::size_t bends_from = 3;
+
+/// Points on a line, or far off to one side, do not tell how the ground lies below the vehicle. As
+/// if as much as this were seen level and even: metres^2 for the slope, metres^4 for the bend.
 constexpr double level_prior = 0.3;
+constexpr double even_prior = 100;
 
-/// z = a * x + b * y + c by weighted least squares; sums in double precision.
-struct PlaneSums {
-  double w = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, yy = 0, xz = 0, yz = 0;
+/// z = c + a x + b y + xx x^2 + xy x y + yy y^2 by weighted least squares, in double precision.
+class GroundFit {
+ public:
+  static constexpr std::size_t terms = 6;
+  using Terms = std::array<double, terms>;
 
-  void add(double weight, double px, double py, double pz) noexcept {
-    w += weight;
-    x += weight * px;
-    y += weight * py;
-    z += weight * pz;
-    xx += weight * px * px;
-    xy += weight * px * py;
-    yy += weight * py * py;
-    xz += weight * px * pz;
-    yz += weight * py * pz;
+  void add(double weight, double x, double y, double z) noexcept {
+    const Terms term = {1, x, y, x * x, x * y, y * y};
+    for (std::size_t row = 0; row < terms; ++row) {
+      const double weighted = weight * term[row];
+      for (std::size_t column = 0; column <= row; ++column) {
+        squares_[row][column] += weighted * term[column];
+      }
+      right_[row] += weighted * z;
+    }
   }
-  struct Solution {
-    float a, b, c;
-  };
-  [[nodiscard]] std::optional<Solution> solve() const noexcept {
-    if (!(w > 0)) return {};
-    const double mx = x / w;
-    const double my = y / w;
-    const double mz = z / w;
-    const double cxx = xx / w - mx * mx + level_prior;
-    const double cyy = yy / w - my * my + level_prior;
-    const double cxy = xy / w - mx * my;
-    const double cxz = xz / w - mx * mz;
-    const double cyz = yz / w - my * mz;
-    const double determinant = cxx * cyy - cxy * cxy;  // at least level_prior^2
-    const double a = (cxz * cyy - cyz * cxy) / determinant;
-    const double b = (cyz * cxx - cxz * cxy) / determinant;
-    return Solution{static_cast<float>(a), static_cast<float>(b),
-                    static_cast<float>(mz - a * mx - b * my)};
+
+  /// The first `count` of the terms, 3 or 6, the others 0; nothing without any weight.
+  [[nodiscard]] std::optional<Terms> solve(std::size_t count) const noexcept {
+    const double weight = squares_[0][0];
+    if (!(weight > 0)) return {};
+    // Cholesky: with the priors the matrix is positive definite.
+    std::array<Terms, terms> root = squares_;
+    const Terms prior = {1e-9, level_prior, level_prior, even_prior, even_prior, even_prior};
+    Terms solution = right_;
+    for (std::size_t row = 0; row < count; ++row) {
+      root[row][row] += weight * prior[row];
+      for (std::size_t column = 0; column <= row; ++column) {
+        double rest = root[row][column];
+        for (std::size_t k = 0; k < column; ++k) rest -= root[row][k] * root[column][k];
+        if (column < row) {
+          root[row][column] = rest / root[column][column];
+        } else {
+          if (!(rest > 0)) return {};
+          root[row][row] = std::sqrt(rest);
+        }
+      }
+      for (std::size_t k = 0; k < row; ++k) solution[row] -= root[row][k] * solution[k];
+      solution[row] /= root[row][row];
+    }
+    for (std::size_t row = count; row-- > 0;) {
+      for (std::size_t k = row + 1; k < count; ++k) solution[row] -= root[k][row] * solution[k];
+      solution[row] /= root[row][row];
+    }
+    for (std::size_t row = count; row < terms; ++row) solution[row] = 0;
+    return solution;
   }
+
+ private:
+  std::array<Terms, terms> squares_{};
+  Terms right_{};
 };
 
 float gate_at(float gate, const NearPoint& p) noexcept {
@@ -140,13 +161,15 @@ void PlaneSearch::rank_directions(std::span<const NearPoint> points) noexcept {
 
 float PlaneSearch::score(std::span<const NearPoint> points,
                          const GroundPlane& plane) const noexcept {
+  const Turn turn = turn_to_z(plane.up);
   float in = 0;
   float below = 0;
   for (const NearPoint& p : points) {
-    const float z = plane.up[0] * p.x + plane.up[1] * p.y + plane.up[2] * p.z + plane.height;
+    const auto [x, y, z] = turn.apply({p.x, p.y, p.z});
+    const float above = plane.above(x, y, z);
     const float gate = gate_at(gates.back(), p);
-    in += std::abs(z) < gate ? p.weight : 0;
-    below += z < -2 * gate ? p.weight : 0;
+    in += std::abs(above) < gate ? p.weight : 0;
+    below += above < -2 * gate ? p.weight : 0;
   }
   return in - cost_below * below;
 }
@@ -156,24 +179,27 @@ namespace {
 GroundPlane refined(std::span<const NearPoint> points, GroundPlane plane) noexcept {
   for (std::size_t round = 0; round < gates.size(); ++round) {
     const Turn turn = turn_to_z(plane.up);
-    PlaneSums sums;
+    GroundFit fit;
     for (const NearPoint& p : points) {
-      const float z = turn.z[0] * p.x + turn.z[1] * p.y + turn.z[2] * p.z + plane.height;
+      const auto [x, y, z] = turn.apply({p.x, p.y, p.z});
+      const float above = plane.above(x, y, z);
       const float gate = gate_at(gates[round], p);
-      const float reach = z > 0 && round >= one_sided_from ? gate / 2 : gate;
-      const float relative = z / reach;
+      const float relative = above / (above > 0 && round >= one_sided_from ? gate / 2 : gate);
       const float left = 1 - relative * relative;
-      if (!(left > 0)) continue;
-      const Vector3f place = {p.x, p.y, p.z};
-      sums.add(double{p.weight} * left * left, dot(turn.x, place), dot(turn.y, place), z);
+      if (left > 0) fit.add(double{p.weight} * left * left, x, y, z + plane.height);
     }
-    const auto solution = sums.solve();
+    const auto solution = fit.solve(round < bends_from ? 3 : GroundFit::terms);
     if (!solution) break;
-    const auto [a, b, c] = *solution;
-    // In the turned frame the plane is z = a x + b y + c - height.
+    std::array<float, GroundFit::terms> term{};
+    std::ranges::transform(*solution, term.begin(), [](double v) { return static_cast<float>(v); });
+    const auto [c, a, b, xx, xy, yy] = term;
+    // From z = a x + b y + c - height to a plane at right angles to its own up.
     const float shorter = 1 / std::sqrt(1 + a * a + b * b);
-    plane.up = unit(turn.undo({-a * shorter, -b * shorter, shorter}));
-    plane.height = (plane.height - c) * shorter;
+    plane = {.up = unit(turn.undo({-a * shorter, -b * shorter, shorter})),
+             .height = (plane.height - c) * shorter,
+             .xx = xx,
+             .xy = xy,
+             .yy = yy};
   }
   return plane;
 }

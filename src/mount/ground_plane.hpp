@@ -11,10 +11,17 @@
 
 namespace flagstone::mount {
 
-/// A plane that near points agree on, in their frame: up . p = -height.
+/// The ground that near points agree on: a plane below the sensor, and how the ground bends away
+/// from it. In the frame turned so that `up` is z: z = -height + xx * x^2 + xy * x * y + yy * y^2.
 struct GroundPlane {
-  Vector3f up{0, 0, 1};  ///< its normal, unit length
+  Vector3f up{0, 0, 1};  ///< normal of the plane in the frame of the points, unit length
   float height = 0;      ///< metres from the sensor to the plane
+  float xx = 0, xy = 0, yy = 0;  ///< one over metres
+
+  /// How far a place in the turned frame lies above the ground, metres.
+  [[nodiscard]] float above(float x, float y, float z) const noexcept {
+    return z + height - (xx * x * x + xy * x * y + yy * y * y);
+  }
 };
 
 /// Searches the plane that most of the near points lie on and few below, all directions within the
