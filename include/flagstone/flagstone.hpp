@@ -6,6 +6,7 @@
 
 #include "flagstone/cloud_view.hpp"         // IWYU pragma: export
 #include "flagstone/label.hpp"              // IWYU pragma: export
+#include "flagstone/mount.hpp"              // IWYU pragma: export
 #include "flagstone/patch.hpp"              // IWYU pragma: export
 #include "flagstone/patchwork.hpp"          // IWYU pragma: export
 #include "flagstone/patchwork_config.hpp"   // IWYU pragma: export
