@@ -64,7 +64,9 @@ int count_beams(const std::vector<double>& elevations) {
   }
   const double least = static_cast<double>(elevations.size()) * 1e-4;
   double in_teeth = 0;
-  std::size_t wide = 0;
+  std::size_t wide = 0;   // teeth, in steps
+  std::size_t first = 0;  // step of the lowest tooth
+  std::size_t last = 0;
   int teeth = 0;
   for (std::size_t i = reach; i + reach < steps; ++i) {
     double around = 0;
@@ -72,12 +74,12 @@ int count_beams(const std::vector<double>& elevations) {
     const auto is_tooth = [&](std::size_t k) { return counts[k] > least && counts[k] > around; };
     if (!is_tooth(i)) continue;
     in_teeth += counts[i];
-    ++wide;
+    if (wide++ == 0) first = i;
+    last = i;
     if (counts[i] >= counts[i - 1] && counts[i] > counts[i + 1]) ++teeth;
   }
-  const auto occupied = std::ranges::count_if(counts, [&](double n) { return n > least; });
   const bool is_comb = in_teeth > share_in_teeth * static_cast<double>(elevations.size()) &&
-                       5 * wide < 4 * static_cast<std::size_t>(occupied);
+                       2 * wide < last - first + 1;
   constexpr int fewest = 4;
   return is_comb && teeth >= fewest ? teeth : 0;
 }

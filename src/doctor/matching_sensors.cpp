@@ -26,7 +26,7 @@ bool azimuths_match(const FieldOfView& view, const Sensor& sensor) {
 /// How far the elevations are from the sensor's, degrees; nothing where they do not fit. The sky
 /// brings nothing back, so that the highest beams may be missing; the ground does.
 std::optional<double> elevation_difference(const FieldOfView& view, const Sensor& sensor) {
-  const double slack = sensor.draws_rosette() ? 5 : 2;  // a rosette is thin at its rim
+  const double slack = sensor.draws_rosette() ? 8 : 2;  // a rosette is thin at its rim
   constexpr double open_sky = 15;
   const double bottom = std::abs(view.bottom - sensor.elevations.back());
   const double above_top = view.top - sensor.elevations.front();

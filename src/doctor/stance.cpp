@@ -36,22 +36,28 @@ Stance stance_for(std::span<const Vector3f> places, double metres, const Vector3
           .seen_from = height};
 }
 
-/// Share of the points that do not lie below the ground.
+/// Of the points that are not at the ground's height, the share above it. What stands on ground is
+/// above it; what ground that falls away hides from the estimate is below it.
 float share_above(std::span<const Vector3f> places, double metres, const Stance& stance) {
   const Mount& mount = stance.decision.mount;
   const float ground = dot(mount.origin, mount.up) - mount.sensor_height;
-  constexpr float roughness = 0.3f;
-  const auto above = std::ranges::count_if(places, [&](const Vector3f& p) {
-    return dot(p, mount.up) * static_cast<float>(metres) > ground - roughness;
-  });
-  return static_cast<float>(above) / static_cast<float>(places.size());
+  constexpr float at_ground = 0.5f;
+  float above = 0;
+  float below = 0;
+  for (const Vector3f& place : places) {
+    const float height = dot(place, mount.up) * static_cast<float>(metres) - ground;
+    if (height > at_ground) ++above;
+    if (height < -at_ground) ++below;
+  }
+  return above / std::max(above + below, 1.0f);
 }
 
 float worth(std::span<const Vector3f> places, double metres, const Stance& stance) {
   if (!stance.is_found()) return 0;
   const float bonus = stance.axis == axes[0] ? bonus_of_z : 1;
+  constexpr float least_above = 0.25f;
   const float above = share_above(places, metres, stance);
-  return above < 0.5f ? 0 : bonus * stance.decision.confidence * above;
+  return above < least_above ? 0 : bonus * stance.decision.confidence * above;
 }
 
 /// The height along `axis` at which most points near the origin lie, metres: the lowest of about
@@ -93,17 +99,22 @@ double Stance::tilt() const noexcept {
 }
 
 Stance find_stance(std::span<const Vector3f> places, double metres) {
-  Stance best = stance_for(places, metres, axes[0], 0);
+  const Stance usual = stance_for(places, metres, axes[0], 0);
+  Stance best = usual;
   for (const Vector3f& axis : std::span(axes).subspan(1)) {
     take_if_better(stance_for(places, metres, axis, 0), places, metres, best);
   }
-  if (best.is_found()) return best;
+  if (worth(places, metres, best) > 0) return best;
   constexpr float usual_height = 1.8f;
   for (const Vector3f& axis : axes) {
     const std::optional<float> level = strongest_level(places, metres, axis);
     if (!level) continue;
     take_if_better(stance_for(places, metres, axis, *level + usual_height), places, metres, best);
   }
+  if (worth(places, metres, best) > 0) return best;
+  // A plane that most things lie below is a ceiling or the other side of the ground.
+  best = usual;
+  if (best.is_found()) best.decision.verdict = MountVerdict::not_lowest;
   return best;
 }
 
