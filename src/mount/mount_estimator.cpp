@@ -118,6 +118,7 @@ MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
   decision.below = agreed.below;
   decision.spread = agreed.spread;
   decision.directions = agreed.directions;
+  decision.seen = agreed.seen;
   mount::judge(decision, settings.limits.least_confidence);
   if (const auto beyond = beyond_limits(decision.mount)) {
     decision.verdict = *beyond;
