@@ -26,6 +26,8 @@ constexpr std::array kinds{
               ploughed_field},
     SceneKind{"embankment", "road on a dam: drops, ditch, culvert; a cutting on the other side",
               embankment},
+    SceneKind{"construction_site", "churned earth, pit, trench, heaps, materials, excavator",
+              construction_site},
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/interval.hpp"
+#include "sim/mound.hpp"
 #include "sim/open_land.hpp"
 #include "sim/plants.hpp"
 #include "sim/scenes/scenes.hpp"
@@ -20,17 +21,6 @@ constexpr double half_length = 115;  // of the ground, metres
 constexpr double half_width = 75;
 constexpr Surface grass{.semantic = SemanticClass::terrain, .reflectivity = 0.4F};
 constexpr Surface earth{.semantic = SemanticClass::other_ground, .reflectivity = 0.27F};
-
-// A round rise, or a dip if its height is below 0, of limited reach.
-struct Mound {
-  double x, t, radius, height;
-  [[nodiscard]] double at(double px, double pt) const noexcept {
-    const double dx = (px - x) / radius;
-    const double dt = (pt - t) / radius;
-    const double inside = 1 - dx * dx - dt * dt;
-    return inside > 0 ? height * inside * inside : 0;
-  }
-};
 
 // A step along the path: the land beyond is higher or lower.
 struct Bank {

@@ -51,4 +51,9 @@ Landscape ploughed_field(std::uint64_t seed);
 /// The steps are listed in the landscape.
 Landscape embankment(std::uint64_t seed);
 
+/// A haul road over churned earth: a pit 1 to 3 m deep with a ramp, a trench, low mounds, heaps of
+/// gravel and sand, pipes, pallets, boards, barriers, containers, a fence of wire mesh, an
+/// excavator, workers.
+Landscape construction_site(std::uint64_t seed);
+
 }  // namespace flagstone::sim
