@@ -11,6 +11,7 @@ namespace flagstone::sim {
 enum class SemanticClass : std::uint8_t {
   outlier = 1,  ///< multipath ghosts
   car = 10,
+  other_vehicle = 20,  ///< excavators, tractors
   person = 30,
   road = 40,
   parking = 44,
@@ -18,12 +19,14 @@ enum class SemanticClass : std::uint8_t {
   other_ground = 49,
   building = 50,
   fence = 51,
+  other_structure = 52,  ///< walls that hold land, guard rails
   lane_marking = 60,
   vegetation = 70,
   trunk = 71,
   terrain = 72,
   pole = 80,
   traffic_sign = 81,
+  other_object = 99,  ///< what stands about: benches, pallets, heaps
 };
 
 /// Is this a class of the ground surface (40, 44, 48, 49, 60, 72)?
