@@ -19,6 +19,9 @@ constexpr std::array kinds{
     SceneKind{"bumpy_field", "open terrain without a road: bumps, slopes, banks, dips",
               bumpy_field},
     SceneKind{"steps", "road with known kerbs, ditches, drop-offs, stairs, embankments", steps},
+    SceneKind{"urban_street", "terraced houses, shop windows, buses, cyclists, pedestrians",
+              urban_street},
+    SceneKind{"highway", "2 x 3 lanes, barriers, slopes, superelevation, trucks", highway},
 };
 
 }  // namespace
