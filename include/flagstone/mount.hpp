@@ -117,7 +117,7 @@ struct MountDecision {
   /// What the scan says, if `accepted`; what it seems to say, if refused for another reason than
   /// too few points; else the given mount.
   Mount mount{};
-  float confidence = 0;  ///< 0 to 1: the product of the five below, each mapped to 0..1
+  float confidence = 0;  ///< 0 to 1: the product of what each number below lets believe
   float tilt = 0;        ///< degrees between `mount.up` and the cloud's z axis
 
   std::uint32_t points = 0;  ///< places of 0.5 m with a point where ground can be
@@ -126,6 +126,7 @@ struct MountDecision {
   float below = 0;           ///< what lies below the ground, as a share of both, 0 to 1
   float spread = 0;          ///< root mean square distance of ground from its plane, metres
   int directions = 0;        ///< of sixteen around the sensor, how many show ground
+  int seen = 0;              ///< and how many show anything
 
   [[nodiscard]] bool accepted() const noexcept { return verdict == MountVerdict::accepted; }
 };

@@ -60,8 +60,10 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
     std::uint8_t& cell = cells_[index_of(place[1]) * width + index_of(place[0])];
     if (std::abs(z) < ground_gate + ground_gate_growth * range) {
       cell |= ground;
-      squares += double{p.weight} * z * z;
-      weights += double{p.weight};
+      if (z < 0) {  // above it grass makes it thicker than it is
+        squares += double{p.weight} * z * z;
+        weights += double{p.weight};
+      }
     } else if (z > standing_from && z < standing_to) {
       cell |= standing;
     } else if (z < -(below_from + below_growth * range)) {
@@ -69,32 +71,35 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
     }
   }
 
-  std::array<int, 16> seen{};
+  std::array<int, 16> seen{};   // cells with anything in them, by direction
+  std::array<int, 16> shows{};  // those with ground
   float free = 0;
-  float all = 0;
   float below = 0;
   Agreement agreement;
   for (std::size_t row = 0; row < width; ++row) {
     for (std::size_t column = 0; column < width; ++column) {
       const std::uint8_t cell = cells_[row * width + column];
+      if (cell == 0) continue;
+      const float x = static_cast<float>(column) + 0.5f - static_cast<float>(width / 2);
+      const float y = static_cast<float>(row) + 0.5f - static_cast<float>(width / 2);
+      const std::size_t direction = direction_of(x, y);
+      ++seen[direction];
       if ((cell & ground) != 0) {
+        ++shows[direction];
         ++agreement.cells;
-        all += 1;
-        if ((cell & standing) == 0) {
-          free += 1;
-          const float x = static_cast<float>(column) + 0.5f - static_cast<float>(width / 2);
-          const float y = static_cast<float>(row) + 0.5f - static_cast<float>(width / 2);
-          ++seen[direction_of(x, y)];
-        }
+        if ((cell & standing) == 0) free += 1;
       } else if ((cell & under) != 0) {
         below += 1;
       }
     }
   }
+  const auto all = static_cast<float>(agreement.cells);
   agreement.free = all > 0 ? free / all : 0;
   agreement.below = all + below > 0 ? below / (all + below) : 0;
   agreement.spread = weights > 0 ? static_cast<float>(std::sqrt(squares / weights)) : 0;
-  agreement.directions = static_cast<int>(std::ranges::count_if(seen, [](int n) { return n > 1; }));
+  const auto is_told = [](int cells) { return cells > 1; };
+  agreement.directions = static_cast<int>(std::ranges::count_if(shows, is_told));
+  agreement.seen = static_cast<int>(std::ranges::count_if(seen, is_told));
   return agreement;
 }
 
@@ -109,6 +114,10 @@ void judge(MountDecision& decision, float least_confidence) noexcept {
       Doubt{share(decision.below, 0.5f, 0.2f), MountVerdict::not_lowest},
       Doubt{share(decision.spread, 0.25f, 0.12f), MountVerdict::no_level},
       Doubt{share(static_cast<float>(decision.directions), 0, 3), MountVerdict::one_sided},
+      Doubt{share(static_cast<float>(decision.directions) /
+                      static_cast<float>(std::max(decision.seen, 1)),
+                  0.3f, 0.6f),
+            MountVerdict::one_sided},
   };
   decision.confidence = 1;
   for (const Doubt& doubt : doubts) decision.confidence *= doubt.belief;

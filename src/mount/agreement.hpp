@@ -20,6 +20,7 @@ struct Agreement {
   float below = 0;
   float spread = 0;
   int directions = 0;
+  int seen = 0;
 };
 
 /// Counts, in cells seen from above, where there is ground, where something stands on it, and where

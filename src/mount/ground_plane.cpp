@@ -28,7 +28,7 @@ constexpr std::size_t most_candidates = 4;
 /// The refinement believes points within these distances of the plane, one round after the other,
 /// metres, and half as far above it once the plane is nearly there: what stands on the ground is
 /// always above it.
-constexpr std::array<float, 6> gates = {0.6f, 0.45f, 0.3f, 0.25f, 0.2f, 0.2f};
+constexpr std::array<float, 6> gates = {0.6f, 0.45f, 0.3f, 0.22f, 0.15f, 0.15f};
 constexpr float gate_growth = 0.015f;  // metres a metre of range
 constexpr std::size_t one_sided_from = 2;
 
@@ -168,7 +168,9 @@ float PlaneSearch::score(std::span<const NearPoint> points,
     const auto [x, y, z] = turn.apply({p.x, p.y, p.z});
     const float above = plane.above(x, y, z);
     const float gate = gate_at(gates.back(), p);
-    in += std::abs(above) < gate ? p.weight : 0;
+    const float relative = above / gate;
+    const float left = std::max(1 - relative * relative, 0.0f);
+    in += p.weight * left * left;
     below += above < -2 * gate ? p.weight : 0;
   }
   return in - cost_below * below;

@@ -14,8 +14,8 @@ namespace flagstone::mount {
 /// The ground that near points agree on: a plane below the sensor, and how the ground bends away
 /// from it. In the frame turned so that `up` is z: z = -height + xx * x^2 + xy * x * y + yy * y^2.
 struct GroundPlane {
-  Vector3f up{0, 0, 1};  ///< normal of the plane in the frame of the points, unit length
-  float height = 0;      ///< metres from the sensor to the plane
+  Vector3f up{0, 0, 1};          ///< normal of the plane in the frame of the points, unit length
+  float height = 0;              ///< metres from the sensor to the plane
   float xx = 0, xy = 0, yy = 0;  ///< one over metres
 
   /// How far a place in the turned frame lies above the ground, metres.

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <span>
 
 #include "core/own_floating_point.hpp"
 #include "flagstone/mount.hpp"
 #include "mount/agreement.hpp"
+#include "mount/expected_mount.hpp"
 #include "mount/ground_plane.hpp"
 #include "mount/near_points.hpp"
 #include "mount/vectors.hpp"
@@ -18,14 +16,13 @@ namespace flagstone {
 
 using mount::Agreement;
 using mount::AgreementCount;
-using mount::dot;
+using mount::degrees_between;
 using mount::GroundPlane;
 using mount::NearPoint;
 using mount::NearPoints;
 using mount::PlaneSearch;
 using mount::Turn;
 using mount::turn_to_z;
-using mount::Vector3f;
 
 namespace {
 
@@ -37,19 +34,6 @@ MountSettings checked(const MountSettings& settings) {
   return settings;
 }
 
-Mount expected_mount(const MountSettings& settings) {
-  Mount mount = settings.mount;
-  mount.up = settings.tilt == TiltSource::off ? Vector3f{0, 0, 1} : mount::unit(mount.up);
-  return mount;
-}
-
-float degrees_between(const Vector3f& a, const Vector3f& b) noexcept {
-  // By the chord: the cosine does not tell small angles apart.
-  const Vector3f chord = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  const float half = std::min(std::sqrt(dot(chord, chord)) / 2, 1.0f);
-  return 2 * std::asin(half) * static_cast<float>(180 / std::numbers::pi);
-}
-
 }  // namespace
 
 /// Points near the vehicle, a plane through them, what they say of that plane.
@@ -57,7 +41,7 @@ struct MountEstimator::Workings {
   explicit Workings(const MountSettings& given)
       : settings(checked(given)),
         looks_for_tilt(settings.tilt == TiltSource::estimate),
-        expected(expected_mount(settings)),
+        expected(mount::expected_mount(settings)),
         level(turn_to_z(expected.up)),
         near(settings.limits, looks_for_tilt),
         search(settings.limits, looks_for_tilt),
@@ -118,6 +102,7 @@ MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
   decision.below = agreed.below;
   decision.spread = agreed.spread;
   decision.directions = agreed.directions;
+  decision.seen = agreed.seen;
   mount::judge(decision, settings.limits.least_confidence);
   if (const auto beyond = beyond_limits(decision.mount)) {
     decision.verdict = *beyond;

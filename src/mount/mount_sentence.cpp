@@ -43,7 +43,8 @@ void add_reason(std::ostream& text, const MountDecision& decision) {
       percent(decision.below);
       break;
     case MountVerdict::one_sided:
-      text << "ground is seen in " << decision.directions << " of 16 directions only";
+      text << "that ground is seen in " << decision.directions << " directions of " << decision.seen
+           << " with any points";
       break;
     case MountVerdict::height_limit: text << "that height is not within the limits"; break;
     case MountVerdict::tilt_limit: text << "that tilt is beyond the limit"; break;

@@ -13,7 +13,7 @@ namespace {
 constexpr double steepest_slope = 20;
 
 /// Range at which a point weighs a quarter of what one at the vehicle does, metres.
-constexpr float weight_range = 7;
+constexpr float weight_range = 5;
 
 /// Scans are read in so many interleaved passes, so that any number of them covers all of a scan,
 /// and no further once this many points were looked at.

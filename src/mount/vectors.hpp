@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace flagstone::mount {
 
@@ -22,6 +24,14 @@ inline Vector3f unit(const Vector3f& v) noexcept {
   const double length = std::sqrt(x * x + y * y + z * z);
   return {static_cast<float>(x / length), static_cast<float>(y / length),
           static_cast<float>(z / length)};
+}
+
+/// The angle between two directions of unit length.
+inline float degrees_between(const Vector3f& a, const Vector3f& b) noexcept {
+  // By the chord: the cosine does not tell small angles apart.
+  const Vector3f chord = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  const float half = std::min(std::sqrt(dot(chord, chord)) / 2, 1.0f);
+  return 2 * std::asin(half) * static_cast<float>(180 / std::numbers::pi);
 }
 
 /// The shortest turn that brings a direction to z, as rows.
