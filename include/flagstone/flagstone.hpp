@@ -13,6 +13,7 @@
 #include "flagstone/patchwork_config.hpp"    // IWYU pragma: export
 #include "flagstone/segmentation.hpp"        // IWYU pragma: export
 #include "flagstone/segmenter.hpp"           // IWYU pragma: export
+#include "flagstone/sensor.hpp"              // IWYU pragma: export
 #include "flagstone/stage_times.hpp"         // IWYU pragma: export
 #include "flagstone/status.hpp"              // IWYU pragma: export
 #include "flagstone/surface.hpp"             // IWYU pragma: export
