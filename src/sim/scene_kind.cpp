@@ -19,6 +19,7 @@ constexpr std::array kinds{
     SceneKind{"bumpy_field", "open terrain without a road: bumps, slopes, banks, dips",
               bumpy_field},
     SceneKind{"steps", "road with known kerbs, ditches, drop-offs, stairs, embankments", steps},
+    SceneKind{"drops", "the same road along quays, deep ditches, embankments down", drops},
 };
 
 }  // namespace

@@ -136,11 +136,11 @@ TEST_P(EveryScene, StopsLieFrameSpacingApartAtTheSensorsHeight) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene,
                          testing::Values("flat_street", "steep_street", "parked_cars",
-                                         "bushes_and_lawn", "bumpy_field", "steps"),
+                                         "bushes_and_lawn", "bumpy_field", "steps", "drops"),
                          [](const auto& scene) { return scene.param; });
 
 TEST(SceneKinds, AreFoundByTheirNames) {
-  EXPECT_EQ(scene_kinds().size(), 6U);
+  EXPECT_EQ(scene_kinds().size(), 7U);
   for (const SceneKind& kind : scene_kinds()) EXPECT_EQ(find_scene_kind(kind.name), &kind);
   EXPECT_EQ(find_scene_kind("moon"), nullptr);
   EXPECT_EQ(find_scene_kind(""), nullptr);
@@ -279,15 +279,32 @@ TEST(BumpyField, MakesTheVehiclePitchAndRoll) {
 }
 
 TEST(Steps, ListsRisesThatTheGroundHasFromEndToEnd) {
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const Landscape land = kind_named("steps").make(seed);
-    for (const GroundStep& step : land.steps) {
-      for (const double share : {0.001, 0.5, 0.999}) {
-        const double x = step.x_begin + share * (step.x_end - step.x_begin);
-        const double rise = land.ground.height(x, step.y_end) - land.ground.height(x, step.y_begin);
-        EXPECT_NEAR(rise, step.rise, 1e-9) << step.kind << " at " << x;
+  for (const char* const scene : {"steps", "drops"}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const Landscape land = kind_named(scene).make(seed);
+      for (const GroundStep& step : land.steps) {
+        for (const double share : {0.001, 0.5, 0.999}) {
+          const double x = step.x_begin + share * (step.x_end - step.x_begin);
+          const double rise =
+              land.ground.height(x, step.y_end) - land.ground.height(x, step.y_begin);
+          EXPECT_NEAR(rise, step.rise, 1e-9) << step.kind << " at " << x;
+        }
       }
     }
+  }
+}
+
+TEST(Drops, LeadAtLeastAMetreDownBesideTheRouteWhateverTheSeed) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Landscape land = kind_named("drops").make(seed);
+    const auto depths_beside_route = [&](double depth) {
+      return std::ranges::any_of(land.steps, [&](const GroundStep& step) {
+        return std::abs(step.rise + depth) < 1e-9 && step.x_begin < half_drive + 30 &&
+               step.x_end > -half_drive - 30;
+      });
+    };
+    for (const double depth : {1.0, 1.5, 2.0, 3.0}) EXPECT_TRUE(depths_beside_route(depth));
+    EXPECT_FALSE(depths_beside_route(0.6));
   }
 }
 

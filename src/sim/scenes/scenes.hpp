@@ -32,4 +32,8 @@ Landscape bumpy_field(std::uint64_t seed);
 /// retaining wall down, stairs, an embankment; the steps are listed in the landscape.
 Landscape steps(std::uint64_t seed);
 
+/// The same road with edges that lead deep down: quays of 1.5 to 3 m, ditches of 1 and 1.5 m,
+/// embankments of 1.5 and 3 m.
+Landscape drops(std::uint64_t seed);
+
 }  // namespace flagstone::sim
