@@ -22,6 +22,8 @@ constexpr std::array kinds{
     SceneKind{"urban_street", "terraced houses, shop windows, buses, cyclists, pedestrians",
               urban_street},
     SceneKind{"highway", "2 x 3 lanes, barriers, slopes, superelevation, trucks", highway},
+    SceneKind{"crossroads", "crowned roads that cross, islands, flower beds, waiting traffic",
+              crossroads},
 };
 
 }  // namespace

@@ -177,7 +177,8 @@ TEST_P(MovingScene, TrafficGoesOnBetweenStopsClearOfTheSensor) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, MovingScene, testing::Values("urban_street", "highway"),
+INSTANTIATE_TEST_SUITE_P(Scenes, MovingScene,
+                         testing::Values("urban_street", "highway", "crossroads"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(SteepStreet, MostDrivesHaveGradesAboveTenPercentUnderTheWheelsUpAndDown) {

@@ -42,4 +42,8 @@ Landscape urban_street(std::uint64_t seed);
 /// and cars; 400 m long.
 Landscape highway(std::uint64_t seed);
 
+/// Two crowned roads that cross: round kerbs, islands, raised flower beds, zebra crossings, traffic
+/// lights, houses or parks at the corners, vehicles that wait or cross, pedestrians.
+Landscape crossroads(std::uint64_t seed);
+
 }  // namespace flagstone::sim
