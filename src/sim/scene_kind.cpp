@@ -24,6 +24,9 @@ constexpr std::array kinds{
     SceneKind{"highway", "2 x 3 lanes, barriers, slopes, superelevation, trucks", highway},
     SceneKind{"crossroads", "crowned roads that cross, islands, flower beds, waiting traffic",
               crossroads},
+    SceneKind{"ramp", "car park of two storeys, a ramp of 12 to 15 % between, low ceilings", ramp},
+    SceneKind{"tunnel", "two lanes into a hill: walkways, vault or slab, fans, wet patches",
+              tunnel},
 };
 
 }  // namespace
