@@ -27,6 +27,8 @@ constexpr std::array kinds{
     SceneKind{"ramp", "car park of two storeys, a ramp of 12 to 15 % between, low ceilings", ramp},
     SceneKind{"tunnel", "two lanes into a hill: walkways, vault or slab, fans, wet patches",
               tunnel},
+    SceneKind{"indoor_hall", "warehouse: racks, pallets, forklifts, docks, a glossy floor",
+              indoor_hall},
 };
 
 }  // namespace

@@ -178,7 +178,8 @@ TEST_P(MovingScene, TrafficGoesOnBetweenStopsClearOfTheSensor) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MovingScene,
-                         testing::Values("urban_street", "highway", "crossroads", "ramp", "tunnel"),
+                         testing::Values("urban_street", "highway", "crossroads", "ramp", "tunnel",
+                                         "indoor_hall"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(SteepStreet, MostDrivesHaveGradesAboveTenPercentUnderTheWheelsUpAndDown) {

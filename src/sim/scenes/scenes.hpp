@@ -55,4 +55,9 @@ Landscape ramp(std::uint64_t seed);
 /// flat ceiling, jet fans, lamps, wet patches, traffic.
 Landscape tunnel(std::uint64_t seed);
 
+/// A warehouse with a glossy, nearly level floor: racks along or across a wide aisle, pallets on
+/// the floor, a dock 1.1 m above a yard with trucks, columns, forklifts, people. Nothing hangs
+/// lower than the roof beams, so that sensors of any height between 0.3 and 2 m may drive.
+Landscape indoor_hall(std::uint64_t seed);
+
 }  // namespace flagstone::sim
