@@ -13,7 +13,7 @@ enum class SemanticClass : std::uint8_t {
   car = 10,
   bus = 13,
   truck = 18,
-  other_vehicle = 20,  ///< forklifts
+  other_vehicle = 20,  ///< excavators, tractors, forklifts
   person = 30,
   bicyclist = 31,  ///< with the bicycle
   road = 40,
@@ -22,14 +22,14 @@ enum class SemanticClass : std::uint8_t {
   other_ground = 49,
   building = 50,
   fence = 51,            ///< crash barriers and low walls too
-  other_structure = 52,  ///< tunnels, gantries, shelters, racks
+  other_structure = 52,  ///< walls that hold land, guard rails, tunnels, gantries, shelters, racks
   lane_marking = 60,
   vegetation = 70,
   trunk = 71,
   terrain = 72,
   pole = 80,
   traffic_sign = 81,
-  other_object = 99,  ///< benches, bins, pallets
+  other_object = 99,  ///< what stands about: benches, bins, pallets, heaps
 };
 
 /// Is this a class of the ground surface (40, 44, 48, 49, 60, 72)?
