@@ -134,13 +134,16 @@ TEST_P(EveryScene, StopsLieFrameSpacingApartAtTheSensorsHeight) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene,
-                         testing::Values("flat_street", "steep_street", "parked_cars",
-                                         "bushes_and_lawn", "bumpy_field", "steps"),
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const SceneKind& kind : scene_kinds()) names.emplace_back(kind.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_names()),
                          [](const auto& scene) { return scene.param; });
 
 TEST(SceneKinds, AreFoundByTheirNames) {
-  EXPECT_EQ(scene_kinds().size(), 6U);
   for (const SceneKind& kind : scene_kinds()) EXPECT_EQ(find_scene_kind(kind.name), &kind);
   EXPECT_EQ(find_scene_kind("moon"), nullptr);
   EXPECT_EQ(find_scene_kind(""), nullptr);

@@ -286,7 +286,7 @@ Landscape construction_site(std::uint64_t seed) {
   Ground ground = make_site(site);
   std::vector<Stop> route = wander_along([&](double x) { return site.path.at(x); }, random);
   const Digging digging = draw_digging(site, random);
-  std::vector<Walker> workers = draw_walkers(4, {.x = {-40, 40}, .from_path = {3.5, 4.5}}, random);
+  std::vector<Walker> workers = draw_walkers(4, {.x = {-40, 40}, .from_path = {3.9, 4.6}}, random);
   for (Walker& worker : workers) worker.t = site.pit_side * std::abs(worker.t);  // off the trench
   const WindingPath path = site.path;
   return {.ground = std::move(ground),

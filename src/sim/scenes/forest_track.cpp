@@ -153,7 +153,7 @@ Landscape forest_track(std::uint64_t seed) {
   Ground ground = make_track(track);
   std::vector<Stop> route = wander_along([&](double x) { return track.path.at(x); }, random);
   std::vector<Walker> walkers =
-      draw_walkers(2, {.x = {-40, 40}, .from_path = {3.8, 6}}, random);  // off the track
+      draw_walkers(2, {.x = {-40, 40}, .from_path = {4.3, 6}}, random);  // off the track
   const WindingPath path = track.path;
   return {.ground = std::move(ground),
           .route = std::move(route),
