@@ -28,6 +28,9 @@ constexpr std::array kinds{
               embankment},
     SceneKind{"construction_site", "churned earth, pit, trench, heaps, materials, excavator",
               construction_site},
+    SceneKind{"urban_street", "terraced houses, shop windows, buses, cyclists, pedestrians",
+              urban_street},
+    SceneKind{"highway", "2 x 3 lanes, barriers, slopes, superelevation, trucks", highway},
 };
 
 }  // namespace

@@ -55,5 +55,14 @@ Landscape embankment(std::uint64_t seed);
 /// gravel and sand, pipes, pallets, boards, barriers, containers, a fence of wire mesh, an
 /// excavator, workers.
 Landscape construction_site(std::uint64_t seed);
+/// A street of terraced houses of three to six storeys with shop windows straight behind wide
+/// sidewalks: zebra crossings, bus stops, trees, traffic of cars, buses, trucks and cyclists, many
+/// pedestrians.
+Landscape urban_street(std::uint64_t seed);
+
+/// A highway of two by three lanes that turns into a superelevated curve: median barrier,
+/// shoulders, guard rails, cuttings with a ditch or embankments, noise barriers, a gantry, trucks
+/// and cars; 400 m long.
+Landscape highway(std::uint64_t seed);
 
 }  // namespace flagstone::sim
