@@ -15,7 +15,6 @@
 
 #include "sim/drive.hpp"
 #include "sim/scene_kind.hpp"
-#include "sim/walker.hpp"
 #include "sim/wild_plants.hpp"
 
 namespace flagstone::sim {
@@ -55,7 +54,7 @@ TEST_P(OpenLand, WhatMovesGoesOnBetweenStopsAndKeepsClearOfThePath) {
       for (const Vector3& vertex : now.vertices()) {
         nearest = std::min(nearest, distance_to_route(land.route, vertex.x, vertex.y));
       }
-      EXPECT_GE(nearest, clear_of_path) << "seed " << seed << ", stop " << stop;
+      EXPECT_GE(nearest, 3) << "seed " << seed << ", stop " << stop;
     }
   }
 }
