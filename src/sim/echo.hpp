@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "sim/semantic_class.hpp"
+
+namespace flagstone::sim {
+
+/// What a point of a scan is an echo of; the codes are those of the files NNNNNN.echo.npy.
+enum class EchoKind : std::uint8_t {
+  surface,    ///< what the beam met first: the only kind that has a class other than outlier
+  ghost,      ///< something seen in a mirror, reported straight on, behind the mirror
+  mixed,      ///< two surfaces at once at an edge, reported between them
+  rain,       ///< a drop
+  dust,       ///< a cloud of dust
+  crosstalk,  ///< the light of another sensor
+  none,       ///< nothing came back: a point at (0, 0, 0), only where these are kept
+};
+inline constexpr int echo_kinds = 7;
+
+/// What the sensor reports for a beam.
+struct Echo {
+  double range;      ///< metres
+  double intensity;  ///< 0..1
+  SemanticClass semantic;
+  EchoKind kind = EchoKind::surface;
+};
+
+}  // namespace flagstone::sim
