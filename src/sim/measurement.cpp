@@ -101,7 +101,8 @@ std::optional<Echo> Measurement::seen_in_mirror(Vector3 direction, const Meeting
   const bool stands = is_ground(mirror.surface->semantic) ? !is_ground(object->surface->semantic) &&
                                                                 surroundings_.is_below_ground(point)
                                                           : surroundings_.is_clear_of_ground(point);
-  const double reflectivity = lost_in_mirror * object->surface->reflectivity;
+  const double reflectivity =
+      lost_in_mirror * object->surface->reflectivity * air_.transmission(direction, mirror.range);
   if (!stands || !is_detected(noise_, path, reflectivity, object->incidence, random)) {
     return std::nullopt;
   }
@@ -157,7 +158,8 @@ std::optional<Echo> Measurement::mixed_at_edge(Vector3 direction, const Meeting&
   const double range = met.range + share * gap;
   if (!surroundings_.is_clear_of_ground(pose_.origin + range * direction)) return std::nullopt;
   const double reflectivity =
-      (1 - share) * met.surface->reflectivity + share * other->surface->reflectivity;
+      air_.transmission(direction, range) *
+      ((1 - share) * met.surface->reflectivity + share * other->surface->reflectivity);
   const double incidence = (1 - share) * met.incidence + share * other->incidence;
   if (!is_detected(noise_, range, reflectivity, incidence, random)) return std::nullopt;
   return reported(range, reflectivity, incidence, SemanticClass::outlier, EchoKind::mixed, random);
