@@ -38,21 +38,36 @@ std::optional<Echo> Air::echo(Vector3 direction, double way, Random& random) con
 double Air::transmission(Vector3 direction, double way) const {
   double depth = 2 * noise_.rain_extinction * way;
   for (const Cloud& cloud : clouds_) {
-    const Stretch stretch = within(cloud, direction, way);
-    depth += noise_.dust_extinction * std::max(stretch.end - stretch.begin, 0.0);
+    depth += noise_.dust_extinction * within(cloud, direction, way).depth();
   }
   return depth == 0 ? 1 : exponential(-depth);
 }
 
+double Air::Stretch::density(double range) const noexcept {
+  const double from_middle = range - middle;
+  return (half_squared - from_middle * from_middle) / (radius * radius);
+}
+
+double Air::Stretch::depth() const noexcept {
+  const auto up_to = [&](double range) {
+    const double from_middle = range - middle;
+    return (half_squared - from_middle * from_middle / 3) * from_middle;
+  };
+  return begin < end ? (up_to(end) - up_to(begin)) / (radius * radius) : 0;
+}
+
 Air::Stretch Air::within(const Cloud& cloud, Vector3 direction, double way) const noexcept {
   const Vector3 to_centre = cloud.centre - origin_;
-  const double nearest = dot(to_centre, direction);
+  const double middle = dot(to_centre, direction);
   const double half_squared =
-      cloud.radius * cloud.radius - (dot(to_centre, to_centre) - nearest * nearest);
-  if (half_squared <= 0 || nearest <= 0) return {.begin = 0, .end = 0};
+      cloud.radius * cloud.radius - (dot(to_centre, to_centre) - middle * middle);
+  if (half_squared <= 0 || middle <= 0) return {};
   const double half = std::sqrt(half_squared);
-  return {.begin = std::max(nearest - half, sensor_.min_range),
-          .end = std::min(nearest + half, way)};
+  return {.begin = std::max(middle - half, sensor_.min_range),
+          .end = std::min(middle + half, way),
+          .middle = middle,
+          .half_squared = half_squared,
+          .radius = cloud.radius};
 }
 
 // The light that a drop sends back falls with the square of its range, and so does how often one
@@ -77,13 +92,13 @@ std::optional<Echo> Air::drop(Vector3 direction, double way, Random& random) con
 
 std::optional<Echo> Air::dust(Vector3 direction, double way, Random& random) const {
   constexpr double step = 0.2;  // metres
-  const double chance = std::min(noise_.dust_extinction * step, 1.0);
   std::optional<double> first;
   for (const Cloud& cloud : clouds_) {
     const Stretch stretch = within(cloud, direction, first.value_or(way));
     for (double begin = stretch.begin; begin < stretch.end; begin += step) {
       const double end = std::min(begin + step, stretch.end);
-      if (!random.chance(chance * (end - begin) / step)) continue;
+      const double density = stretch.density((begin + end) / 2);
+      if (!random.chance(noise_.dust_extinction * density * (end - begin))) continue;
       const double range = random.uniform(begin, end);
       if (!surroundings_.is_clear_of_ground(origin_ + range * direction)) continue;
       first = range;

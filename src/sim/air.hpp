@@ -35,8 +35,17 @@ class Air {
     Vector3 centre;
     double radius;
   };
+  // Of a beam in a cloud, metres along the beam.
   struct Stretch {
-    double begin, end;  // metres along the beam
+    double begin, end;
+    double middle;        // of the chord through the whole cloud
+    double half_squared;  // of that chord's length
+    double radius;        // of the cloud
+
+    // Density at `range`, 0 to 1: 1 in the middle of a cloud, falling to 0 at its rim.
+    [[nodiscard]] double density(double range) const noexcept;
+    // Sum of the density over the stretch, metres.
+    [[nodiscard]] double depth() const noexcept;
   };
 
   [[nodiscard]] Stretch within(const Cloud& cloud, Vector3 direction, double way) const noexcept;

@@ -36,7 +36,7 @@ constexpr std::array kinds{
             .add_to =
                 [](Noise& noise) {
                   noise.dust_clouds = 8;
-                  noise.dust_extinction = 0.15;
+                  noise.dust_extinction = 0.3;
                 }},
     Weather{.name = "wet",
             .summary = "roads that mirror: dark, with ghosts below",

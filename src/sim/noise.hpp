@@ -55,7 +55,8 @@ struct Noise {
   /// radius.
   int dust_clouds = 0;
 
-  /// Light lost in dust, 1/m; on the way there, what is lost is sent back.
+  /// Light lost in the middle of a cloud, 1/m, less towards its rim; on the way there, what is lost
+  /// is sent back.
   double dust_extinction = 0;
 
   /// Share of the beams with a range made up by another sensor's light, in bursts of firings in a

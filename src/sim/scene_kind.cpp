@@ -19,6 +19,18 @@ constexpr std::array kinds{
     SceneKind{"bumpy_field", "open terrain without a road: bumps, slopes, banks, dips",
               bumpy_field},
     SceneKind{"steps", "road with known kerbs, ditches, drop-offs, stairs, embankments", steps},
+    SceneKind{"park", "winding gravel path, lawns, high grass, trees, a pond, people", park},
+    SceneKind{"forest_track", "two ruts through a wood: roots, banks, trunks, ferns, logs",
+              forest_track},
+    SceneKind{"ploughed_field", "furrows crossed at an angle, headland, ditch, hedge, tractor",
+              ploughed_field},
+    SceneKind{"embankment", "road on a dam: drops, ditch, culvert; a cutting on the other side",
+              embankment},
+    SceneKind{"construction_site", "churned earth, pit, trench, heaps, materials, excavator",
+              construction_site},
+    SceneKind{"urban_street", "terraced houses, shop windows, buses, cyclists, pedestrians",
+              urban_street},
+    SceneKind{"highway", "2 x 3 lanes, barriers, slopes, superelevation, trucks", highway},
 };
 
 }  // namespace

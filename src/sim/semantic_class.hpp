@@ -11,19 +11,25 @@ namespace flagstone::sim {
 enum class SemanticClass : std::uint8_t {
   outlier = 1,  ///< multipath ghosts
   car = 10,
+  bus = 13,
+  truck = 18,
+  other_vehicle = 20,  ///< excavators, tractors, forklifts
   person = 30,
+  bicyclist = 31,  ///< with the bicycle
   road = 40,
   parking = 44,
   sidewalk = 48,  ///< kerb faces too: annotators colour the whole kerb with the sidewalk
   other_ground = 49,
   building = 50,
-  fence = 51,
+  fence = 51,            ///< crash barriers and low walls too
+  other_structure = 52,  ///< walls that hold land, guard rails, tunnels, gantries, shelters, racks
   lane_marking = 60,
   vegetation = 70,
   trunk = 71,
   terrain = 72,
   pole = 80,
   traffic_sign = 81,
+  other_object = 99,  ///< what stands about: benches, bins, pallets, heaps
 };
 
 /// Is this a class of the ground surface (40, 44, 48, 49, 60, 72)?
