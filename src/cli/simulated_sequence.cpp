@@ -7,6 +7,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -22,6 +23,8 @@
 #include "io/npy_header.hpp"
 #include "io/write_cloud.hpp"
 #include "sim/drive.hpp"
+#include "sim/echo.hpp"
+#include "sim/semantic_class.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;
@@ -85,6 +88,25 @@ Json origin_json(const SequenceOrigin& origin) {
           {"sensor", sensor_json(origin.sensor)}};
 }
 
+// What the codes in label files mean.
+Json class_json() {
+  Json classes = {{"0", "unlabeled"}};
+  for (int code = 1; code < 256; ++code) {
+    const auto name = sim::name_of(static_cast<sim::SemanticClass>(code));
+    if (!name.empty()) classes[std::to_string(code)] = name;
+  }
+  return classes;
+}
+
+// What the codes in echo files mean.
+Json echo_json() {
+  Json echoes = Json::object();
+  for (std::size_t code = 0; code < sim::echo_kind_names.size(); ++code) {
+    echoes[std::to_string(code)] = sim::echo_kind_names[code];
+  }
+  return echoes;
+}
+
 std::string scene_text(const SequenceOrigin& origin) {
   Json scene = origin_json(origin);
   scene["frames"] = origin.frames;
@@ -94,6 +116,13 @@ std::string scene_text(const SequenceOrigin& origin) {
                       {"world_seed", sim::drive_seed(origin.seed, first / sim::frames_per_drive)}});
   }
   scene["drives"] = drives;
+  scene["files"] = {{"scans", "velodyne/NNNNNN.bin"},
+                    {"labels", "labels/NNNNNN.label"},
+                    {"ground", "ground/NNNNNN.ground.npy"},
+                    {"echoes", "echoes/NNNNNN.echo.npy"},
+                    {"poses", "poses.txt"}};
+  scene["classes"] = class_json();
+  scene["echo_kinds"] = echo_json();
   return scene.dump(1) + '\n';
 }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "sim/semantic_class.hpp"
 
@@ -18,7 +20,8 @@ enum class EchoKind : std::uint8_t {
   crosstalk,  ///< the light of another sensor
   none,       ///< nothing came back: a point at (0, 0, 0), only where these are kept
 };
-inline constexpr int echo_kinds = 7;
+inline constexpr std::array<std::string_view, 7> echo_kind_names{
+    "surface", "ghost", "mixed", "rain", "dust", "crosstalk", "none"};
 
 /// What the sensor reports for a beam.
 struct Echo {

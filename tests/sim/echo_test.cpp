@@ -101,7 +101,9 @@ TEST_P(EveryCondition, WhatIsNoSurfaceIsAnOutlierAndStandsOffTheGround) {
 
   ASSERT_EQ(scan.echoes.size(), scan.size());
   double all = 0;
-  for (int kind = 0; kind < echo_kinds; ++kind) all += count(scan, static_cast<EchoKind>(kind));
+  for (std::size_t kind = 0; kind < echo_kind_names.size(); ++kind) {
+    all += count(scan, static_cast<EchoKind>(kind));
+  }
   EXPECT_EQ(all, static_cast<double>(scan.size()));
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const bool is_outlier = class_of(scan, i) == SemanticClass::outlier;
