@@ -7,7 +7,7 @@ export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
 .PHONY: help build demo test sanitize format format-check tidy growth latency primitives sharpness bench-compare \
-        surface-study surface-figures install clean
+        surface-study surface-figures contact-sheet install clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
@@ -54,6 +54,9 @@ surface-study: build ## measures the method surface, writes the tables of docs/s
 
 surface-figures: ## draws the figures of docs/surface.md
 	@scripts/setup build benchmark plot && scripts/benchmark surface_stages
+
+contact-sheet: build ## draws every scene as three sensors see it: docs/images/worlds.png; SHEET: options of bench/contact_sheet.py
+	@scripts/setup plot && "$$(scripts/plotting-python)" bench/contact_sheet.py $(SHEET)
 
 install: build ## install the library and the command under PREFIX (/usr/local)
 	@cmake --install build --prefix $(PREFIX)

@@ -286,7 +286,7 @@ std::string description() {
       "Written as SemanticKITTI lays out a sequence. Run again, it keeps the frames that are "
       "there.\n\nScenes:\n";
   for (const sim::SceneKind& scene : sim::scene_kinds()) {
-    text += fmt::format("  {:<16} {}\n", scene.name, scene.summary);
+    text += fmt::format("  {:<17} {}\n", scene.name, scene.summary);
   }
   text += "\nNoise:\n";
   for (const sim::NoiseLevel& level : sim::noise_levels()) {
@@ -298,7 +298,7 @@ std::string description() {
   }
   text += "\nSensors:\n";
   for (const Sensor& sensor : Sensor::known()) {
-    text += fmt::format("  {:<16} {}\n", sensor.name, sensor.title);
+    text += fmt::format("  {:<17} {}\n", sensor.name, sensor.title);
   }
   return text;
 }

@@ -23,7 +23,7 @@ enum class SemanticClass : std::uint8_t {
   other_ground = 49,
   building = 50,
   fence = 51,            ///< crash barriers and low walls too
-  other_structure = 52,  ///< walls that hold land, guard rails, tunnels, gantries, shelters, racks
+  other_structure = 52,  ///< walls that hold land, tunnels, gantries, shelters, racks
   lane_marking = 60,
   vegetation = 70,
   trunk = 71,

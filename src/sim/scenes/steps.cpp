@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "sim/car.hpp"
-#include "sim/open_land.hpp"
+#include "sim/ground_plan.hpp"
 #include "sim/plants.hpp"
 #include "sim/road_edge.hpp"
 #include "sim/scenes/scenes.hpp"
@@ -143,21 +143,25 @@ std::vector<double> lines_across(const Road& road) {
   for (const double sign : {-1.0, 1.0}) {
     for (const double out : road.side(sign).corner_lines()) lines.push_back(sign * out);
   }
-  return merged_lines(std::move(lines), {});
+  finish_lines(lines);
+  return lines;
 }
 
 std::vector<double> lines_along(const Road& road) {
   constexpr double step = 2.5;
   std::vector<double> lines;
   for (double x = -half_length; x <= half_length; x += step) lines.push_back(x);
-  return merged_lines(std::move(lines), road.side(1).blend_lines());
+  for (const double x : road.side(1).blend_lines()) lines.push_back(x);
+  finish_lines(lines);
+  return lines;
 }
 
 Ground make_road(const Road& road) {
-  return make_land(
-      lines_along(road), lines_across(road), [](double) { return 0.0; },
-      [&](double x, double t) { return road.height(x, t); },
-      [&](double x, double t) { return road.surface(x, t); });
+  return cut_ground({.x = lines_along(road),
+                     .t = lines_across(road),
+                     .offset = [](double) { return 0.0; },
+                     .height = [&](double x, double t) { return road.height(x, t); },
+                     .surface = [&](double x, double t) { return road.surface(x, t); }});
 }
 
 // Little: what stands before a step hides it.
