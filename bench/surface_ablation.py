@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """What `surface` loses without one of its parts, and what each setting does: differences in F1, scan by scan."""
 
+from flagstone_runs import show_progress
 from intervals import mean_of, paired
-from surface_scans import per_scan, show_progress
+from surface_scans import per_scan
 from tables import points_more, table, with_interval
 
 # A part, and the settings that take it out; {margin} and the like stand for the settings' own values.

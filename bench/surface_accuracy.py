@@ -4,8 +4,9 @@
 
 import statistics
 
+from flagstone_runs import show_progress
 from intervals import mean_of, paired
-from surface_scans import per_scan, show_progress
+from surface_scans import per_scan
 from tables import percent, points_more, table, with_interval
 
 METHODS = ["surface", "patchwork", "ransac", "gpf", "line_fit", "cascaded", "r_gpf", "r_gpf+u"]

@@ -6,7 +6,8 @@ import json
 import pathlib
 import tempfile
 
-from surface_scans import LIVOX_HEIGHTS, SCENES, show_progress
+from flagstone_runs import show_progress
+from surface_scans import LIVOX_HEIGHTS, SCENES
 from tables import percent, table
 
 MOST_CLASSES = 5  # named of each kind of error

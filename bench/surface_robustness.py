@@ -9,8 +9,8 @@ whole, undisturbed scan: what differs is due to the disturbance, not to which po
 import pathlib
 import tempfile
 
+from flagstone_runs import show_progress
 from intervals import mean_of, paired
-from surface_scans import show_progress
 from tables import percent, points_more, table
 
 METHODS = ("surface", "patchwork")

@@ -2,17 +2,14 @@
 # SPDX-License-Identifier: MIT
 """The scans that the studies of the method `surface` stand on, and `flagstone eval` over them."""
 
-import json
 import os
 import pathlib
 import re
-import shlex
-import subprocess
 import sys
-import tempfile
 import typing
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from flagstone_runs import ROOT, Runs, show_progress
+
 SCENES = ["flat_street", "steep_street", "parked_cars", "bushes_and_lawn", "bumpy_field", "steps"]
 
 # SemanticKITTI scans with all their points; the others of that folder are means of voxels.
@@ -77,32 +74,14 @@ def link_scans(data, names, folder):
             link.symlink_to(target.resolve())
 
 
-class Study:
+class Study(Runs):
     """Where the scans are, which settings of `surface` hold throughout, and what was evaluated so far."""
 
     def __init__(self, work, flagstone, settings=()):
-        self.work = work
+        super().__init__(work, flagstone)
         self.settings = tuple(settings)  # KEY=VALUE
-        self.places = {
-            "$FLAGSTONE_DATA": os.environ.get("FLAGSTONE_DATA", str(ROOT.parent / "shared" / "data")),
-            "$WORK": str(work),
-        }
-        self.flagstone = str(flagstone)
-        self.made_by = {}  # flagstone, machine, date
         self.known = {}
-        work.mkdir(parents=True, exist_ok=True)
         self.sets = scan_sets(work)
-
-    def call(self, command):
-        """Standard output of a `flagstone ...`; the program ends if that fails."""
-        text = command
-        for name, place in self.places.items():
-            text = text.replace(name, shlex.quote(place))
-        words = [self.flagstone, *shlex.split(text)[1:]]
-        done = subprocess.run(words, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        if done.returncode != 0:
-            sys.exit(f"exit code {done.returncode}: {command}\n{done.stderr.rstrip()}")
-        return done.stdout
 
     def simulate(self, frames=200):
         """Writes the simulated sequences; what is there already is kept."""
@@ -125,15 +104,6 @@ class Study:
             if command not in self.known:
                 self.known[command] = self.evaluate_command(command)
         return [self.known[command] for command in commands]
-
-    def evaluate_command(self, command):
-        with tempfile.TemporaryDirectory(prefix="flagstone-eval-") as place:
-            file = pathlib.Path(place) / "result.json"
-            self.call(f"{command} --json {file}")
-            result = json.loads(file.read_text())
-        for key in ("flagstone", "machine", "date"):
-            self.made_by[key] = result.pop(key)
-        return {"command": command, **result}
 
     def surface_defaults(self):
         """The settings of `surface` but for the sensor's height: key -> (value, meaning with unit)."""
@@ -166,9 +136,3 @@ def per_scan(results, method):
             for scan in entry["per_scan"]
         ]
     }
-
-
-def show_progress(text):
-    """On a terminal, in one line that the next call replaces; an empty text clears it."""
-    if sys.stderr.isatty():
-        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)

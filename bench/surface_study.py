@@ -23,7 +23,8 @@ import surface_ablation
 import surface_accuracy
 import surface_errors
 import surface_robustness
-from surface_scans import ROOT, Study, show_progress
+from flagstone_runs import ROOT, show_progress
+from surface_scans import Study
 from tables import check, filled, rounded
 
 PAGE = ROOT / "docs" / "surface.md"

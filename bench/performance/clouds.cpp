@@ -6,9 +6,10 @@
 #include <thread>
 #include <utility>
 
+#include "flagstone/sensor.hpp"
+#include "sim/mounting.hpp"
 #include "sim/noise.hpp"
 #include "sim/scan.hpp"
-#include "sim/sensor.hpp"
 #include "sim/street.hpp"
 
 namespace flagstone::performance {
@@ -24,16 +25,16 @@ Cloud simulated_street(int beams, int columns, std::uint64_t seed) {
   constexpr double top = 2;
   constexpr double bottom = -24.8;
   constexpr double right_lane = -1.6;  // metres left of the centre line
-  sim::Sensor sensor = sim::hdl_64e();
-  sensor.azimuth_count = columns;
+  Sensor sensor = Sensor::named("hdl-64e");
+  sensor.firings = columns;
   sensor.elevations.clear();
   for (int beam = 0; beam < beams; ++beam) {
     sensor.elevations.push_back(top + (bottom - top) * beam / (beams - 1));
   }
   const sim::Scene street = sim::make_street(seed);
   const sim::Frame pose = sim::sensor_pose(street.ground(), sensor, 0, right_lane, 0);
-  const sim::SimulatedScan scan =
-      sim::simulate(street, sensor, sim::Noise{}, pose, seed, std::thread::hardware_concurrency());
+  const sim::SimulatedScan scan = sim::simulate(street, sensor, sim::Noise{}, pose, seed,
+                                                {.threads = std::thread::hardware_concurrency()});
   Cloud cloud;
   cloud.reserve(scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {

@@ -73,7 +73,7 @@ class StepSurvey {
       : method_(method), segmenter_(make_segmenter(method)) {}
 
   void add_drive(std::uint64_t seed) {
-    const sim::Drive drive(*sim::find_scene_kind("steps"), sim::hdl_64e(), seed);
+    const sim::Drive drive(*sim::find_scene_kind("steps"), Sensor::named("hdl-64e"), seed);
     const sim::Scene scene = drive.scene();
     for (int frame = 0; frame < sim::frames_per_drive; ++frame) {
       say_on_terminal(fmt::format("drive {}, scan {}", seed, frame));

@@ -250,7 +250,7 @@ void write_stages(const Folder& folder, std::string_view scene_name, std::uint64
     throw std::invalid_argument("no scene " + std::string(scene_name) +
                                 "; `flagstone simulate --help` lists them");
   }
-  const sim::Drive drive(*kind, sim::hdl_64e(), sim::drive_seed(seed, 0));
+  const sim::Drive drive(*kind, Sensor::named("hdl-64e"), sim::drive_seed(seed, 0));
   const sim::Scene scene = drive.scene();
   const sim::SimulatedScan scan = drive.scan(scene, sim::Noise{}, 0);
   const SurfaceConfig config;

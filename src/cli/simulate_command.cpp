@@ -9,14 +9,18 @@
 #include <CLI/Validators.hpp>
 #include <algorithm>
 #include <atomic>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -26,11 +30,10 @@
 #include "cli/progress.hpp"
 #include "cli/simulated_sequence.hpp"
 #include "core/stopwatch.hpp"
+#include "flagstone/sensor.hpp"
 #include "sim/drive.hpp"
 #include "sim/noise.hpp"
 #include "sim/scene_kind.hpp"
-#include "sim/sensor.hpp"
-#include "sim/true_ground.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -39,6 +42,9 @@ constexpr std::size_t drive_length = sim::frames_per_drive;
 
 struct SimulateOptions {
   std::string scene;
+  std::string sensor = "hdl-64e";
+  double sensor_height = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the sensor's own
+  std::string tilt = "0,0";
   std::size_t frames = 200;
   std::uint64_t seed = 1;
   std::string output;
@@ -60,13 +66,13 @@ struct DriveInWork {
 class SequenceRun {
  public:
   SequenceRun(const SimulatedSequence& files, const sim::SceneKind& scene,
-              const SimulateOptions& options)
+              const SequenceOrigin& origin)
       : files_(files),
         scene_(scene),
-        seed_(options.seed),
-        drives_((options.frames + drive_length - 1) / drive_length),
-        poses_(options.frames),
-        kept_(options.frames) {
+        origin_(origin),
+        drives_((origin.frames + drive_length - 1) / drive_length),
+        poses_(origin.frames),
+        kept_(origin.frames) {
     for (std::size_t frame = 0; frame < kept_.size(); ++frame) kept_[frame] = files.has(frame);
     progress_ = std::make_unique<Progress>(missing());
   }
@@ -121,10 +127,9 @@ class SequenceRun {
       std::call_once(at.planned, [&] { plan(at, index); });
       if (kept_[first + offset]) continue;
       std::call_once(at.built, [&] { at.scene = std::make_unique<sim::Scene>(at.drive->scene()); });
-      const sim::SimulatedScan scan =
-          at.drive->scan(*at.scene, sim::Noise{}, static_cast<int>(offset));
-      files_.write(first + offset, scan,
-                   sim::true_ground(at.scene->ground(), at.drive->poses()[offset], scan.xyzi));
+      const int frame = static_cast<int>(offset);
+      const sim::SimulatedScan scan = at.drive->scan(*at.scene, sim::Noise{}, frame);
+      files_.write(first + offset, scan, at.drive->ground_of(scan, frame));
       report();
     }
     // The last one to leave takes the world down: who comes later finds no frame to take.
@@ -132,7 +137,8 @@ class SequenceRun {
   }
 
   void plan(DriveInWork& at, std::size_t index) {
-    at.drive = std::make_unique<sim::Drive>(scene_, sim::hdl_64e(), sim::drive_seed(seed_, index));
+    at.drive = std::make_unique<sim::Drive>(scene_, origin_.sensor, origin_.mounting,
+                                            sim::drive_seed(origin_.seed, index));
     const std::size_t first = index * drive_length;
     for (std::size_t i = 0; i < drive_length && first + i < poses_.size(); ++i) {
       poses_[first + i] = at.drive->poses()[i];
@@ -153,7 +159,7 @@ class SequenceRun {
 
   const SimulatedSequence& files_;
   const sim::SceneKind& scene_;
-  std::uint64_t seed_;
+  const SequenceOrigin& origin_;
   std::vector<DriveInWork> drives_;
   std::vector<sim::Frame> poses_;
   std::vector<bool> kept_;
@@ -184,21 +190,50 @@ void check_sequence(const std::string& name) {
   }
 }
 
+sim::Mounting mounting_of(const SimulateOptions& options, const Sensor& sensor) {
+  sim::Mounting mounting{.height = sensor.height};
+  if (!std::isnan(options.sensor_height)) mounting.height = options.sensor_height;
+  constexpr double most = 90;
+  const std::string& text = options.tilt;
+  const char* end = text.data() + text.size();
+  const auto [comma, bad_pitch] = std::from_chars(text.data(), end, mounting.pitch);
+  const bool has_roll = bad_pitch == std::errc() && comma != end && *comma == ',';
+  const auto [rest, bad_roll] = std::from_chars(has_roll ? comma + 1 : end, end, mounting.roll);
+  if (!has_roll || bad_roll != std::errc() || rest != end || !(std::abs(mounting.pitch) <= most) ||
+      !(std::abs(mounting.roll) <= most)) {
+    throw std::invalid_argument(fmt::format(
+        "--tilt: '{}' is not PITCH,ROLL; give two numbers of degrees, -90 to 90, such as 15,-5",
+        text));
+  }
+  return mounting;
+}
+
+Sensor sensor_named(const std::string& name) {
+  try {
+    return Sensor::named(name);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("--sensor: {}", error.what()));
+  }
+}
+
 int simulate(const SimulateOptions& options) {
   const sim::SceneKind& scene = scene_named(options.scene);
   check_sequence(options.sequence);
   const SimulatedSequence files(std::filesystem::path(options.output) / "sequences" /
                                 options.sequence);
-  files.begin({.scene = options.scene,
-               .sensor = sim::hdl_64e().name,
-               .seed = options.seed,
-               .frames = options.frames});
+  const Sensor sensor = sensor_named(options.sensor);
+  const SequenceOrigin origin{.scene = options.scene,
+                              .sensor = sensor,
+                              .mounting = mounting_of(options, sensor),
+                              .seed = options.seed,
+                              .frames = options.frames};
+  files.begin(origin);
   const unsigned threads =
       options.threads == 0 ? std::max(1U, std::thread::hardware_concurrency()) : options.threads;
 
   catch_interrupts();
   Stopwatch watch;
-  SequenceRun sequence(files, scene, options);
+  SequenceRun sequence(files, scene, origin);
   sequence.run(threads);
   const double seconds = watch.lap() / 1000;
 
@@ -209,9 +244,9 @@ int simulate(const SimulateOptions& options) {
   }
   files.write_poses(sequence.poses());
   const std::size_t drives = (options.frames + drive_length - 1) / drive_length;
-  fmt::print("{}, seed {}: {} frames in {} drive{}, {} simulated, {} kept as they were\n",
-             options.scene, options.seed, options.frames, drives, drives == 1 ? "" : "s",
-             sequence.simulated(), sequence.kept());
+  fmt::print("{}, {}, seed {}: {} frames in {} drive{}, {} simulated, {} kept as they were\n",
+             options.scene, sensor.name, options.seed, options.frames, drives,
+             drives == 1 ? "" : "s", sequence.simulated(), sequence.kept());
   if (sequence.simulated() > 0) {
     fmt::print("{:.1f} s, {:.1f} scans a second\n", seconds,
                static_cast<double>(sequence.simulated()) / seconds);
@@ -229,6 +264,10 @@ std::string description() {
   for (const sim::SceneKind& scene : sim::scene_kinds()) {
     text += fmt::format("  {:<16} {}\n", scene.name, scene.summary);
   }
+  text += "\nSensors:\n";
+  for (const Sensor& sensor : Sensor::known()) {
+    text += fmt::format("  {:<16} {}\n", sensor.name, sensor.title);
+  }
   return text;
 }
 
@@ -240,6 +279,20 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   command->add_option("--scene", options->scene, "What is simulated; the names stand above")
       ->required()
       ->type_name("NAME");
+  command->add_option("--sensor", options->sensor, "What takes the scans; the names stand above")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      ->add_option("--sensor-height", options->sensor_height,
+                   "Metres above the ground, 0 to 100. Default: where the sensor usually is")
+      ->check(CLI::Range(0.0, 100.0))
+      ->type_name("M");
+  command
+      ->add_option("--tilt", options->tilt,
+                   "How the sensor leans on its vehicle, degrees, -90 to 90 each: positive pitch "
+                   "looks down ahead, positive roll has the right side lower")
+      ->type_name("PITCH,ROLL")
+      ->capture_default_str();
   command
       ->add_option("--frames", options->frames,
                    fmt::format("Scans, 1 to 100000; every {} a new world", drive_length))

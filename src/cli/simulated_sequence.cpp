@@ -35,15 +35,40 @@ void must(const Status& status) {
   if (!status.ok()) throw std::runtime_error(status.message());
 }
 
+Json sensor_json(const Sensor& sensor) {
+  Json json = {{"name", sensor.name},
+               {"title", sensor.title},
+               {"elevations", sensor.elevations},
+               {"firings", sensor.firings},
+               {"azimuth_begin", sensor.azimuth_begin},
+               {"azimuth_end", sensor.azimuth_end},
+               {"min_range", sensor.min_range},
+               {"max_range", sensor.max_range},
+               {"range_sigma", sensor.range_sigma},
+               {"height", sensor.height}};
+  if (sensor.draws_rosette()) json["rosette"] = sensor.rosette;
+  return json;
+}
+
+// What decides about the bytes of every frame.
+Json origin_json(const SequenceOrigin& origin) {
+  const sim::Mounting& mount = origin.mounting;
+  return {{"scene", origin.scene},
+          {"seed", origin.seed},
+          {"version", FLAGSTONE_VERSION},
+          {"mount", {{"height", mount.height}, {"pitch", mount.pitch}, {"roll", mount.roll}}},
+          {"sensor", sensor_json(origin.sensor)}};
+}
+
 std::string scene_text(const SequenceOrigin& origin) {
+  Json scene = origin_json(origin);
+  scene["frames"] = origin.frames;
   Json drives = Json::array();
   for (std::size_t first = 0; first < origin.frames; first += sim::frames_per_drive) {
     drives.push_back({{"first_frame", first},
                       {"world_seed", sim::drive_seed(origin.seed, first / sim::frames_per_drive)}});
   }
-  const Json scene = {{"scene", origin.scene}, {"sensor", origin.sensor},
-                      {"seed", origin.seed},   {"frames", origin.frames},
-                      {"drives", drives},      {"version", FLAGSTONE_VERSION}};
+  scene["drives"] = drives;
   return scene.dump(1) + '\n';
 }
 
@@ -90,14 +115,11 @@ void SimulatedSequence::refuse_others(const SequenceOrigin& origin) const {
   must(io::load_bytes(file, bytes));
   const auto* text = reinterpret_cast<const char*>(bytes.data());
   const Json there = Json::parse(text, text + bytes.size(), nullptr, false);
-  const auto says = [&](const char* key, const Json& value) {
-    return there.is_object() && there.contains(key) && there[key] == value;
-  };
-  if (!says("scene", origin.scene) || !says("sensor", origin.sensor) ||
-      !says("seed", origin.seed) || !says("version", FLAGSTONE_VERSION)) {
+  const Json wanted = origin_json(origin);
+  for (const auto& [key, value] : wanted.items()) {
+    if (there.is_object() && there.contains(key) && there[key] == value) continue;
     throw std::invalid_argument(
-        fmt::format("{}: is of another scene, seed or version than {}, seed {}, {}: {}",
-                    file.string(), origin.scene, origin.seed, FLAGSTONE_VERSION, elsewhere));
+        fmt::format("{}: tells of another {} than asked for: {}", file.string(), key, elsewhere));
   }
   const std::uint64_t frames = there.contains("frames") && there["frames"].is_number_unsigned()
                                    ? there["frames"].get<std::uint64_t>()

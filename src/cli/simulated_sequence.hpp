@@ -8,14 +8,18 @@
 #include <span>
 #include <string>
 
+#include "flagstone/sensor.hpp"
 #include "sim/frame.hpp"
+#include "sim/mounting.hpp"
 #include "sim/scan.hpp"
 
 namespace flagstone::cli {
 
 /// What a simulated sequence is made from; the same gives the same bytes.
 struct SequenceOrigin {
-  std::string scene, sensor;
+  std::string scene;
+  Sensor sensor;
+  sim::Mounting mounting;
   std::uint64_t seed = 0;
   std::size_t frames = 0;
 };

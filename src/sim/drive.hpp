@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "flagstone/sensor.hpp"
 #include "sim/frame.hpp"
 #include "sim/landscape.hpp"
+#include "sim/mounting.hpp"
 #include "sim/scan.hpp"
 #include "sim/scene.hpp"
 #include "sim/scene_kind.hpp"
-#include "sim/sensor.hpp"
 
 namespace flagstone::sim {
 
@@ -22,7 +23,11 @@ std::uint64_t drive_seed(std::uint64_t sequence_seed, std::uint64_t index) noexc
 /// scene().
 class Drive {
  public:
-  Drive(const SceneKind& kind, Sensor sensor, std::uint64_t seed);
+  /// A sensor that is mounted upright at its usual height.
+  Drive(const SceneKind& kind, const Sensor& sensor, std::uint64_t seed)
+      : Drive(kind, sensor, {.height = sensor.height}, seed) {}
+
+  Drive(const SceneKind& kind, Sensor sensor, const Mounting& mounting, std::uint64_t seed);
 
   /// The sensor in the world at each stop.
   [[nodiscard]] const std::vector<Frame>& poses() const noexcept { return poses_; }
@@ -36,11 +41,15 @@ class Drive {
   /// What the sensor sees at a stop, 0 <= frame < frames_per_drive. Several threads may ask.
   [[nodiscard]] SimulatedScan scan(const Scene& scene, const Noise& noise, int frame) const;
 
+  /// Where the ground is at each point of that scan: true_ground() along the vehicle's z axis.
+  [[nodiscard]] std::vector<float> ground_of(const SimulatedScan& scan, int frame) const;
+
  private:
   Sensor sensor_;
   std::uint64_t seed_;
   Landscape landscape_;
-  std::vector<Frame> poses_;
+  std::vector<Frame> poses_;     // of the sensor
+  std::vector<Vector3> upward_;  // z axes of the vehicle
 };
 
 }  // namespace flagstone::sim

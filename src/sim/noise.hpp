@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/random.hpp"
-#include "sim/sensor.hpp"
+#include "flagstone/sensor.hpp"
 
 namespace flagstone::sim {
 

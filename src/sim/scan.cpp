@@ -3,50 +3,19 @@
 #include "sim/scan.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <thread>
 
 #include "core/random.hpp"
+#include "sim/beams.hpp"
 
 namespace flagstone::sim {
 namespace {
-
-constexpr double radians = std::numbers::pi / 180;
 
 struct Echo {
   double range;
   double intensity;
   SemanticClass semantic;
-};
-
-// Directions of all beams of a turn, in firing order.
-class Beams {
- public:
-  explicit Beams(const Sensor& sensor) {
-    struct Heading {
-      double x, y;
-    };
-    std::vector<Heading> headings;
-    for (int firing = 0; firing < sensor.azimuth_count; ++firing) {
-      const double azimuth = sensor.azimuth(firing) * radians;
-      headings.push_back({.x = std::cos(azimuth), .y = std::sin(azimuth)});
-    }
-    directions_.reserve(sensor.elevations.size() * headings.size());
-    for (const double elevation : sensor.elevations) {
-      const double across = std::cos(elevation * radians);
-      const double up = std::sin(elevation * radians);
-      for (const Heading& heading : headings) {
-        directions_.emplace_back(across * heading.x, across * heading.y, up);
-      }
-    }
-  }
-  [[nodiscard]] std::size_t size() const noexcept { return directions_.size(); }
-  [[nodiscard]] Vector3 operator[](std::size_t beam) const noexcept { return directions_[beam]; }
-
- private:
-  std::vector<Vector3> directions_;
 };
 
 // Follows single beams. Everything random about a beam comes from a stream of its own.
@@ -137,16 +106,10 @@ SimulatedScan collect(const Beams& beams, const std::vector<std::optional<Echo>>
 
 }  // namespace
 
-Frame sensor_pose(const Ground& ground, const Sensor& sensor, double x, double y, double yaw) {
-  constexpr double wheelbase = 2.7;  // of KITTI's car, metres
-  constexpr double track = 1.6;
-  return raised(frame_on_wheels(ground, x, y, yaw, wheelbase, track), sensor.mount_height);
-}
-
 SimulatedScan simulate(const Scene& scene, const Sensor& sensor, const Noise& noise,
-                       const Frame& pose, std::uint64_t seed, unsigned threads) {
-  threads = std::max(1U, threads);
-  const Beams beams(sensor);
+                       const Frame& pose, std::uint64_t seed, const ScanOptions& options) {
+  const unsigned threads = std::max(1U, options.threads);
+  const Beams beams(sensor, options.number);
   const Measurement measure(scene, sensor, noise, pose);
   std::vector<std::optional<Echo>> echoes(beams.size());
   const auto cast_block = [&](std::size_t begin, std::size_t end) {

@@ -6,15 +6,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "flagstone/sensor.hpp"
 #include "sim/frame.hpp"
 #include "sim/noise.hpp"
 #include "sim/scene.hpp"
-#include "sim/sensor.hpp"
 
 namespace flagstone::sim {
 
-/// One turn of the sensor. Points are ordered as in KITTI's files: beam by beam, the highest first,
-/// each from straight ahead counter-clockwise.
+/// One scan of the sensor: points in the order of its beams, see Beams.
 struct SimulatedScan {
   std::vector<float>
       xyzi;  ///< 4 floats a point: x, y, z in metres, sensor frame, and intensity 0..1
@@ -23,13 +22,14 @@ struct SimulatedScan {
   [[nodiscard]] std::size_t size() const noexcept { return classes.size(); }
 };
 
-/// Where a sensor is when its vehicle stands at (x, y) heading for `yaw` (radians): `mount_height`
-/// above the ground and tilted with it.
-Frame sensor_pose(const Ground& ground, const Sensor& sensor, double x, double y, double yaw);
+/// Of one scan, what is neither world nor sensor.
+struct ScanOptions {
+  int number = 0;        ///< which scan of a rosette, see Beams
+  unsigned threads = 1;  ///< 0 counts as 1; the bytes do not depend on it
+};
 
-/// Casts every beam of one turn. The same arguments give the same bytes, for any number of
-/// `threads` (0 counts as 1).
+/// Casts every beam of one scan. The same arguments give the same bytes.
 SimulatedScan simulate(const Scene& scene, const Sensor& sensor, const Noise& noise,
-                       const Frame& pose, std::uint64_t seed, unsigned threads = 1);
+                       const Frame& pose, std::uint64_t seed, const ScanOptions& options = {});
 
 }  // namespace flagstone::sim

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "sim/simulate_street.hpp"
 
+#include "flagstone/sensor.hpp"
+#include "sim/mounting.hpp"
 #include "sim/noise.hpp"
-#include "sim/sensor.hpp"
 #include "sim/street.hpp"
 #include "sim/true_ground.hpp"
 
@@ -20,13 +21,13 @@ Frame pose_in(const Scene& street, const Sensor& sensor) {
 
 SimulatedScan simulate_street(std::uint64_t seed, unsigned threads) {
   const Scene street = make_street(seed);
-  const Sensor sensor = hdl_64e();
-  return simulate(street, sensor, Noise{}, pose_in(street, sensor), seed, threads);
+  const Sensor& sensor = Sensor::named("hdl-64e");
+  return simulate(street, sensor, Noise{}, pose_in(street, sensor), seed, {.threads = threads});
 }
 
 std::vector<float> street_ground(std::uint64_t seed, std::span<const float> xyzi) {
   const Scene street = make_street(seed);
-  return true_ground(street.ground(), pose_in(street, hdl_64e()), xyzi);
+  return true_ground(street.ground(), pose_in(street, Sensor::named("hdl-64e")), xyzi);
 }
 
 }  // namespace flagstone::sim

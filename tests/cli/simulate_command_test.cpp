@@ -75,7 +75,9 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
   EXPECT_THAT(std::vector<double>(std::istream_iterator<double>(numbers), {}), SizeIs(12));
   const auto scene = nlohmann::json::parse(files["scene.json"]);
   EXPECT_EQ(scene["scene"], "parked_cars");
-  EXPECT_EQ(scene["sensor"], "hdl-64e");
+  EXPECT_EQ(scene["sensor"]["name"], "hdl-64e");
+  EXPECT_THAT(scene["sensor"]["elevations"], SizeIs(64));
+  EXPECT_EQ(scene["mount"]["height"], 1.73);
   EXPECT_EQ(scene["seed"], 5);
   EXPECT_EQ(scene["frames"], 2);
   ASSERT_THAT(scene["drives"], SizeIs(1));
@@ -167,6 +169,12 @@ TEST(SimulateCommand, NumbersOutsideTheirRangeAreOneLine) {
                                                 {"--seed", "-1"},
                                                 {"--threads", "0"},
                                                 {"--sequence", "7"},
+                                                {"--sensor", "hdl-65"},
+                                                {"--sensor-height", "-1"},
+                                                {"--tilt", "5"},
+                                                {"--tilt", "5,x"},
+                                                {"--tilt", "5,91"},
+                                                {"--tilt", "nan,0"},
                                                 {"--sequence", "../"}}) {
     const Outcome outcome = simulate(folder / "out", "flat_street", wrong);
 
@@ -198,9 +206,13 @@ TEST(SimulateCommand, RefusesToMixScenesAndSeedsAndToForgetFrames) {
   const Outcome other_scene = simulate(folder / "out", "parked_cars", {"--frames", "2"});
   const Outcome other_seed =
       simulate(folder / "out", "flat_street", {"--frames", "2", "--seed", "9"});
+  const Outcome other_sensor =
+      simulate(folder / "out", "flat_street", {"--frames", "2", "--sensor", "vlp-16"});
+  const Outcome other_tilt =
+      simulate(folder / "out", "flat_street", {"--frames", "2", "--tilt", "0,1"});
   const Outcome fewer = simulate(folder / "out", "flat_street", {"--frames", "1"});
 
-  for (const Outcome& refused : {other_scene, other_seed, fewer}) {
+  for (const Outcome& refused : {other_scene, other_seed, other_sensor, other_tilt, fewer}) {
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.err, is_one_line_with("choose another --output or --sequence"));
   }

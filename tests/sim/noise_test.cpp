@@ -25,7 +25,7 @@ double share(Draw draw) {
 TEST(Noise, NoneLeavesRangeAndIntensityAlone) {
   Random random(1);
 
-  EXPECT_EQ(measured_range(no_noise(), hdl_64e(), 12.5, random), 12.5);
+  EXPECT_EQ(measured_range(no_noise(), Sensor::named("hdl-64e"), 12.5, random), 12.5);
   EXPECT_EQ(measured_intensity(no_noise(), 0.5, 1, random), 0.5);
   EXPECT_TRUE(is_detected(no_noise(), 79, 0.01, 0.01, random));
   EXPECT_FALSE(is_mirrored(no_noise(), 5, random));
@@ -35,7 +35,7 @@ TEST(Noise, RangeScattersByTheSensorsSigma) {
   double squares = 0;
   for (std::uint64_t i = 0; i < draws; ++i) {
     Random random = Random::stream(9, i);
-    const double error = measured_range(Noise{}, hdl_64e(), 30, random) - 30;
+    const double error = measured_range(Noise{}, Sensor::named("hdl-64e"), 30, random) - 30;
     squares += error * error;
   }
 

@@ -12,6 +12,7 @@
 #include <set>
 #include <vector>
 
+#include "sim/mounting.hpp"
 #include "sim/simulate_street.hpp"
 #include "sim/street.hpp"
 
@@ -37,7 +38,7 @@ struct Drive {
 
   [[nodiscard]] SimulatedScan scan(const Noise& noise, std::uint64_t seed = 1,
                                    unsigned threads = 1) const {
-    return simulate(scene, sensor, noise, pose, seed, threads);
+    return simulate(scene, sensor, noise, pose, seed, {.threads = threads});
   }
   // Height of a point of the scan above the ground below it, metres.
   [[nodiscard]] double above_ground(Vector3 point) const {
@@ -45,7 +46,7 @@ struct Drive {
     return world.z - scene.ground().height(world.x, world.y);
   }
 
-  Sensor sensor = hdl_64e();
+  Sensor sensor = Sensor::named("hdl-64e");
   Scene scene;
   Frame pose;
 };
@@ -140,7 +141,7 @@ TEST(Scan, HasNoGhostsWithoutNoise) {
 TEST(Scan, PointsLieOnTheSensorsBeamsInFiringOrder) {
   const Drive drive(1);
   const SimulatedScan scan = drive.scan(Noise{});
-  const double step = drive.sensor.azimuth(1);
+  const double step = 360.0 / drive.sensor.firings;
   std::size_t beam_before = 0;
   double azimuth_before = -1;
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -162,8 +163,8 @@ TEST(Scan, PointsLieWithinTheSensorsRange) {
   const SimulatedScan scan = simulate_street(2);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const double range = length(point_of(scan, i));
-    ASSERT_GE(range, hdl_64e().min_range - rounding);
-    ASSERT_LE(range, hdl_64e().max_range + rounding);
+    ASSERT_GE(range, Sensor::named("hdl-64e").min_range - rounding);
+    ASSERT_LE(range, Sensor::named("hdl-64e").max_range + rounding);
   }
 }
 
@@ -264,10 +265,10 @@ TEST(Scan, SensorStandsAtItsHeightAboveTheRoad) {
   for (const std::uint64_t seed : seeds) {
     Random random = Random::stream(seed, 0);
     const Ground ground = make_ground(plan_street(random).shape);
-    const Sensor sensor = hdl_64e();
+    const Sensor sensor = Sensor::named("hdl-64e");
     const Frame pose = sensor_pose(ground, sensor, 0, -1.6, 0);
 
-    const Vector3 below = pose.origin - sensor.mount_height * pose.up;
+    const Vector3 below = pose.origin - sensor.height * pose.up;
 
     EXPECT_NEAR(below.z, ground.height(below.x, below.y), 0.001);
     EXPECT_EQ(ground.surface(below.x, below.y).semantic, SemanticClass::road);

@@ -25,8 +25,8 @@ const SceneKind& kind_named(std::string_view name) { return *find_scene_kind(nam
 
 // An HDL-64E that fires a sixth as often: a sixth of the work.
 Sensor sparse_sensor() {
-  Sensor sensor = hdl_64e();
-  sensor.azimuth_count = 360;
+  Sensor sensor = Sensor::named("hdl-64e");
+  sensor.firings = 360;
   return sensor;
 }
 
@@ -126,7 +126,7 @@ TEST_P(EveryScene, StopsLieFrameSpacingApartAtTheSensorsHeight) {
     ASSERT_EQ(drive.poses().size(), std::size_t{frames_per_drive});
     for (std::size_t i = 0; i < drive.poses().size(); ++i) {
       const Frame& pose = drive.poses()[i];
-      const Vector3 below = pose.origin - hdl_64e().mount_height * pose.up;
+      const Vector3 below = pose.origin - Sensor::named("hdl-64e").height * pose.up;
       EXPECT_NEAR(below.z, landscape.ground.height(below.x, below.y), 0.001);
       if (i == 0) continue;
       EXPECT_NEAR(pose.origin.x - drive.poses()[i - 1].origin.x, frame_spacing, 2);
@@ -185,7 +185,7 @@ std::array<double, 2> cars_beside_the_path(const World& world, double reach) {
   int places = 0;
   for (const Frame& pose : world.drive.poses()) {
     for (double ahead = -3.5; ahead < 4; ahead += 0.5, ++places) {
-      const Vector3 at = pose.to_world({ahead, 0, 0.6 - hdl_64e().mount_height});
+      const Vector3 at = pose.to_world({ahead, 0, 0.6 - Sensor::named("hdl-64e").height});
       for (const std::size_t side : {0U, 1U}) {
         const Vector3 aside = (side == 0 ? -1.0 : 1.0) * pose.left;
         const auto hit = world.scene.caster().cast(at, aside, 0, reach);

@@ -116,7 +116,7 @@ TEST(SeenSides, AreThoseWithAPointOfTheGroundNearTheStep) {
 }
 
 TEST(StepPlaces, ShowTheirStepInTheTrueHeightsOfAnySensor) {
-  const Drive drive(*find_scene_kind("steps"), hdl_64e(), 4);
+  const Drive drive(*find_scene_kind("steps"), Sensor::named("hdl-64e"), 4);
   const Scene scene = drive.scene();
   for (const std::size_t frame : {2U, 7U}) {
     const Frame& pose = drive.poses()[frame];
@@ -137,7 +137,7 @@ TEST(StepPlaces, ShowTheirStepInTheTrueHeightsOfAnySensor) {
 }
 
 TEST(StepPlaces, OfAKerbAreAsSharpAsTheKerb) {
-  const Drive drive(*find_scene_kind("steps"), hdl_64e(), 4);
+  const Drive drive(*find_scene_kind("steps"), Sensor::named("hdl-64e"), 4);
   const Scene scene = drive.scene();
   const Frame& pose = drive.poses()[3];
   for (const GroundStep& step : drive.steps()) {

@@ -141,8 +141,8 @@ TEST(TrueGround, IsNotKnownWhereTheGroundDoesNotReach) {
 class TrueGroundOfScene : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(TrueGroundOfScene, IsWhereGroundPointsWithoutNoiseAre) {
-  Sensor sensor = hdl_64e();
-  sensor.azimuth_count = 360;
+  Sensor sensor = Sensor::named("hdl-64e");
+  sensor.firings = 360;
   const Drive drive(*find_scene_kind(GetParam()), sensor, 3);
   const Scene scene = drive.scene();
   for (const int frame : {0, 6}) {
