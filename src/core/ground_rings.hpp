@@ -8,12 +8,12 @@
 
 namespace flagstone {
 
-/// Points that a sensor has on flat ground between two circles around it.
+/// A ring around a sensor, and the points that it has on flat ground there.
 struct GroundRing {
   double inner = 0;   ///< metres
   double outer = 0;   ///< metres
-  int beams = 0;      ///< that meet the ground between them
-  double points = 0;  ///< in one full turn
+  int beams = 0;      ///< that meet flat ground between them; 0 beyond the last
+  double points = 0;  ///< in one full turn; of one beam beyond the last
 
   [[nodiscard]] double length() const noexcept { return outer - inner; }
   [[nodiscard]] double middle() const noexcept { return (inner + outer) / 2; }
@@ -30,11 +30,18 @@ class GroundBeams {
   /// that meet no ground within the sensor's range are not among them.
   [[nodiscard]] const std::vector<double>& radii() const noexcept { return radii_; }
 
+  /// How far the beams meet ground that rises by `slope`, metres a metre, up to the sensor's range;
+  /// metres.
+  [[nodiscard]] double reach(double slope) const noexcept;
+
   /// Points of a beam in a full turn; a narrow field of view holds its share of them.
   [[nodiscard]] double points_a_turn() const noexcept { return points_a_turn_; }
 
  private:
   std::vector<double> radii_;
+  double least_fall_ = 0;  ///< of the flattest beam, metres a metre; negative where it rises
+  double height_ = 0;
+  double max_range_ = 0;
   double points_a_turn_ = 0;
 };
 
@@ -42,13 +49,15 @@ class GroundBeams {
 struct RingLengths {
   double first = 0;     ///< shortest length of the first ring, metres
   double shortest = 0;  ///< of the others, metres
+  double one_beam = 0;  ///< of rings that hold one beam only, metres
   double growth = 0;    ///< of the others as a share of the distance of their middle
+  double beyond = 0;    ///< of rings beyond the last beam, as a share of the distance they begin at
 };
 
-/// Rings from `begin` metres outward, edges halfway between beams, each as short as `lengths` allow
-/// and none without a beam. The last one ends half a gap beyond the last beam, at `end` metres at
-/// most. Empty where no beam meets the ground beyond `begin`.
-std::vector<GroundRing> ground_rings(const GroundBeams& beams, double begin, double end,
+/// Rings from `begin` metres outward, each as short as `lengths` allow: while beams meet flat
+/// ground, edges halfway between them and no ring without one; then rings up to `reach` metres, for
+/// ground that rises. Empty where no beam meets flat ground beyond `begin`.
+std::vector<GroundRing> ground_rings(const GroundBeams& beams, double begin, double reach,
                                      const RingLengths& lengths);
 
 }  // namespace flagstone

@@ -17,11 +17,18 @@
 namespace flagstone {
 namespace {
 
+/// h_s that the settings of `default` were found at, metres. What is a distance seen at some angle
+/// from above is scaled with the height.
+constexpr double height_of_default = 1.73;
+
 /// Shortest rings. The first is long, for beams are dense there and what stands near the sensor
 /// hides much of a small bin.
-constexpr double first_length = 2.2;     // heights of the sensor
-constexpr double shortest_length = 1.8;  // metres
-constexpr double length_growth = 0.15;   // metres a metre
+constexpr double first_length = 2.2;      // heights of the sensor
+constexpr double shortest_length = 1.04;  // heights of the sensor, and
+constexpr double one_beam_length = 1.8;   // metres: as much as a ring with one beam has to have
+constexpr double length_growth = 0.15;    // metres a metre
+constexpr double length_beyond = 0.2;     // metres a metre, beyond the last beam
+constexpr double rise_beyond = 0.1;       // of ground that is looked for there, metres a metre
 
 /// Points on flat ground that a bin has at least, where the sensor has that many.
 constexpr double fewest_points = 20;
@@ -31,10 +38,8 @@ constexpr double fewest_sectors = 4;  // of a full turn: a bin sees ground to on
 constexpr double same_sectors = 1.3;
 constexpr std::size_t most_zones = 16;
 
-/// Settings of `default` that were found at 1.73 m and hold for a distance seen at some angle from
-/// above: in heights of the sensor.
-constexpr double near_ground = 9.576 / 1.73;  // where reflections below the ground are no seeds
-constexpr double judged_by_height = 13.266 / 1.73;  // L_tau
+/// Where reflections below the ground are no seeds: Z_1 of `default`, heights of the sensor.
+constexpr double near_ground = 9.576 / height_of_default;
 
 constexpr double ground_roughness = 0.035;  // metres, rms, of ground that counts as even
 constexpr double view_margin = 1;           // degrees on both sides of a narrow field of view
@@ -108,11 +113,20 @@ float flatness_threshold(const GroundRing& ring, double sectors, double range_si
   return rounded(std::min(0.3333, rough / spread));
 }
 
-std::vector<GroundRing> rings_for(const Sensor& sensor, double begin) {
-  return ground_rings(GroundBeams(sensor), begin, sensor.max_range,
-                      {.first = std::max(first_length * sensor.height, shortest_length),
-                       .shortest = shortest_length,
-                       .growth = length_growth});
+/// L_min: what lies nearer is the own vehicle. As near as the sensor is high, 45 degrees below, or
+/// a little less far than ground is seen, half as near at least.
+double begin_of(const Sensor& sensor, const GroundBeams& beams) {
+  const double nearest = beams.radii().empty() ? sensor.height : 0.9 * beams.radii().front();
+  return std::max(sensor.min_range, std::clamp(nearest, sensor.height / 2, sensor.height));
+}
+
+/// kappa and L_tau as seen from the sensor's height.
+ElevationTerm scaled(ElevationTerm term, double height) {
+  const double scale = height / height_of_default;
+  term.base = rounded(term.base * scale);
+  term.growth = rounded(std::min(1.0, term.growth / scale));
+  term.range = rounded(term.range * scale);
+  return term;
 }
 
 }  // namespace
@@ -124,17 +138,22 @@ PatchworkConfig PatchworkConfig::for_sensor(const Sensor& sensor) {
                                 ": height = " + std::to_string(sensor.height) +
                                 " m; allowed here: 0.01 m or more, for zones follow from it");
   }
-  // L_min: what lies nearer, steeper than 45 degrees below, is the own vehicle, unless the sensor
-  // sees no other ground.
-  double begin = std::max(sensor.min_range, sensor.height);
-  std::vector<GroundRing> rings = rings_for(sensor, begin);
-  if (rings.empty()) rings = rings_for(sensor, begin = 0);
+  const GroundBeams beams(sensor);
+  const RingLengths lengths{.first = first_length * sensor.height,
+                            .shortest = std::min(shortest_length * sensor.height, one_beam_length),
+                            .one_beam = one_beam_length,
+                            .growth = length_growth,
+                            .beyond = length_beyond};
+  double begin = begin_of(sensor, beams);
+  std::vector<GroundRing> rings = ground_rings(beams, begin, beams.reach(rise_beyond), lengths);
+  if (rings.empty()) rings = ground_rings(beams, begin = 0, beams.reach(rise_beyond), lengths);
   if (rings.empty()) {
     throw std::invalid_argument(
         "sensor " + sensor.name +
         ": no beam meets flat ground within max_range = " + std::to_string(sensor.max_range) +
         " m, " + std::to_string(sensor.height) + " m below the sensor");
   }
+  rings.back().outer = std::min(rings.back().outer, sensor.max_range);
 
   PatchworkConfig config;
   config.sensor_height = static_cast<float>(sensor.height);
@@ -142,7 +161,7 @@ PatchworkConfig PatchworkConfig::for_sensor(const Sensor& sensor) {
   config.field_of_view = view_of(sensor);
   config.distance_margin =
       std::max(config.distance_margin, static_cast<float>(4 * sensor.range_sigma));
-  config.elevation.range = rounded(judged_by_height * sensor.height);
+  config.elevation = scaled(config.elevation, sensor.height);
   config.zones.clear();
   config.flatness.thresholds.clear();
 

@@ -36,26 +36,37 @@ Point on_flat_ground(const Sensor& sensor, double elevation, double azimuth) {
           static_cast<float>(-sensor.height)};
 }
 
-/// One scan of nothing but flat ground; a rosette's points lie evenly in its field of view.
+/// Lines that a sensor draws on the ground.
+struct Lines {
+  std::vector<double> elevations;
+  int points = 0;  ///< of each
+};
+
+/// A rosette's points as lines that lie evenly in its field of view.
+Lines lines_of(const Sensor& sensor) {
+  if (!sensor.draws_rosette()) return {sensor.elevations, sensor.firings};
+  const int count = static_cast<int>(std::sqrt(sensor.firings));
+  Lines lines{.elevations = {}, .points = sensor.firings / count};
+  for (int i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / (count - 1);
+    lines.elevations.push_back(std::lerp(sensor.elevations[0], sensor.elevations[1], share));
+  }
+  return lines;
+}
+
+bool meets_flat_ground(const Sensor& sensor, double elevation) {
+  return elevation < 0 && sensor.height < sensor.max_range * std::sin(-elevation * degree);
+}
+
+/// One scan of nothing but flat ground.
 std::vector<Point> flat_scan(const Sensor& sensor) {
   const double width = sensor.azimuth_end - sensor.azimuth_begin;
-  std::vector<double> elevations = sensor.elevations;
-  int firings = sensor.firings;
-  if (sensor.draws_rosette()) {
-    const int lines = static_cast<int>(std::sqrt(sensor.firings));
-    firings = sensor.firings / lines;
-    elevations.clear();
-    for (int i = 0; i < lines; ++i) {
-      const double share = static_cast<double>(i) / (lines - 1);
-      elevations.push_back(std::lerp(sensor.elevations[0], sensor.elevations[1], share));
-    }
-  }
+  const Lines lines = lines_of(sensor);
   std::vector<Point> points;
-  for (const double elevation : elevations) {
-    if (elevation >= 0 || sensor.height >= sensor.max_range * std::sin(-elevation * degree))
-      continue;
-    for (int i = 0; i < firings; ++i) {
-      const double azimuth = sensor.azimuth_begin + width * (i + 0.5) / firings;
+  for (const double elevation : lines.elevations) {
+    if (!meets_flat_ground(sensor, elevation)) continue;
+    for (int i = 0; i < lines.points; ++i) {
+      const double azimuth = sensor.azimuth_begin + width * (i + 0.5) / lines.points;
       points.push_back(on_flat_ground(sensor, elevation, azimuth));
     }
   }
@@ -114,15 +125,15 @@ Segmentation segmented(const PatchworkConfig& config, const std::vector<Point>& 
   return result;
 }
 
-/// A ring with a beam in it on flat ground, for each ring, in their order.
+/// Beams that meet flat ground, of each ring.
 std::vector<int> beams_by_ring(const Sensor& sensor, const PatchworkConfig& config) {
   std::vector<int> beams;
   double inner = config.min_range;
   for (const Zone& zone : config.zones) {
     for (const float outer : zone.ring_radii) {
       beams.push_back(0);
-      for (const double elevation : sensor.elevations) {
-        if (elevation >= 0) continue;
+      for (const double elevation : lines_of(sensor).elevations) {
+        if (!meets_flat_ground(sensor, elevation)) continue;
         const double range = sensor.height / std::tan(-elevation * degree);
         beams.back() += range >= inner && range < outer;
       }
@@ -130,6 +141,26 @@ std::vector<int> beams_by_ring(const Sensor& sensor, const PatchworkConfig& conf
     }
   }
   return beams;
+}
+
+/// Bins of the rings that a beam meets on flat ground.
+std::size_t bins_on_flat_ground(const Sensor& sensor, const PatchworkConfig& config) {
+  const std::vector<int> beams = beams_by_ring(sensor, config);
+  std::size_t ring = 0;
+  std::size_t bins = 0;
+  for (const Zone& zone : config.zones) {
+    for (std::size_t i = 0; i < zone.ring_radii.size(); ++i, ++ring) {
+      if (beams[ring] > 0) bins += static_cast<std::size_t>(zone.sectors);
+    }
+  }
+  return bins;
+}
+
+/// From the sensor outward to the last that has one.
+bool all_rings_have_a_beam(const Sensor& sensor, const PatchworkConfig& config) {
+  std::vector<int> beams = beams_by_ring(sensor, config);
+  while (!beams.empty() && beams.back() == 0) beams.pop_back();
+  return !beams.empty() && std::ranges::count(beams, 0) == 0;
 }
 
 std::string refusal_of(const Sensor& sensor) {
@@ -148,12 +179,12 @@ TEST(PatchworkForSensor, OfEveryKnownSensorAtAnyHeightPassesTheCheck) {
   }
 }
 
-TEST(PatchworkForSensor, OfAnySensorPassesTheCheckAndHasNoRingWithoutABeam) {
+TEST(PatchworkForSensor, OfAnySensorPassesTheCheckAndAsFarAsFlatGroundIsSeenHasNoRingWithoutABeam) {
   EXPECT_TRUE(rc::check([] {
     const Sensor sensor = any_sensor();
     const PatchworkConfig config = PatchworkConfig::for_sensor(sensor);
     config.check();
-    RC_ASSERT(std::ranges::count(beams_by_ring(sensor, config), 0) == 0);
+    RC_ASSERT(all_rings_have_a_beam(sensor, config));
   }));
 }
 
@@ -165,9 +196,9 @@ TEST(PatchworkForSensor, BinsHaveThePointsThatAPlaneNeedsOnFlatGround) {
     const auto full = std::ranges::count_if(
         result.patches(), [](const Patch& patch) { return patch.point_count >= fewest_points; });
 
-    EXPECT_GE(static_cast<double>(full),
-              (1 - share_with_fewer) * static_cast<double>(bins_of(config)))
-        << sensor.name << " at " << sensor.height << " m: " << bins_of(config) << " bins";
+    const std::size_t bins = bins_on_flat_ground(sensor, config);
+    EXPECT_GE(static_cast<double>(full), (1 - share_with_fewer) * static_cast<double>(bins))
+        << sensor.name << " at " << sensor.height << " m: " << bins << " bins";
   }
 }
 
@@ -215,6 +246,19 @@ TEST(PatchworkForSensor, OneTwoAndFourBeamsSuffice) {
           << beams.size() << " beams at " << height << " m";
     }
   }
+}
+
+TEST(PatchworkForSensor, BeyondFlatGroundThereAreRingsWhereGroundThatRisesIsSeen) {
+  Sensor sensor = Sensor::named("vlp-16");
+  const auto reach_of = [&] {
+    return PatchworkConfig::for_sensor(sensor).zones.back().ring_radii.back();
+  };
+
+  EXPECT_GT(reach_of(), 0.8 * sensor.max_range);
+  EXPECT_LE(reach_of(), sensor.max_range);
+
+  sensor.elevations = {-30, -35, -40};
+  EXPECT_LT(reach_of(), 2 * sensor.height / std::tan(30 * degree));
 }
 
 TEST(PatchworkForSensor, RingsGrowWithTheSensorsHeight) {
