@@ -101,20 +101,6 @@ void add_container(Mesh& mesh, const Frame& frame) {
   add_box(mesh, frame, {.low = {-3, -1.2, -0.1}, .high = {3, 1.2, 2.6}}, sheet_metal);
 }
 
-void add_concrete_barrier(Mesh& mesh, const Frame& frame) {
-  const auto part = [](double x, double low, double high, double narrow_from, double narrow_to) {
-    return Section{.x = x,
-                   .low = low,
-                   .high = high,
-                   .half_width_low = narrow_from,
-                   .half_width_high = narrow_to};
-  };
-  add_loft(mesh, frame, std::array{part(-1, -0.1, 0.25, 0.3, 0.28), part(1, -0.1, 0.25, 0.3, 0.28)},
-           concrete);
-  add_loft(mesh, frame, std::array{part(-1, 0.25, 0.8, 0.16, 0.09), part(1, 0.25, 0.8, 0.16, 0.09)},
-           concrete);
-}
-
 void add_mesh_panel(Mesh& mesh, const Frame& frame) {
   constexpr double half_width = 1.7;
   constexpr double height = 2;

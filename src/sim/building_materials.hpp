@@ -32,9 +32,6 @@ void add_board(Mesh& mesh, const Frame& frame, Random& random);
 /// ground below its middle, x along it.
 void add_container(Mesh& mesh, const Frame& frame);
 
-/// A concrete barrier, 2 m long along x, 80 cm high (class fence).
-void add_concrete_barrier(Mesh& mesh, const Frame& frame);
-
 /// A panel of wire mesh on two feet, 3.4 m wide along x, 2 m high (class fence): most beams pass.
 void add_mesh_panel(Mesh& mesh, const Frame& frame);
 

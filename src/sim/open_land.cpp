@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <utility>
+
+#include "sim/ground_plan.hpp"
 
 namespace flagstone::sim {
 namespace {
@@ -30,50 +31,21 @@ double smooth_step(double begin, double end, double value) noexcept {
 }
 
 std::vector<double> lines_in_bands(double begin, std::span<const LineBand> bands) {
-  std::vector<double> lines{begin};
+  std::vector<double> lines;
   for (const LineBand& band : bands) {
-    const double from = lines.back();
-    const int count = static_cast<int>(std::ceil((band.end - from) / band.step - 1e-9));
-    for (int i = 1; i <= count; ++i) lines.push_back(from + (band.end - from) * i / count);
+    add_lines(lines, begin, band.end, band.step);
+    begin = band.end;
   }
+  finish_lines(lines);
   return lines;
 }
 
 std::vector<double> mirrored_lines(std::span<const LineBand> bands) {
-  const std::vector<double> outward = lines_in_bands(0, bands);
-  std::vector<double> lines;
-  for (auto line = outward.rbegin(); line != outward.rend(); ++line) lines.push_back(-*line);
-  lines.insert(lines.end(), outward.begin() + 1, outward.end());
+  std::vector<double> lines = lines_in_bands(0, bands);
+  const std::vector<double> outward = lines;
+  for (const double line : outward) lines.push_back(-line);
+  finish_lines(lines);
   return lines;
-}
-
-std::vector<double> merged_lines(std::vector<double> lines, std::span<const double> others) {
-  constexpr double same = 1e-6;  // metres
-  lines.insert(lines.end(), others.begin(), others.end());
-  std::ranges::sort(lines);
-  const auto repeated = std::ranges::unique(lines, [](double a, double b) { return b - a < same; });
-  lines.erase(repeated.begin(), repeated.end());
-  return lines;
-}
-
-Ground make_land(std::vector<double> x, std::vector<double> t,
-                 const std::function<double(double x)>& offset, const LandHeight& height,
-                 const LandSurface& surface) {
-  GroundGrid grid{.x = std::move(x), .offset = {}, .t = std::move(t)};
-  std::vector<double> heights;
-  std::vector<Surface> surfaces;
-  heights.reserve(grid.x.size() * grid.t.size());
-  surfaces.reserve(heights.capacity());
-  for (std::size_t i = 0; i < grid.x.size(); ++i) {
-    grid.offset.push_back(offset(grid.x[i]));
-    for (const double at : grid.t) heights.push_back(height(grid.x[i], at));
-    if (i + 1 == grid.x.size()) break;
-    const double middle_x = (grid.x[i] + grid.x[i + 1]) / 2;
-    for (std::size_t j = 0; j + 1 < grid.t.size(); ++j) {
-      surfaces.push_back(surface(middle_x, (grid.t[j] + grid.t[j + 1]) / 2));
-    }
-  }
-  return {std::move(grid), std::move(heights), std::move(surfaces)};
 }
 
 void scatter(const WindingPath& path, const Strip& strip, double per_square_metre, Random& random,

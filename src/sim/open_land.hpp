@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "sim/ground.hpp"
 #include "sim/interval.hpp"
-#include "sim/mesh.hpp"
 #include "sim/route.hpp"
 
 namespace flagstone::sim {
@@ -40,19 +38,6 @@ std::vector<double> lines_in_bands(double begin, std::span<const LineBand> bands
 
 /// The same lines and their mirror images: bands from 0 outward, to either side.
 std::vector<double> mirrored_lines(std::span<const LineBand> bands);
-
-/// Both rows, in any order, sorted into one, without those that only rounding tells from another.
-std::vector<double> merged_lines(std::vector<double> lines, std::span<const double> others);
-
-/// What the land is like at x, t metres left of its path.
-using LandHeight = std::function<double(double x, double t)>;
-using LandSurface = std::function<Surface(double x, double t)>;
-
-/// The ground with these lines (of x, and of t left of `offset(x)`): heights are taken where lines
-/// cross, surfaces in the middle of cells.
-Ground make_land(std::vector<double> x, std::vector<double> t,
-                 const std::function<double(double x)>& offset, const LandHeight& height,
-                 const LandSurface& surface);
 
 /// Where something may stand: x, and the distance from a path on either side of it, metres.
 struct Strip {

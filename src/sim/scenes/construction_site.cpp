@@ -7,7 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "sim/barrier.hpp"
 #include "sim/building_materials.hpp"
+#include "sim/excavation.hpp"
+#include "sim/ground_plan.hpp"
 #include "sim/machines.hpp"
 #include "sim/mound.hpp"
 #include "sim/open_land.hpp"
@@ -15,7 +18,7 @@
 #include "sim/plants.hpp"
 #include "sim/scenes/scenes.hpp"
 #include "sim/shapes.hpp"
-#include "sim/walker.hpp"
+#include "sim/traffic.hpp"
 #include "sim/waves.hpp"
 
 namespace flagstone::sim {
@@ -31,32 +34,6 @@ constexpr Surface grass{.semantic = SemanticClass::terrain, .reflectivity = 0.4F
 constexpr Surface puddle{
     .semantic = SemanticClass::other_ground, .reflectivity = 0.05F, .mirror = 0.8F};
 constexpr Surface clay_pipe{.semantic = SemanticClass::other_object, .reflectivity = 0.3F};
-
-// A pit with sloping sides; at its end of low x a ramp leads down.
-struct Pit {
-  double x_begin = 0, x_end = 0;  // metres
-  double t_near = 0, t_far = 0;   // distances from the path, on one side of it
-  double depth = 2;               // metres
-  double run = 0.6;               // of its sides, metres out for a metre down
-  double ramp = 6;                // the same of the ramp
-
-  [[nodiscard]] double at(double x, double out) const noexcept {
-    const double side = std::min({x_end - x, out - t_near, t_far - out}) / run;
-    return -std::clamp(std::min(side, (x - x_begin) / ramp), 0.0, depth);
-  }
-};
-
-// A narrow trench along the path with upright sides.
-struct Trench {
-  double x_begin = 0, x_end = 0, t_near = 0, width = 1, depth = 1.2;  // metres
-  static constexpr double face = 0.08;  // sides lean, so that the ground stays a function
-
-  [[nodiscard]] double at(double x, double out) const noexcept {
-    const double inside =
-        std::min({x - x_begin, x_end - x, out - t_near, t_near + width - out}) / face;
-    return -depth * std::clamp(inside, 0.0, 1.0);
-  }
-};
 
 // t is measured to the left of the haul road's middle, along y.
 struct Site {
@@ -150,16 +127,20 @@ Ground make_site(const Site& site) {
   for (const double out : {begin, begin + Trench::face, end - Trench::face, end}) {
     across.push_back(-site.pit_side * out);
   }
-  std::vector<double> along = lines_in_bands(
+  finish_lines(across);
+  std::vector<double> lengthwise = lines_in_bands(
       -half_length, std::array{LineBand{-50, 1}, LineBand{50, 0.35}, LineBand{half_length, 1}});
-  return make_land(
-      merged_lines(std::move(along),
-                   std::array{pit.x_begin, pit.x_begin + pit.ramp * pit.depth, pit.x_end - side,
-                              pit.x_end, trench.x_begin, trench.x_begin + Trench::face,
-                              trench.x_end - Trench::face, trench.x_end}),
-      merged_lines(std::move(across), {}), [&](double x) { return site.path.y(x); },
-      [&](double x, double t) { return site.height(x, t); },
-      [&](double x, double t) { return site.surface(x, t); });
+  for (const double x :
+       {pit.x_begin, pit.x_begin + pit.ramp * pit.depth, pit.x_end - side, pit.x_end,
+        trench.x_begin, trench.x_begin + Trench::face, trench.x_end - Trench::face, trench.x_end}) {
+    lengthwise.push_back(x);
+  }
+  finish_lines(lengthwise);
+  return cut_ground({.x = std::move(lengthwise),
+                     .t = std::move(across),
+                     .offset = [&](double x) { return site.path.y(x); },
+                     .height = [&](double x, double t) { return site.height(x, t); },
+                     .surface = [&](double x, double t) { return site.surface(x, t); }});
 }
 
 // Panels all along both sides, but for gates.
@@ -244,12 +225,13 @@ Mesh furnish_site(const Site& site, const Ground& ground, Random random) {
   put(16, {3.8, 16}, 2.6, [&](const Frame& frame) { add_board(mesh, frame, random); });
   put(3, {20, 25}, 3.5, [&](const Frame& frame) { add_container(mesh, frame); });
   put(5, {5, 18}, 0.6, [&](const Frame& frame) { add_person(mesh, frame, random); });
-  // A row of barriers at the edge of the haul road, on the pit's side.
-  constexpr double barrier = 2.1;
-  for (double x = site.pit.x_begin; x < site.pit.x_end; x += barrier) {
-    if (x > site.pit.x_begin + 16) break;
-    add_concrete_barrier(mesh, site.stand(ground, x, site.pit_side * (site.pit.t_near - 1.2), 0));
-  }
+  // Barriers at the edge of the haul road, on the pit's side.
+  add_concrete_barrier(mesh, site.pit_side * (site.pit.t_near - 1.2),
+                       {site.pit.x_begin, site.pit.x_begin + 16},
+                       [&](double x, double t, double z) {
+                         const double y = site.path.y(x) + t;
+                         return Vector3{x, y, ground.height(x, y) + z};
+                       });
   const auto grow = [&](double per_square_metre, Interval from_path, auto plant) {
     scatter(site.path, {.from_path = from_path}, per_square_metre, random,
             [&](double x, double y) { plant(mesh, ground, x, y, random); });
@@ -269,13 +251,36 @@ struct Digging {
 Digging draw_digging(const Site& site, Random& random) {
   FreePlaces places(site, random);
   constexpr double tracks = 2.6;
-  const auto [x, t] =
-      places.next({excavator_reach + clear_of_path + 1, site.fence - excavator_reach}, tracks);
+  const auto [x, t] = places.next({excavator_reach + 4, site.fence - excavator_reach}, tracks);
   return {.x = x,
           .t = t,
           .yaw = random.uniform(0, 2 * std::numbers::pi),
           .swing = random.uniform(0, 2 * std::numbers::pi),
           .turn = random.uniform(0.25, 0.6)};
+}
+
+// Between the haul road and the pit.
+Traffic draw_workers(const Site& site, std::vector<Stop> route, Random& random) {
+  Traffic workers(std::move(route));
+  for (int i = 0; i < 5; ++i) {
+    const double t = site.pit_side * random.uniform(3.9, 4.6);
+    const double speed = (random.chance(0.5) ? 1 : -1) * random.uniform(0.8, 1.8);
+    workers.join({.kind = RoadUser::person,
+                  .at = along([path = site.path](double x) { return path.at(x); }, t,
+                              random.uniform(-40, 40), speed),
+                  .look = random.bits()});
+  }
+  return workers;
+}
+
+void add_excavator_at_work(Mesh& mesh, const Ground& ground, const WindingPath& path,
+                           const Digging& digging, int stop) {
+  constexpr double tracks_length = 3.6;
+  constexpr double tracks_width = 2.2;
+  const double y = path.y(digging.x) + digging.t;
+  add_excavator(
+      mesh, frame_on_wheels(ground, digging.x, y, digging.yaw, tracks_length, tracks_width),
+      {.swing = digging.swing + stop * digging.turn, .boom = 0.55 + 0.25 * std::sin(1.3 * stop)});
 }
 
 }  // namespace
@@ -286,23 +291,15 @@ Landscape construction_site(std::uint64_t seed) {
   Ground ground = make_site(site);
   std::vector<Stop> route = wander_along([&](double x) { return site.path.at(x); }, random);
   const Digging digging = draw_digging(site, random);
-  std::vector<Walker> workers = draw_walkers(4, {.x = {-40, 40}, .from_path = {3.5, 4.5}}, random);
-  for (Walker& worker : workers) worker.t = site.pit_side * std::abs(worker.t);  // off the trench
+  Traffic workers = draw_workers(site, route, random);
   const WindingPath path = site.path;
   return {.ground = std::move(ground),
           .route = std::move(route),
           .furnish = [site, random](const Ground& on) { return furnish_site(site, on, random); },
           .moving =
               [path, digging, workers = std::move(workers)](const Ground& on, int stop) {
-                Mesh mesh;
-                add_walkers(mesh, on, path, workers, stop);
-                constexpr double tracks_length = 3.6;
-                constexpr double tracks_width = 2.2;
-                add_excavator(mesh,
-                              frame_on_wheels(on, digging.x, path.y(digging.x) + digging.t,
-                                              digging.yaw, tracks_length, tracks_width),
-                              {.swing = digging.swing + stop * digging.turn,
-                               .boom = 0.55 + 0.25 * std::sin(1.3 * stop)});
+                Mesh mesh = workers.at(on, stop);
+                add_excavator_at_work(mesh, on, path, digging, stop);
                 return mesh;
               }};
 }

@@ -10,14 +10,16 @@
 #include <utility>
 #include <vector>
 
-#include "sim/car.hpp"
-#include "sim/guard_rail.hpp"
+#include "sim/barrier.hpp"
+#include "sim/dam_edges.hpp"
+#include "sim/ground_plan.hpp"
 #include "sim/open_land.hpp"
 #include "sim/plants.hpp"
 #include "sim/road_edge.hpp"
 #include "sim/scenes/scenes.hpp"
 #include "sim/shapes.hpp"
-#include "sim/walker.hpp"
+#include "sim/street_furniture.hpp"
+#include "sim/traffic.hpp"
 #include "sim/waves.hpp"
 #include "sim/wild_plants.hpp"
 
@@ -34,11 +36,6 @@ constexpr double level_land = 20;  // from here outward the land waves, metres f
 constexpr Surface asphalt{.semantic = SemanticClass::road, .reflectivity = 0.2F};
 constexpr Surface marking{.semantic = SemanticClass::lane_marking, .reflectivity = 0.6F};
 constexpr Surface gravel{.semantic = SemanticClass::other_ground, .reflectivity = 0.32F};
-constexpr Surface grass{.semantic = SemanticClass::terrain, .reflectivity = 0.4F};
-constexpr Surface water{
-    .semantic = SemanticClass::other_ground, .reflectivity = 0.04F, .mirror = 0.9F};
-// Walls that hold the land are no ground, though they belong to its surface.
-constexpr Surface masonry{.semantic = SemanticClass::other_structure, .reflectivity = 0.35F};
 constexpr Surface concrete{.semantic = SemanticClass::other_structure, .reflectivity = 0.4F};
 
 // What stands along a block of the dam's side.
@@ -49,77 +46,13 @@ struct Block {
   Furnished furnished;
 };
 
-// The measures that the seed draws.
-struct Measures {
-  double dam = 3;          // how much lower the land lies beside the dam, metres
-  double run = 1.7;        // metres out for a metre down or up
-  double drop = 2;         // of the retaining wall below the road, metres
-  double cut = 3;          // how much higher the land lies beside the cutting
-  double ditch = 0.8;      // depth, metres
-  double bottom = 0.8;     // width of its flat bottom, metres
-  double cut_ditch = 0.5;  // depth of the one below the cutting, metres
-  bool wet = false;        // is there water in the dam's ditch?
-};
-
-std::vector<EdgeKind> dam_kinds(const Measures& with) {
-  const double foot = with.run * with.dam;
-  const double berm = foot + 0.8;
-  const double bottom = berm + 0.7 * with.ditch;
-  const double up = bottom + with.bottom;
-  constexpr double face = 0.06;  // leans back, so that the ground stays a function of x and y
-  const double below_wall = with.dam - with.drop;
-  return {
-      {.corners = {{0, 0}, {foot, -with.dam}}, .slopes = {{"dam down", 0, 1}}, .surface = grass},
-      {.corners = {{0, 0},
-                   {foot, -with.dam},
-                   {berm, -with.dam},
-                   {bottom, -with.dam - with.ditch},
-                   {up, -with.dam - with.ditch},
-                   {up + 0.7 * with.ditch, -with.dam}},
-       .slopes = {{"dam down", 0, 1}, {"ditch down", 2, 3}, {"ditch up again", 4, 5}},
-       .surface = grass,
-       .between = {grass, grass, grass, with.wet ? water : grass, grass}},
-      {.corners = {{0, 0},
-                   {face, -with.drop},
-                   {1.5, -with.drop},
-                   {1.5 + with.run * below_wall, -with.dam}},
-       .slopes = {{"retaining wall down", 0, 1}},
-       .surface = grass,
-       .between = {masonry, grass, grass}}};
-}
-
-std::vector<EdgeKind> cutting_kinds(const Measures& with) {
-  const double side = 1.2 * with.cut_ditch;
-  const double bottom = side + 0.5;
-  const double foot = bottom + side;
-  constexpr double wall = 1;  // metres
-  constexpr double face = 0.05;
-  return {{.corners = {{0, 0},
-                       {side, -with.cut_ditch},
-                       {bottom, -with.cut_ditch},
-                       {foot, 0},
-                       {foot + with.run * with.cut, with.cut}},
-           .slopes = {{"ditch down", 0, 1}, {"cutting up", 3, 4}},
-           .surface = grass},
-          {.corners = {{0, 0},
-                       {side, -with.cut_ditch},
-                       {bottom, -with.cut_ditch},
-                       {foot, 0},
-                       {foot + face, wall},
-                       {foot + 1, wall},
-                       {foot + 1 + with.run * (with.cut - wall), with.cut}},
-           .slopes = {{"ditch down", 0, 1}, {"retaining wall up", 3, 4}},
-           .surface = grass,
-           .between = {grass, grass, grass, masonry, grass, grass}}};
-}
-
 // The road runs straight along x; t = y is measured to the left of its centre line.
 struct Road {
   double half_road = 4.4;  // of the asphalt, metres
   double shoulder = 1.5;
   double grade = 0, cross_fall = 0;
   double dam_side = -1;  // +1: the dam's slope lies to the left, the cutting to the right
-  Measures measures;
+  DamMeasures measures;
   std::array<std::vector<EdgeKind>, 2> kinds;  // of the dam and of the cutting
   std::array<EdgeRow, 2> edges;
   std::vector<Furnished> furnished;  // the dam's side, block by block
@@ -161,7 +94,7 @@ std::shared_ptr<const Road> draw_road(Random& random) {
   road->grade = random.uniform(-0.025, 0.025);
   road->cross_fall = random.uniform(-0.025, 0.025);
   road->dam_side = random.chance(0.5) ? 1 : -1;
-  Measures& measures = road->measures;
+  DamMeasures& measures = road->measures;
   measures.dam = random.uniform(2, 4);
   measures.run = random.uniform(1.5, 2);
   measures.drop = random.uniform(1, std::min(3.0, measures.dam));
@@ -200,12 +133,15 @@ Ground make_road(const Road& road) {
   for (const double sign : {-1.0, 1.0}) {
     for (const double out : road.side(sign).corner_lines()) across.push_back(sign * out);
   }
-  std::vector<double> along = lines_in_bands(-half_length, std::array{LineBand{half_length, 1}});
-  return make_land(
-      merged_lines(std::move(along), road.side(1).blend_lines()),
-      merged_lines(std::move(across), {}), [](double) { return 0.0; },
-      [&](double x, double t) { return road.height(x, t); },
-      [&](double x, double t) { return road.surface(x, t); });
+  finish_lines(across);
+  std::vector<double> lengthwise = road.side(1).blend_lines();
+  add_lines(lengthwise, -half_length, half_length, 1);
+  finish_lines(lengthwise);
+  return cut_ground({.x = std::move(lengthwise),
+                     .t = std::move(across),
+                     .offset = [](double) { return 0.0; },
+                     .height = [&](double x, double t) { return road.height(x, t); },
+                     .surface = [&](double x, double t) { return road.surface(x, t); }});
 }
 
 // A pipe through the dam, with a head wall at its foot.
@@ -232,7 +168,9 @@ void furnish_dam(Mesh& mesh, const Road& road, const Ground& ground) {
     if (end > half_length || begin < -half_length) continue;
     const double y = road.dam_side * (road.edge() - 0.45);
     if (road.furnished[block] == Furnished::railed) {
-      add_guard_rail(mesh, ground, {.x0 = begin, .y0 = y, .x1 = end, .y1 = y});
+      add_guard_rail(mesh, y, {begin, end}, [&](double x, double t, double z) {
+        return Vector3{x, t, ground.height(x, t) + z};
+      });
     } else if (road.furnished[block] == Furnished::culvert) {
       add_culvert(mesh, road, ground, (begin + end) / 2);
     }
@@ -244,7 +182,8 @@ Mesh furnish_embankment(const Road& road, const Ground& ground, Random random) {
   furnish_dam(mesh, road, ground);
   for (double x = -100 + random.uniform(0, 12); x < 100; x += 12.5) {
     for (const double side : {-1.0, 1.0}) {
-      add_delineator(mesh, ground, x, side * (road.half_road + 0.5));
+      const double y = side * (road.half_road + 0.5);
+      add_delineator(mesh, upright_frame({x, y, ground.height(x, y)}, 0));
     }
   }
   const WindingPath centre;
@@ -270,33 +209,17 @@ Mesh furnish_embankment(const Road& road, const Ground& ground, Random random) {
   return mesh;
 }
 
-// A car that comes towards the sensor.
-struct Oncoming {
-  double x = 0, speed = 0;  // at stop 0, metres; metres a second along -x
-  std::uint64_t look = 0;
-};
-
-std::vector<Oncoming> draw_traffic(Random& random) {
-  std::vector<Oncoming> cars;
-  const double speed = random.uniform(9, 14);  // nobody overtakes
-  for (double x = -40; x < 190; x += random.uniform(14, 45)) {
-    cars.push_back({.x = x, .speed = speed, .look = random.bits()});
-  }
-  return cars;
-}
-
-Mesh traffic_at(const std::vector<Oncoming>& cars, double lane, const Ground& ground, int stop) {
+// Cars that come towards the sensor.
+Traffic draw_traffic(double lane, std::vector<Stop> route, Random& random) {
+  Traffic traffic(std::move(route));
   constexpr double end_of_road = half_length - 5;
-  constexpr double wheelbase = 2.6;
-  constexpr double track = 1.5;
-  Mesh mesh;
-  for (const Oncoming& car : cars) {
-    const double x = car.x - stop * seconds_between_stops * car.speed;
-    if (std::abs(x) > end_of_road) continue;
-    Random look(car.look);
-    add_car(mesh, frame_on_wheels(ground, x, lane, std::numbers::pi, wheelbase, track), look);
-  }
-  return mesh;
+  traffic.fill(
+      {.path = [lane](double x) { return Stop{.x = x, .y = lane, .yaw = 0}; },
+       .speed = -random.uniform(9, 14),
+       .x = {-end_of_road, end_of_road},
+       .gap = {10, 45}},
+      [](Random&) { return RoadUser::car; }, random);
+  return traffic;
 }
 
 }  // namespace
@@ -309,14 +232,14 @@ Landscape embankment(std::uint64_t seed) {
       wander_along([&](double x) { return Stop{.x = x, .y = -lane, .yaw = 0}; }, random);
   std::vector<GroundStep> known = road->side(-1).steps(-1);
   std::ranges::copy(road->side(1).steps(1), std::back_inserter(known));
-  std::vector<Oncoming> traffic = draw_traffic(random);
+  Traffic traffic = draw_traffic(lane, route, random);
   return {
       .ground = make_road(*road),
       .route = std::move(route),
       .furnish = [road, random](const Ground& on) { return furnish_embankment(*road, on, random); },
       .steps = std::move(known),
-      .moving = [lane, traffic = std::move(traffic)](
-                    const Ground& on, int stop) { return traffic_at(traffic, lane, on, stop); }};
+      .moving = [traffic = std::move(traffic)](const Ground& on,
+                                               int stop) { return traffic.at(on, stop); }};
 }
 
 }  // namespace flagstone::sim

@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "sim/ground_plan.hpp"
 #include "sim/open_land.hpp"
 #include "sim/plants.hpp"
 #include "sim/scenes/scenes.hpp"
-#include "sim/walker.hpp"
+#include "sim/traffic.hpp"
 #include "sim/waves.hpp"
 #include "sim/wild_plants.hpp"
 
@@ -108,14 +109,14 @@ Track draw_track(Random& random) {
 }
 
 Ground make_track(const Track& track) {
-  return make_land(
-      lines_in_bands(-half_length, std::array{LineBand{-55, 0.8}, LineBand{55, 0.22},
-                                              LineBand{half_length, 0.8}}),
-      mirrored_lines(std::array{LineBand{0.4, 0.2}, LineBand{1.2, 0.1}, LineBand{3.2, 0.2},
-                                LineBand{14, 0.5}, LineBand{half_width, 1.5}}),
-      [&](double x) { return track.path.y(x); },
-      [&](double x, double t) { return track.height(x, t); },
-      [&](double x, double t) { return track.surface(x, t); });
+  return cut_ground(
+      {.x = lines_in_bands(-half_length, std::array{LineBand{-55, 0.8}, LineBand{55, 0.22},
+                                                    LineBand{half_length, 0.8}}),
+       .t = mirrored_lines(std::array{LineBand{0.4, 0.2}, LineBand{1.2, 0.1}, LineBand{3.2, 0.2},
+                                      LineBand{14, 0.5}, LineBand{half_width, 1.5}}),
+       .offset = [&](double x) { return track.path.y(x); },
+       .height = [&](double x, double t) { return track.height(x, t); },
+       .surface = [&](double x, double t) { return track.surface(x, t); }});
 }
 
 Mesh furnish_forest(const Track& track, const Ground& ground, Random random) {
@@ -145,6 +146,20 @@ Mesh furnish_forest(const Track& track, const Ground& ground, Random random) {
   return mesh;
 }
 
+// Beside the track.
+Traffic draw_walkers(const WindingPath& path, std::vector<Stop> route, Random& random) {
+  Traffic walkers(std::move(route));
+  for (int i = 0; i < 3; ++i) {
+    const double t = (random.chance(0.5) ? 1 : -1) * random.uniform(4.3, 6);
+    const double speed = (random.chance(0.5) ? 1 : -1) * random.uniform(0.8, 1.8);
+    walkers.join(
+        {.kind = RoadUser::person,
+         .at = along([path](double x) { return path.at(x); }, t, random.uniform(-40, 40), speed),
+         .look = random.bits()});
+  }
+  return walkers;
+}
+
 }  // namespace
 
 Landscape forest_track(std::uint64_t seed) {
@@ -152,19 +167,13 @@ Landscape forest_track(std::uint64_t seed) {
   Track track = draw_track(random);
   Ground ground = make_track(track);
   std::vector<Stop> route = wander_along([&](double x) { return track.path.at(x); }, random);
-  std::vector<Walker> walkers =
-      draw_walkers(2, {.x = {-40, 40}, .from_path = {3.8, 6}}, random);  // off the track
-  const WindingPath path = track.path;
+  Traffic walkers = draw_walkers(track.path, route, random);
   return {.ground = std::move(ground),
           .route = std::move(route),
           .furnish = [track = std::move(track),
                       random](const Ground& on) { return furnish_forest(track, on, random); },
-          .moving =
-              [path, walkers = std::move(walkers)](const Ground& on, int stop) {
-                Mesh mesh;
-                add_walkers(mesh, on, path, walkers, stop);
-                return mesh;
-              }};
+          .moving = [walkers = std::move(walkers)](const Ground& on,
+                                                   int stop) { return walkers.at(on, stop); }};
 }
 
 }  // namespace flagstone::sim

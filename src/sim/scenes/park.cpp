@@ -7,13 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "sim/ground_plan.hpp"
 #include "sim/open_land.hpp"
-#include "sim/park_furniture.hpp"
 #include "sim/person.hpp"
 #include "sim/plants.hpp"
 #include "sim/scenes/scenes.hpp"
 #include "sim/street_furniture.hpp"
-#include "sim/walker.hpp"
+#include "sim/town_furniture.hpp"
+#include "sim/traffic.hpp"
 #include "sim/waves.hpp"
 #include "sim/wild_plants.hpp"
 
@@ -101,14 +102,16 @@ Ground make_park(const Park& park) {
   const double edge = park.path_half_width;
   std::vector<double> across = mirrored_lines(std::array{
       LineBand{edge, 0.25}, LineBand{edge + 3, 0.3}, LineBand{30, 0.6}, LineBand{half_width, 1.5}});
-  const std::array foot_path{park.foot_path - Park::foot_path_half_width,
-                             park.foot_path + Park::foot_path_half_width};
-  return make_land(
-      lines_in_bands(-half_length,
-                     std::array{LineBand{-60, 1}, LineBand{60, 0.4}, LineBand{half_length, 1}}),
-      merged_lines(std::move(across), foot_path), [&](double x) { return park.path.y(x); },
-      [&](double x, double t) { return park.height(x, t); },
-      [&](double x, double t) { return park.surface(x, t); });
+  across.push_back(park.foot_path - Park::foot_path_half_width);
+  across.push_back(park.foot_path + Park::foot_path_half_width);
+  finish_lines(across);
+  return cut_ground(
+      {.x = lines_in_bands(
+           -half_length, std::array{LineBand{-60, 1}, LineBand{60, 0.4}, LineBand{half_length, 1}}),
+       .t = std::move(across),
+       .offset = [&](double x) { return park.path.y(x); },
+       .height = [&](double x, double t) { return park.height(x, t); },
+       .surface = [&](double x, double t) { return park.surface(x, t); }});
 }
 
 // Meadows that nobody mows: some patches of high grass that touch each other.
@@ -150,8 +153,7 @@ void put_up_furniture(Mesh& mesh, const Park& park, const Ground& ground, Random
   for (double x = -60 + random.uniform(0, 10); x < 60; x += random.uniform(12, 22)) {
     const double side = random.chance(0.5) ? 1 : -1;
     add_bench(mesh, stand(x, side * (park.path_half_width + 0.7)));
-    if (random.chance(0.6))
-      add_litter_bin(mesh, stand(x + 1.6, side * (park.path_half_width + 0.6)));
+    if (random.chance(0.6)) add_bin(mesh, stand(x + 1.6, side * (park.path_half_width + 0.6)));
     if (random.chance(0.4))
       add_person(mesh, stand(x + 0.5, side * (park.path_half_width + 2.2)), random);
   }
@@ -177,9 +179,17 @@ Mesh furnish_park(const Park& park, const Ground& ground, Random random) {
 }
 
 // On the foot path.
-std::vector<Walker> draw_park_walkers(const Park& park, Random& random) {
-  std::vector<Walker> walkers = draw_walkers(9, {.x = {-55, 55}, .from_path = {0, 0}}, random);
-  for (Walker& walker : walkers) walker.t = park.foot_path + random.uniform(-0.6, 0.6);
+Traffic draw_walkers(const Park& park, std::vector<Stop> route, Random& random) {
+  Traffic walkers(std::move(route));
+  const WindingPath path = park.path;
+  for (int i = 0; i < 9; ++i) {
+    const double t = park.foot_path + random.uniform(-0.6, 0.6);
+    const double speed = (random.chance(0.5) ? 1 : -1) * random.uniform(0.8, 1.8);
+    walkers.join(
+        {.kind = RoadUser::person,
+         .at = along([path](double x) { return path.at(x); }, t, random.uniform(-55, 55), speed),
+         .look = random.bits()});
+  }
   return walkers;
 }
 
@@ -190,18 +200,13 @@ Landscape park(std::uint64_t seed) {
   Park park = draw_park(random);
   Ground ground = make_park(park);
   std::vector<Stop> route = wander_along([&](double x) { return park.path.at(x); }, random);
-  std::vector<Walker> walkers = draw_park_walkers(park, random);
-  const WindingPath path = park.path;
+  Traffic walkers = draw_walkers(park, route, random);
   return {.ground = std::move(ground),
           .route = std::move(route),
           .furnish = [park = std::move(park),
                       random](const Ground& on) { return furnish_park(park, on, random); },
-          .moving =
-              [path, walkers = std::move(walkers)](const Ground& on, int stop) {
-                Mesh mesh;
-                add_walkers(mesh, on, path, walkers, stop);
-                return mesh;
-              }};
+          .moving = [walkers = std::move(walkers)](const Ground& on,
+                                                   int stop) { return walkers.at(on, stop); }};
 }
 
 }  // namespace flagstone::sim

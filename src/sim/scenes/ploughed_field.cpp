@@ -8,11 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "sim/ground_plan.hpp"
 #include "sim/machines.hpp"
 #include "sim/open_land.hpp"
 #include "sim/plants.hpp"
 #include "sim/scenes/scenes.hpp"
-#include "sim/walker.hpp"
+#include "sim/traffic.hpp"
 #include "sim/waves.hpp"
 
 namespace flagstone::sim {
@@ -144,17 +145,17 @@ std::vector<double> furrow_lines(const Field& field) {
 }
 
 Ground make_field(const Field& field) {
-  std::vector<double> across;
-  for (double t = furrows_end; t < half_width; t += 1.5) {
-    across.push_back(t);
-    across.push_back(-t);
-  }
-  return make_land(
-      lines_in_bands(-half_length, std::array{LineBand{-48, 1.4}, LineBand{48, 0.45},
-                                              LineBand{half_length, 1.4}}),
-      merged_lines(std::move(across), furrow_lines(field)), [](double) { return 0.0; },
-      [&](double x, double t) { return field.height(x, t); },
-      [&](double x, double t) { return field.surface(x, t); });
+  std::vector<double> across = furrow_lines(field);
+  add_lines(across, -half_width, -furrows_end, 1.5);
+  add_lines(across, furrows_end, half_width, 1.5);
+  finish_lines(across);
+  return cut_ground(
+      {.x = lines_in_bands(-half_length, std::array{LineBand{-48, 1.4}, LineBand{48, 0.45},
+                                                    LineBand{half_length, 1.4}}),
+       .t = std::move(across),
+       .offset = [](double) { return 0.0; },
+       .height = [&](double x, double t) { return field.height(x, t); },
+       .surface = [&](double x, double t) { return field.surface(x, t); }});
 }
 
 Mesh furnish_field(const Field& field, const Ground& ground, Random random) {
@@ -214,7 +215,7 @@ Mesh tractor_at(const Ploughing& ploughing, const Ground& ground, int stop) {
   Random look(ploughing.look);
   constexpr double wheelbase = 2.4;
   constexpr double track = 1.9;
-  const double x = ploughing.x + stop * seconds_between_stops * ploughing.speed;
+  const double x = ploughing.x + stop * stop_interval * ploughing.speed;
   const double yaw = ploughing.speed < 0 ? std::numbers::pi : 0;
   add_tractor(mesh, frame_on_wheels(ground, x, ploughing.y, yaw, wheelbase, track),
               ploughing.shares, look);
