@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
                    {"--tint-patches: method surface has no zones", "--method patchwork"}),
         segmenting("HeightOutOfRange", {"--sensor-height", "101"},
                    {"sensor_height = 101", "-100 to 100 m"}),
-        segmenting("HeightNoNumber", {"--sensor-height", "tall"}, {"--sensor-height = tall"}),
+        segmenting("HeightNoNumber", {"--sensor-height", "tall"}, {"--sensor-height: tall is no number"}),
         segmenting("NoThreads", {"--threads", "0"}, {"--threads", "1 to 1024"}),
         segmenting("TooFewColumns", {"--columns", "2"}, {"--columns", "3 to 1024"}),
         segmenting("ConfigNotThere", {"--config", "nowhere.toml"}, {"nowhere.toml: cannot"}),
