@@ -28,7 +28,8 @@ std::vector<double> seed_floors(const PatchworkConfig& config) {
 
 std::optional<double> sunken_normal_z(const PatchworkConfig& config) {
   if (std::isinf(config.support_margin)) return std::nullopt;
-  return std::sin(config.uprightness.angle * std::numbers::pi / 180);
+  // In single precision, so that what mathematics libraries differ by is rounded away.
+  return static_cast<float>(std::sin(config.uprightness.angle * std::numbers::pi / 180));
 }
 
 }  // namespace flagstone::patchwork

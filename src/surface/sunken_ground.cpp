@@ -19,7 +19,8 @@ constexpr float square_size = 4;
 
 SunkenGround::SunkenGround(const SurfaceConfig& config, const SquareCells& cells)
     : cells_(&cells),
-      least_normal_z_(std::sin(config.acceptance.upright_angle * std::numbers::pi / 180)),
+      least_normal_z_(
+          static_cast<float>(std::sin(config.acceptance.upright_angle * std::numbers::pi / 180))),
       width_(static_cast<std::uint32_t>(2 * cells.extent() / square_size)) {
   const std::size_t count = std::size_t{width_} * width_;
   squares_.reserve(count);
