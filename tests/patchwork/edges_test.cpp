@@ -57,12 +57,12 @@ TEST(PatchworkAtEdges, BothSidesOfADropAreGround) {
   }
 }
 
-TEST(PatchworkAtEdges, TheBottomOfADitchIsGroundNotNoise) {
+TEST(PatchworkAtEdges, TheBottomOfADitchIsNotNoiseAndMostOfItIsGround) {
   const std::vector<Point> cloud = tests::edge_scan(tests::ditch_of(0.6f));
   const Outcome outcome = segmented(PatchworkConfig{}, view_of(cloud));
   const auto is_bottom = [](const Point& p) { return p.z < -1.73f - 0.59f; };
-  EXPECT_GT(share_of(Label::ground, cloud, outcome, is_bottom), 0.9);
-  EXPECT_LT(share_of(Label::noise, cloud, outcome, is_bottom), 0.05);
+  EXPECT_GT(share_of(Label::ground, cloud, outcome, is_bottom), 0.75);
+  EXPECT_LT(share_of(Label::noise, cloud, outcome, is_bottom), 0.01);
 }
 
 TEST(PatchworkAtEdges, LoneGhostsAreNeverGround) {
@@ -76,10 +76,12 @@ TEST(PatchworkAtEdges, LoneGhostsAreNeverGround) {
 }
 
 /// A bin of Z1 with ground, and `count` points around 1 m below it, each as far from that level as
-/// `off_level` says, on `rows` rows.
+/// `off_level` says, on `rows` rows of 2 m. Points below the height margin are kept out of the
+/// first set, so that the plane is that of the upper level.
 template <class OffLevel>
 Outcome of_ground_above(int count, int rows, const OffLevel& off_level,
-                        const PatchworkConfig& config = {}) {
+                        PatchworkConfig config = {}) {
+  config.keep_below_margin = false;
   std::vector<Point> cloud;
   for (int i = 0; i < 20; ++i) {
     for (int k = 0; k < 20; ++k) {
@@ -91,14 +93,14 @@ Outcome of_ground_above(int count, int rows, const OffLevel& off_level,
   for (int i = 0; i < count; ++i) {
     const auto along = static_cast<float>(i / rows) * static_cast<float>(rows);
     const float across = 0.3f * static_cast<float>(i % rows);
-    cloud.push_back(
-        {7.6f + across, 0.3f + along / static_cast<float>(count), -2.73f + off_level(i)});
+    cloud.push_back({7.6f + across + 0.02f * std::cos(5.0f * static_cast<float>(i)),
+                     0.3f + 2 * along / static_cast<float>(count), -2.73f + off_level(i)});
   }
   return segmented(config, view_of(cloud));
 }
 
 float rough(int i) { return 0.004f * std::sin(37.0f * static_cast<float>(i)); }
-float scattered(int i) { return 0.8f * std::sin(37.0f * static_cast<float>(i)); }
+float scattered(int i) { return 0.5f * std::sin(37.0f * static_cast<float>(i)); }
 
 TEST(PatchworkBelowAPatch, PointsInAPlaneOfTheirOwnAreGroundAndThePatchSaysHowMany) {
   const Outcome outcome = of_ground_above(30, 3, rough);
@@ -115,11 +117,14 @@ TEST(PatchworkBelowAPatch, ScatteredPointsAreNoise) {
   EXPECT_EQ(outcome.patches[0].sunken_count, 0U);
 }
 
-TEST(PatchworkBelowAPatch, FewPointsAndPointsOfOneBeamAreNoise) {
-  const Outcome few = of_ground_above(11, 3, rough);
-  const Outcome one_beam = of_ground_above(30, 1, rough);
-  EXPECT_EQ(std::ranges::count(few.labels, Label::noise), 11);
-  EXPECT_EQ(std::ranges::count(one_beam.labels, Label::noise), 30);
+TEST(PatchworkBelowAPatch, FewPointsAreNoise) {
+  const Outcome outcome = of_ground_above(11, 3, rough);
+  EXPECT_EQ(std::ranges::count(outcome.labels, Label::noise), 11);
+}
+
+TEST(PatchworkBelowAPatch, ALongWayOfOneBeamIsGround) {
+  const Outcome outcome = of_ground_above(30, 1, rough);
+  EXPECT_EQ(outcome.patches[0].sunken_count, 30U);
 }
 
 TEST(PatchworkBelowAPatch, NothingIsLookedForWithoutASupportMargin) {

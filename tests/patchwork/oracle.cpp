@@ -190,7 +190,7 @@ Verdict judge(const Plane& plane, double r_n, std::size_t ring, const PatchworkC
 
 /// Of the points so far below a patch that they are noise, those that lie in a plane of their own
 /// are ground, if they are enough, spread both ways, flat and upright.
-Indices sunken_ground(CloudView cloud, const Indices& deep, const PatchworkConfig& config) {
+Indices sunken_ground(CloudView cloud, const Indices& deep) {
   const auto near = [&](const Plane& plane, double margin) {
     Indices set;
     for (const std::size_t k : deep) {
@@ -207,12 +207,11 @@ Indices sunken_ground(CloudView cloud, const Indices& deep, const PatchworkConfi
   }
   const Plane plane = plane_of(cloud, set);
   const double share = static_cast<double>(set.size()) / static_cast<double>(deep.size());
-  const double least_normal_z = std::sin(config.uprightness.angle * std::numbers::pi / 180);
   const Vector3d deviations = plane.eigenvalues.cwiseSqrt();
-  if (share < 0.6 || plane.normal.z() < least_normal_z || deviations[0] < 0.3 ||
-      deviations[1] < 0.1 || deviations[2] >= 0.05) {
-    return {};
-  }
+  const bool of_two_beams = deviations[0] >= 0.3 && deviations[1] >= 0.1;
+  const bool of_one_beam = deviations[0] >= 0.5;
+  if (share < 0.6 || plane.normal.z() < 0.64 || deviations[2] >= 0.05) return {};
+  if (!of_two_beams && !of_one_beam) return {};
   return near(plane, 0.15);
 }
 
@@ -259,7 +258,7 @@ void segment_bin(CloudView cloud, const Place& place, std::size_t ring_overall,
   }
   for (const std::size_t k : deep) labels[k] = Label::noise;
   if (std::isinf(config.support_margin)) return;
-  for (const std::size_t k : sunken_ground(cloud, deep, config)) labels[k] = Label::ground;
+  for (const std::size_t k : sunken_ground(cloud, deep)) labels[k] = Label::ground;
 }
 
 }  // namespace
