@@ -91,7 +91,8 @@ Outcome of_ground_above(int count, int rows, const OffLevel& off_level,
     }
   }
   for (int i = 0; i < count; ++i) {
-    const auto along = static_cast<float>(i / rows) * static_cast<float>(rows);
+    const int column = i / rows;
+    const auto along = static_cast<float>(column * rows);
     const float across = 0.3f * static_cast<float>(i % rows);
     cloud.push_back({7.6f + across + 0.02f * std::cos(5.0f * static_cast<float>(i)),
                      0.3f + 2 * along / static_cast<float>(count), -2.73f + off_level(i)});

@@ -86,8 +86,8 @@ template <class OffLevel>
 std::vector<Point> rows_of(int count, const OffLevel& off_level) {
   std::vector<Point> cloud;
   for (int i = 0; i < count; ++i) {
-    const auto column = static_cast<float>(i / 3);
-    cloud.push_back({8.5f + 0.1f * column, 9 + 0.5f * static_cast<float>(i % 3),
+    const int column = i / 3;
+    cloud.push_back({8.5f + 0.1f * static_cast<float>(column), 9 + 0.5f * static_cast<float>(i % 3),
                      -3 + off_level(static_cast<float>(i))});
   }
   return cloud;
