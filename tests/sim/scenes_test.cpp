@@ -373,15 +373,32 @@ TEST(Tunnel, HasWetRoadThatMirrors) {
 }
 
 TEST(Steps, ListsRisesThatTheGroundHasFromEndToEnd) {
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const Landscape land = kind_named("steps").make(seed);
-    for (const GroundStep& step : land.steps) {
-      for (const double share : {0.001, 0.5, 0.999}) {
-        const double x = step.x_begin + share * (step.x_end - step.x_begin);
-        const double rise = land.ground.height(x, step.y_end) - land.ground.height(x, step.y_begin);
-        EXPECT_NEAR(rise, step.rise, 1e-9) << step.kind << " at " << x;
+  for (const char* const scene : {"steps", "drops"}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const Landscape land = kind_named(scene).make(seed);
+      for (const GroundStep& step : land.steps) {
+        for (const double share : {0.001, 0.5, 0.999}) {
+          const double x = step.x_begin + share * (step.x_end - step.x_begin);
+          const double rise =
+              land.ground.height(x, step.y_end) - land.ground.height(x, step.y_begin);
+          EXPECT_NEAR(rise, step.rise, 1e-9) << step.kind << " at " << x;
+        }
       }
     }
+  }
+}
+
+TEST(Drops, LeadAtLeastAMetreDownBesideTheRouteWhateverTheSeed) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Landscape land = kind_named("drops").make(seed);
+    const auto depths_beside_route = [&](double depth) {
+      return std::ranges::any_of(land.steps, [&](const GroundStep& step) {
+        return std::abs(step.rise + depth) < 1e-9 && step.x_begin < half_drive + 30 &&
+               step.x_end > -half_drive - 30;
+      });
+    };
+    for (const double depth : {1.0, 1.5, 2.0, 3.0}) EXPECT_TRUE(depths_beside_route(depth));
+    EXPECT_FALSE(depths_beside_route(0.6));
   }
 }
 
