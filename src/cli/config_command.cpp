@@ -20,10 +20,12 @@ void add_config_command(CLI::App& app, int& exit_code) {
                          "Example:  flagstone config --preset paper > mine.toml\n");
   options->add_to(*command);
   command->callback([options, &exit_code] {
-    const MethodConfig config = options->resolve();
+    MountSettings mount;
+    const MethodConfig config = options->resolve(mount);
     const std::string origin =
         options->starts_from_preset() ? fmt::format(", from preset {}", options->preset) : "";
-    fmt::print("# flagstone, method {}{}\n\n{}", options->method, origin, to_toml(config));
+    fmt::print("# flagstone, method {}{}\n\n{}{}", options->method, origin, to_toml(config),
+               to_toml(mount));
     exit_code = 0;
   });
 }

@@ -100,7 +100,7 @@ void EvalMethods::add_to(CLI::App& command) {
           "the rows CZM + ... too; may repeat")
       ->type_name("METHOD.KEY=VALUE")
       ->allow_extra_args(false);
-  add_sensor_height_option(command, sensor_height);
+  mount.add_to(command);
   command
       .add_option("--labels", labels,
                   "Labels that another program made, scored like a method: NAME.label, NAME.npy or "
@@ -119,11 +119,18 @@ void EvalMethods::add_to(CLI::App& command) {
 
 std::vector<eval::Method> EvalMethods::resolve() const {
   MethodConfig base = PatchworkConfig::preset(preset);
-  if (!config_file.empty()) apply_file(config_file, base);
+  MountSettings mount_settings;
+  bool sets_patchwork = false;
+  if (!config_file.empty()) apply_file(config_file, base, mount_settings);
   std::vector<std::pair<std::string, std::string>> own_settings;
   for (const std::string& setting : settings) {
+    if (setting.starts_with("mount.")) {
+      apply_toml(setting, fmt::format("--set {}", setting), base, mount_settings);
+      continue;
+    }
     auto [method, rest] = split_setting(setting);
     if (method == "patchwork") {
+      sets_patchwork = true;
       apply_toml(rest, fmt::format("--set {}", setting), base);
     } else {
       own_settings.emplace_back(std::move(method), std::move(rest));
@@ -137,8 +144,7 @@ std::vector<eval::Method> EvalMethods::resolve() const {
           fmt::format("--set {}.{}: {} is not among --methods", method, setting, method));
     }
   }
-  const bool are_given =
-      preset != "default" || !config_file.empty() || own_settings.size() < settings.size();
+  const bool are_given = preset != "default" || !config_file.empty() || sets_patchwork;
   if (are_given && std::ranges::none_of(evaluated, starts_from_patchwork)) {
     throw std::invalid_argument(
         "--preset, --config and --set patchwork...: are of patchwork and czm+..., and none of them "
@@ -150,8 +156,10 @@ std::vector<eval::Method> EvalMethods::resolve() const {
     for (const auto& [method, setting] : own_settings) {
       if (method == name) apply_toml(setting, fmt::format("--set {}.{}", name, setting), config);
     }
-    if (sensor_height) set_sensor_height(*sensor_height, config);
-    methods.push_back(eval::method_of(name, std::move(config)));
+    MountSettings own_mount = mount_settings;
+    mount.apply_to(config, own_mount);
+    own_mount.check();
+    methods.push_back(eval::method_of(name, std::move(config), own_mount));
   }
   for (const std::string& entry : labels) {
     methods.push_back(labels_made_elsewhere(entry, label_map));

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/mount_options.hpp"
 #include "eval/method.hpp"
 
 namespace flagstone::cli {
@@ -16,8 +16,8 @@ struct EvalMethods {
   std::vector<std::string> names = {"surface", "patchwork"};
   std::string preset = "default";
   std::string config_file{};
-  std::vector<std::string> settings{};  ///< method.key=value
-  std::optional<float> sensor_height{};
+  std::vector<std::string> settings{};  ///< method.key=value or mount.key=value
+  MountOptions mount{};
   std::vector<std::string> labels{};  ///< name=folder
   io::LabelMap label_map = io::LabelMap::flagstone;
 

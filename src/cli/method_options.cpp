@@ -30,14 +30,14 @@ void MethodOptions::add_to(CLI::App& command, std::span<const std::string_view> 
       .add_option("--set", settings, "One setting, e.g. --set elevation.enabled=false; may repeat")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  add_sensor_height_option(command, sensor_height);
+  mount.add_to(command);
 }
 
 bool MethodOptions::starts_from_preset() const {
   return method == "patchwork" || method.starts_with("czm");
 }
 
-MethodConfig MethodOptions::resolve() const {
+MethodConfig MethodOptions::resolve(MountSettings& mount_settings) const {
   if (!starts_from_preset() && preset != "default") {
     throw std::invalid_argument(fmt::format(
         "--preset {}: method {} has settings of its own; presets are of --method patchwork and "
@@ -45,12 +45,14 @@ MethodConfig MethodOptions::resolve() const {
         preset, method));
   }
   MethodConfig config = default_config(method, PatchworkConfig::preset(preset));
-  if (!config_file.empty()) apply_file(config_file, config);
+  mount_settings = {};
+  if (!config_file.empty()) apply_file(config_file, config, mount_settings);
   for (const std::string& setting : settings) {
-    apply_toml(setting, fmt::format("--set {}", setting), config);
+    apply_toml(setting, fmt::format("--set {}", setting), config, mount_settings);
   }
-  if (sensor_height) set_sensor_height(*sensor_height, config);
+  mount.apply_to(config, mount_settings);
   check(config);
+  mount_settings.check();
   return config;
 }
 
@@ -62,16 +64,12 @@ CLI::Option* add_preset_option(CLI::App& command, std::string& preset) {
       ->capture_default_str();
 }
 
-CLI::Option* add_sensor_height_option(CLI::App& command, std::optional<float>& height) {
-  return command.add_option("--sensor-height", height, "Height of the sensor above ground, metres")
-      ->type_name("M");
-}
-
-void apply_file(const std::string& file, MethodConfig& config) {
+void apply_file(const std::string& file, MethodConfig& config, MountSettings& mount_settings) {
   std::vector<std::byte> bytes;
   const Status status = io::load_bytes(file, bytes);
   if (!status.ok()) throw std::invalid_argument(status.message());
-  apply_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, config);
+  apply_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, config,
+             mount_settings);
 }
 
 }  // namespace flagstone::cli

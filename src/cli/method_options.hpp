@@ -3,12 +3,12 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "cli/mount_options.hpp"
 #include "flagstone/make_segmenter.hpp"
 
 namespace flagstone::cli {
@@ -19,7 +19,7 @@ struct MethodOptions {
   std::string preset = "default";
   std::string config_file;
   std::vector<std::string> settings;  ///< key=value
-  std::optional<float> sensor_height;
+  MountOptions mount;
 
   /// Adds the options to a command that runs any of these methods.
   void add_to(CLI::App& command, std::span<const std::string_view> names = method_names());
@@ -27,19 +27,17 @@ struct MethodOptions {
   /// Do the method's settings start from a preset of Patchwork?
   [[nodiscard]] bool starts_from_preset() const;
 
-  /// The settings they come to: preset, then file, then --set, then --sensor-height; checked.
-  /// Throws std::invalid_argument with one line that says what is wrong.
-  [[nodiscard]] MethodConfig resolve() const;
+  /// The settings they come to: preset, then file, then --set, then --sensor-height and --tilt;
+  /// checked. How the sensor stands is written to `mount_settings`. Throws std::invalid_argument
+  /// with one line that says what is wrong.
+  [[nodiscard]] MethodConfig resolve(MountSettings& mount_settings) const;
 };
 
 /// Adds --preset to a command: which of Patchwork's presets to start from.
 CLI::Option* add_preset_option(CLI::App& command, std::string& preset);
 
-/// Adds --sensor-height to a command.
-CLI::Option* add_sensor_height_option(CLI::App& command, std::optional<float>& height);
-
 /// Overwrites the settings that a TOML file names. Throws std::invalid_argument with one line that
 /// says what is wrong.
-void apply_file(const std::string& file, MethodConfig& config);
+void apply_file(const std::string& file, MethodConfig& config, MountSettings& mount_settings);
 
 }  // namespace flagstone::cli

@@ -122,7 +122,8 @@ TEST(EvalMethods, TheAblationHasTheTermsThatItsNameListsWhateverPatchworkHas) {
 
 TEST(EvalMethods, TheSensorsHeightReachesEveryMethodThatHasOne) {
   std::vector<std::string> without;
-  for (eval::Method& method : EvalMethods{.names = {"all"}, .sensor_height = 1.25f}.resolve()) {
+  for (eval::Method& method :
+       EvalMethods{.names = {"all"}, .mount = {.sensor_height = 1.25f}}.resolve()) {
     const auto settings = settings_of(method.config.value());
     const auto height = std::ranges::find(settings, "sensor_height", &Setting::key);
     if (height == settings.end()) {
