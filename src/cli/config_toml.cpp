@@ -7,16 +7,20 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "baselines/settings.hpp"
 #include "io/message.hpp"
+#include "mount/mount_settings.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -36,10 +40,52 @@ std::string toml_text(const std::vector<float>& values) {
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
+std::string toml_text(const std::array<float, 3>& v) {
+  return toml_text(std::vector<float>(v.begin(), v.end()));
+}
+
+std::string value_text(const Setting& setting) {
+  if (const auto* choice = std::get_if<Choice>(&setting.value)) {
+    return fmt::format("\"{}\"", choice->names()[choice->index()]);
+  }
+  return std::visit(
+      [](const auto& value) {
+        if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(value)>>) {
+          return toml_text(*value);
+        }
+        return std::string();
+      },
+      setting.value);
+}
+
+std::string names_of(const Choice& choice) {
+  return fmt::format("\"{}\"", fmt::join(choice.names(), "\", \""));
+}
+
 std::string comment_of(const Setting& setting) {
+  if (const auto* choice = std::get_if<Choice>(&setting.value)) {
+    return fmt::format("{}; {}", setting.meaning, names_of(*choice));
+  }
   const bool is_flag = std::holds_alternative<bool*>(setting.value);
   return is_flag ? std::string(setting.meaning)
                  : fmt::format("{}; {}", setting.meaning, to_string(setting.allowed));
+}
+
+/// One line for each setting, in tables.
+std::string settings_text(const std::vector<Setting>& settings) {
+  std::string text;
+  std::string_view section;
+  for (const Setting& setting : settings) {
+    const std::size_t dot = setting.key.find('.');
+    const std::string_view own_section =
+        dot == std::string_view::npos ? std::string_view() : setting.key.substr(0, dot);
+    if (own_section != section) text += fmt::format("\n[{}]\n", own_section);
+    section = own_section;
+    const std::string_view name =
+        dot == std::string_view::npos ? setting.key : setting.key.substr(dot + 1);
+    text += fmt::format("{} = {}  # {}\n", name, value_text(setting), comment_of(setting));
+  }
+  return text;
 }
 
 std::string zones_text(const std::vector<Zone>& zones) {
@@ -104,6 +150,38 @@ void assign(const toml::node& node, const std::string& key, const Place& place,
   if (array == nullptr) place.refuse(key + " is an array of numbers, not a " + type_name(node));
   values.clear();
   for (const toml::node& element : *array) assign(element, key, place, values.emplace_back());
+}
+
+void assign(const toml::node& node, const std::string& key, const Place& place,
+            std::array<float, 3>& values) {
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != values.size()) {
+    place.refuse(key + " is an array of three numbers");
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) assign((*array)[i], key, place, values[i]);
+}
+
+void assign(const toml::node& node, const std::string& key, const Place& place,
+            const Choice& choice) {
+  const auto name = node.value_exact<std::string>();
+  const auto found = name ? std::ranges::find(choice.names(), *name) : choice.names().end();
+  if (found == choice.names().end()) {
+    place.refuse(fmt::format("{} is one of {}", key, names_of(choice)));
+  }
+  choice.choose(static_cast<std::size_t>(found - choice.names().begin()));
+}
+
+void assign(const toml::node& node, const Place& place, const Setting& setting) {
+  const std::string key(setting.key);
+  std::visit(
+      [&](const auto& value) {
+        if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(value)>>) {
+          assign(node, key, place, *value);
+        } else {
+          assign(node, key, place, value);
+        }
+      },
+      setting.value);
 }
 
 Zone zone_of(const toml::node& node, const std::string& name, std::string_view source) {
@@ -178,7 +256,7 @@ void apply_table(const toml::table& table, const std::string& prefix, std::strin
     } else if (full == "zones" && zones != nullptr) {
       assign_zones(node, source, *zones);
     } else if (setting != settings.end()) {
-      std::visit([&](auto* value) { assign(node, full, place, *value); }, setting->value);
+      assign(node, place, *setting);
     } else if (is_known(full, settings) && node.is_table()) {
       apply_table(*node.as_table(), full + ".", source, settings, zones);
     } else {
@@ -204,30 +282,24 @@ void apply_text(std::string_view text, std::string_view source,
 }  // namespace
 
 std::string to_toml(MethodConfig config) {
-  std::string text;
-  std::string_view section;
-  for (const Setting& setting : settings_of(config)) {
-    const std::size_t dot = setting.key.find('.');
-    const std::string_view own_section =
-        dot == std::string_view::npos ? std::string_view() : setting.key.substr(0, dot);
-    if (own_section != section) text += fmt::format("\n[{}]\n", own_section);
-    section = own_section;
-    const std::string_view name =
-        dot == std::string_view::npos ? setting.key : setting.key.substr(dot + 1);
-    const std::string value =
-        std::visit([](const auto* pointer) { return toml_text(*pointer); }, setting.value);
-    text += fmt::format("{} = {}  # {}\n", name, value, comment_of(setting));
-  }
+  const std::string text = settings_text(settings_of(config));
   const auto* patchwork = std::get_if<PatchworkConfig>(&config);
   return patchwork == nullptr ? text : text + zones_text(patchwork->zones);
 }
 
+std::string to_toml(MountSettings mount) { return settings_text(settings_of(mount)); }
+
+void apply_toml(std::string_view text, std::string_view source, MethodConfig& config,
+                MountSettings& mount) {
+  auto* patchwork = std::get_if<PatchworkConfig>(&config);
+  std::vector<Setting> settings = settings_of(config);
+  std::ranges::move(settings_of(mount), std::back_inserter(settings));
+  apply_text(text, source, settings, patchwork == nullptr ? nullptr : &patchwork->zones);
+}
+
 void apply_toml(std::string_view text, std::string_view source, MethodConfig& config) {
-  if (auto* patchwork = std::get_if<PatchworkConfig>(&config)) {
-    apply_text(text, source, settings_of(*patchwork), &patchwork->zones);
-  } else {
-    apply_text(text, source, settings_of(config), nullptr);
-  }
+  auto* patchwork = std::get_if<PatchworkConfig>(&config);
+  apply_text(text, source, settings_of(config), patchwork == nullptr ? nullptr : &patchwork->zones);
 }
 
 void apply_toml(std::string_view text, std::string_view source, PatchworkConfig& config) {

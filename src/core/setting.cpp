@@ -29,11 +29,20 @@ struct Check {
     check_number(method, setting.key, *value, setting.allowed);
   }
   void operator()(const std::vector<float>* values) const {
-    const std::string key(setting.key);
-    check_number(method, "length of " + key, static_cast<double>(values->size()),
-                 {.low = 1, .high = 1000});
-    for (std::size_t i = 0; i < values->size(); ++i) {
-      check_number(method, key + "[" + std::to_string(i) + "]", (*values)[i], setting.allowed);
+    check_number(method, "length of " + std::string(setting.key),
+                 static_cast<double>(values->size()), {.low = 1, .high = 1000});
+    check_each(*values);
+  }
+  void operator()(const std::array<float, 3>* values) const { check_each(*values); }
+  void operator()(const Choice& choice) const {
+    if (choice.index() < choice.names().size()) return;
+    refuse_setting(method, setting.key, static_cast<double>(choice.index()), "one of its names");
+  }
+
+  void check_each(std::span<const float> values) const {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      check_number(method, std::string(setting.key) + "[" + std::to_string(i) + "]", values[i],
+                   setting.allowed);
     }
   }
 };

@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -22,14 +27,33 @@ struct Allowed {
 /// "0 to 100 m", "above 0, up to 100 m, or inf for none".
 std::string to_string(const Allowed& allowed);
 
+/// A setting that is one of a few names: an enumeration of std::uint8_t that counts them from 0.
+class Choice {
+ public:
+  template <class Enumeration>
+    requires std::is_enum_v<Enumeration> &&
+                 std::is_same_v<std::underlying_type_t<Enumeration>, std::uint8_t>
+  Choice(Enumeration& value, std::span<const std::string_view> names) noexcept
+      : value_(reinterpret_cast<unsigned char*>(&value)), names_(names) {}
+
+  [[nodiscard]] std::span<const std::string_view> names() const noexcept { return names_; }
+  [[nodiscard]] std::size_t index() const noexcept { return *value_; }
+  /// `index` is less than there are names.
+  void choose(std::size_t index) const noexcept { *value_ = static_cast<unsigned char>(index); }
+
+ private:
+  unsigned char* value_;
+  std::span<const std::string_view> names_;
+};
+
 /// One setting of a method: what it is called, where it is kept, what it means and may be. The
 /// check of a configuration, the TOML it is written as and read from, and the command line all go
 /// by a method's list of these.
 struct Setting {
   std::string_view key;  ///< dotted: "elevation.scale" is `scale` in the table `elevation`
-  std::variant<float*, int*, bool*, std::vector<float>*> value;
+  std::variant<float*, int*, bool*, std::vector<float>*, std::array<float, 3>*, Choice> value;
   std::string_view meaning;
-  Allowed allowed{};  ///< of each element where the value is a list, of 1 to 1,000 elements
+  Allowed allowed{};  ///< of each element of a list, which has 1 to 1,000, or of a vector
 };
 
 /// Throws std::invalid_argument "METHOD: KEY = VALUE is out of range; allowed: ..." for the first

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/own_floating_point.hpp"
+#include "flagstone/mount.hpp"
+#include "mount/agreement.hpp"
+#include "mount/expected_mount.hpp"
+#include "mount/ground_plane.hpp"
+#include "mount/near_points.hpp"
+#include "mount/vectors.hpp"
+
+namespace flagstone {
+
+using mount::Agreement;
+using mount::AgreementCount;
+using mount::degrees_between;
+using mount::GroundPlane;
+using mount::NearPoint;
+using mount::NearPoints;
+using mount::PlaneSearch;
+using mount::Turn;
+using mount::turn_to_z;
+
+namespace {
+
+/// Fewer places with a point do not make a ground.
+constexpr std::size_t fewest_points = 40;
+
+/// Directions of sixteen: ground in so many surrounds the sensor, in so few lies on one side of it.
+constexpr int all_round = 8;
+constexpr int narrow = 4;
+
+MountSettings checked(const MountSettings& settings) {
+  settings.check();
+  return settings;
+}
+
+}  // namespace
+
+/// Points near the vehicle, a plane through them, what they say of that plane.
+struct MountEstimator::Workings {
+  explicit Workings(const MountSettings& given)
+      : settings(checked(given)),
+        looks_for_tilt(settings.tilt == TiltSource::estimate),
+        expected(mount::expected_mount(settings)),
+        level(turn_to_z(expected.up)),
+        near(settings.limits, looks_for_tilt),
+        search(settings.limits, looks_for_tilt),
+        agreement(settings.limits) {}
+
+  MountDecision estimate(CloudView cloud) noexcept;
+  void take_plane(const GroundPlane& plane, const Agreement& agreed,
+                  MountDecision& decision) const noexcept;
+  [[nodiscard]] std::optional<MountVerdict> beyond_limits(const Mount& mount) const noexcept;
+
+  MountSettings settings;
+  bool looks_for_tilt;
+  Mount expected;
+  Turn level;  // from the cloud's frame to one with the expected up along z
+  NearPoints near;
+  PlaneSearch search;
+  AgreementCount agreement;
+};
+
+void MountEstimator::Workings::take_plane(const GroundPlane& plane, const Agreement& agreed,
+                                          MountDecision& decision) const noexcept {
+  const auto [x, y, z] = plane.up;
+  if (looks_for_tilt) {
+    decision.mount.up = mount::unit(level.undo(plane.up));
+    decision.mount.sensor_height = plane.height;
+  } else {
+    // Straight down; where ground is seen on one side only, there: nobody knows whether its slope
+    // goes on to the sensor or is the sensor's own.
+    const float off = static_cast<float>(all_round - agreed.directions) / (all_round - narrow);
+    const float to_seen = std::clamp(off, 0.0f, 1.0f);
+    decision.mount.sensor_height = (plane.height + to_seen * (x * agreed.x + y * agreed.y)) / z;
+  }
+  decision.tilt = degrees_between(decision.mount.up, {0, 0, 1});
+}
+
+std::optional<MountVerdict> MountEstimator::Workings::beyond_limits(
+    const Mount& mount) const noexcept {
+  const MountLimits& limits = settings.limits;
+  if (degrees_between(mount.up, expected.up) > limits.most_tilt) return MountVerdict::tilt_limit;
+  const bool is_within =
+      mount.sensor_height >= limits.least_height && mount.sensor_height <= limits.most_height;
+  if (!is_within) return MountVerdict::height_limit;
+  return {};
+}
+
+MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
+  const OwnFloatingPoint same_everywhere;
+  MountDecision decision;
+  decision.mount = expected;
+  decision.tilt = degrees_between(expected.up, {0, 0, 1});
+  decision.verdict = MountVerdict::too_few_points;
+  if (cloud.data() == nullptr) return decision;
+  const std::span<const NearPoint> points = near.find(cloud, expected, level);
+  decision.points = static_cast<std::uint32_t>(points.size());
+  if (points.size() < fewest_points) return decision;
+
+  decision.verdict = MountVerdict::no_level;
+  const std::optional<GroundPlane> plane = search.find(points);
+  if (!plane) return decision;
+  const Agreement agreed = agreement.of(points, *plane);
+  take_plane(*plane, agreed, decision);
+  decision.cells = agreed.cells;
+  decision.free = agreed.free;
+  decision.below = agreed.below;
+  decision.spread = agreed.spread;
+  decision.directions = agreed.directions;
+  decision.seen = agreed.seen;
+  mount::judge(decision, settings.limits.least_confidence);
+  if (const auto beyond = beyond_limits(decision.mount)) {
+    decision.verdict = *beyond;
+    decision.confidence = 0;
+  }
+  return decision;
+}
+
+MountEstimator::MountEstimator(const MountSettings& settings)
+    : workings_(std::make_unique<Workings>(settings)) {}
+MountEstimator::~MountEstimator() = default;
+MountEstimator::MountEstimator(MountEstimator&&) noexcept = default;
+MountEstimator& MountEstimator::operator=(MountEstimator&&) noexcept = default;
+
+MountDecision MountEstimator::estimate(CloudView cloud) noexcept {
+  return workings_->estimate(cloud);
+}
+
+const MountSettings& MountEstimator::settings() const noexcept { return workings_->settings; }
+
+}  // namespace flagstone

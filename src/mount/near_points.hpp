@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "flagstone/cloud_view.hpp"
+#include "flagstone/mount.hpp"
+#include "mount/vectors.hpp"
+
+namespace flagstone::mount {
+
+/// A place with a point, metres from the sensor, z along the up that is expected.
+struct NearPoint {
+  float x, y, z;
+  float weight;  ///< the nearer to the vehicle, the more it says about the ground it stands on
+};
+
+/// The points of a scan that can be ground near the vehicle: one in each of the cubes that the
+/// reach is divided into, so that places count and not the density of beams.
+class NearPoints {
+ public:
+  /// Cubes along a side; the cube that the reach fits in has 64 of them.
+  static constexpr std::size_t cubes = 64;
+  static constexpr std::size_t most = 16384;
+
+  /// Takes all its memory.
+  NearPoints(const MountLimits& limits, bool looks_for_tilt);
+
+  /// Of scale and origin of `mount` and an `up` of unit length.
+  std::span<const NearPoint> find(CloudView cloud, const Mount& mount, const Turn& level) noexcept;
+
+ private:
+  float nearest_square_;
+  float farthest_square_;
+  float cubes_a_metre_;
+  float steepest_;                    // sine of the highest elevation that ground can be seen at
+  std::vector<std::uint64_t> taken_;  // a bit for each cube
+  std::vector<NearPoint> points_;
+};
+
+}  // namespace flagstone::mount
