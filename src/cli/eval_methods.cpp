@@ -15,6 +15,7 @@
 
 #include "cli/config_toml.hpp"
 #include "cli/method_options.hpp"
+#include "cli/sensor_option.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -89,6 +90,7 @@ void EvalMethods::add_to(CLI::App& command) {
       ->type_name("LIST");
   add_preset_option(command, preset)
       ->description("Patchwork's settings to start from, for the rows CZM + ... too");
+  add_sensor_option(command, sensor);
   command
       .add_option("--config", config_file,
                   "TOML file of Patchwork's settings, as 'flagstone config' prints")
@@ -117,28 +119,59 @@ void EvalMethods::add_to(CLI::App& command) {
       ->transform(CLI::IsMember(maps));
 }
 
-std::vector<eval::Method> EvalMethods::resolve() const {
-  MethodConfig base = PatchworkConfig::preset(preset);
-  if (!config_file.empty()) apply_file(config_file, base);
-  std::vector<std::pair<std::string, std::string>> own_settings;
+std::vector<EvalMethods::OwnSetting> EvalMethods::own_settings() const {
+  std::vector<OwnSetting> all;
   for (const std::string& setting : settings) {
     auto [method, rest] = split_setting(setting);
+    refuse_sensor_in_setting(rest);
+    all.push_back({std::move(method), std::move(rest)});
+  }
+  return all;
+}
+
+PatchworkConfig EvalMethods::overlaid(PatchworkConfig patchwork) const {
+  MethodConfig config = std::move(patchwork);
+  if (!config_file.empty()) apply_file(config_file, config);
+  for (const auto& [method, setting] : own_settings()) {
     if (method == "patchwork") {
-      apply_toml(rest, fmt::format("--set {}", setting), base);
-    } else {
-      own_settings.emplace_back(std::move(method), std::move(rest));
+      apply_toml(setting, fmt::format("--set patchwork.{}", setting), config);
     }
   }
+  return std::get<PatchworkConfig>(config);
+}
 
+MethodConfig EvalMethods::settings_of(const std::string& method,
+                                      const std::optional<Sensor>& from) const {
+  const auto settings_from = [&](MethodConfig config) {
+    for (const auto& [owner, setting] : own_settings()) {
+      if (owner != method || method == "patchwork") continue;
+      apply_toml(setting, fmt::format("--set {}.{}", method, setting), config);
+    }
+    if (sensor_height) set_sensor_height(*sensor_height, config);
+    return config;
+  };
+  if (!from) {
+    return settings_from(default_config(method, overlaid(PatchworkConfig::preset(preset))));
+  }
+  return settings_at_own_height(*from, [&](const Sensor& at) {
+    return settings_from(starts_from_patchwork(method)
+                             ? default_config(method, overlaid(PatchworkConfig::for_sensor(at)))
+                             : default_config(method, at));
+  });
+}
+
+std::vector<eval::Method> EvalMethods::resolve() const {
+  const std::optional<Sensor> from = chosen_sensor(sensor, config_file, preset);
   const std::vector<std::string> evaluated = expanded(names);
-  for (const auto& [method, setting] : own_settings) {
-    if (std::ranges::find(evaluated, method) == evaluated.end()) {
+  bool sets_patchwork = false;
+  for (const auto& [method, setting] : own_settings()) {
+    sets_patchwork = sets_patchwork || method == "patchwork";
+    if (method != "patchwork" && std::ranges::find(evaluated, method) == evaluated.end()) {
       throw std::invalid_argument(
           fmt::format("--set {}.{}: {} is not among --methods", method, setting, method));
     }
   }
-  const bool are_given =
-      preset != "default" || !config_file.empty() || own_settings.size() < settings.size();
+  const bool are_given = preset != "default" || !config_file.empty() || sets_patchwork;
   if (are_given && std::ranges::none_of(evaluated, starts_from_patchwork)) {
     throw std::invalid_argument(
         "--preset, --config and --set patchwork...: are of patchwork and czm+..., and none of them "
@@ -146,12 +179,7 @@ std::vector<eval::Method> EvalMethods::resolve() const {
   }
   std::vector<eval::Method> methods;
   for (const std::string& name : evaluated) {
-    MethodConfig config = default_config(name, std::get<PatchworkConfig>(base));
-    for (const auto& [method, setting] : own_settings) {
-      if (method == name) apply_toml(setting, fmt::format("--set {}.{}", name, setting), config);
-    }
-    if (sensor_height) set_sensor_height(*sensor_height, config);
-    methods.push_back(eval::method_of(name, std::move(config)));
+    methods.push_back(eval::method_of(name, settings_of(name, from)));
   }
   for (const std::string& entry : labels) {
     methods.push_back(labels_made_elsewhere(entry, label_map));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "eval/method.hpp"
+#include "flagstone/sensor.hpp"
 
 namespace flagstone::cli {
 
@@ -15,6 +16,7 @@ namespace flagstone::cli {
 struct EvalMethods {
   std::vector<std::string> names = {"surface", "patchwork"};
   std::string preset = "default";
+  std::string sensor{};  ///< name or file; empty for none
   std::string config_file{};
   std::vector<std::string> settings{};  ///< method.key=value
   std::optional<float> sensor_height{};
@@ -27,6 +29,23 @@ struct EvalMethods {
   /// The methods in the order they are listed, each once; then those whose labels were made
   /// elsewhere. Throws std::invalid_argument with one line that says what is wrong.
   [[nodiscard]] std::vector<eval::Method> resolve() const;
+
+ private:
+  /// A setting and the method whose it is.
+  struct OwnSetting {
+    std::string method;
+    std::string text;
+  };
+
+  /// --set, by method.
+  [[nodiscard]] std::vector<OwnSetting> own_settings() const;
+
+  /// Settings of Patchwork with file and --set laid over them, for all that start from them.
+  [[nodiscard]] PatchworkConfig overlaid(PatchworkConfig config) const;
+
+  /// Settings of one method, with --set and --sensor-height laid over them. `from`: a sensor.
+  [[nodiscard]] MethodConfig settings_of(const std::string& method,
+                                         const std::optional<Sensor>& from) const;
 };
 
 }  // namespace flagstone::cli

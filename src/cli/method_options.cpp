@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cli/config_toml.hpp"
+#include "cli/sensor_option.hpp"
 #include "io/load_bytes.hpp"
 
 namespace flagstone::cli {
@@ -23,6 +24,7 @@ void MethodOptions::add_to(CLI::App& command, std::span<const std::string_view> 
       ->capture_default_str()
       ->type_name("NAME");
   add_preset_option(command, preset);
+  add_sensor_option(command, sensor);
   command
       .add_option("--config", config_file, "TOML file of settings, as 'flagstone config' prints")
       ->type_name("FILE");
@@ -44,13 +46,26 @@ MethodConfig MethodOptions::resolve() const {
         "czm+...",
         preset, method));
   }
-  MethodConfig config = default_config(method, PatchworkConfig::preset(preset));
+  const std::optional<Sensor> from = chosen_sensor();
+  MethodConfig config =
+      from ? settings_at_own_height(
+                 *from, [&](const Sensor& at) { return overlaid(default_config(method, at)); })
+           : overlaid(default_config(method, PatchworkConfig::preset(preset)));
+  check(config);
+  return config;
+}
+
+std::optional<Sensor> MethodOptions::chosen_sensor() const {
+  return cli::chosen_sensor(sensor, config_file, preset);
+}
+
+MethodConfig MethodOptions::overlaid(MethodConfig config) const {
   if (!config_file.empty()) apply_file(config_file, config);
   for (const std::string& setting : settings) {
+    refuse_sensor_in_setting(setting);
     apply_toml(setting, fmt::format("--set {}", setting), config);
   }
   if (sensor_height) set_sensor_height(*sensor_height, config);
-  check(config);
   return config;
 }
 

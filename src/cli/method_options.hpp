@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "flagstone/make_segmenter.hpp"
+#include "flagstone/sensor.hpp"
 
 namespace flagstone::cli {
 
@@ -17,6 +18,7 @@ namespace flagstone::cli {
 struct MethodOptions {
   std::string method = "surface";
   std::string preset = "default";
+  std::string sensor;  ///< name or file; empty for none
   std::string config_file;
   std::vector<std::string> settings;  ///< key=value
   std::optional<float> sensor_height;
@@ -27,9 +29,18 @@ struct MethodOptions {
   /// Do the method's settings start from a preset of Patchwork?
   [[nodiscard]] bool starts_from_preset() const;
 
-  /// The settings they come to: preset, then file, then --set, then --sensor-height; checked.
-  /// Throws std::invalid_argument with one line that says what is wrong.
+  /// The sensor that settings are derived from, by --sensor or the file, if any. Throws as
+  /// resolve() does.
+  [[nodiscard]] std::optional<Sensor> chosen_sensor() const;
+
+  /// The settings they come to: preset or sensor, then file, then --set, then --sensor-height;
+  /// checked. Those of a sensor are derived for the height they come to. Throws
+  /// std::invalid_argument with one line that says what is wrong.
   [[nodiscard]] MethodConfig resolve() const;
+
+ private:
+  /// `config` with file, --set and --sensor-height laid over it.
+  [[nodiscard]] MethodConfig overlaid(MethodConfig config) const;
 };
 
 /// Adds --preset to a command: which of Patchwork's presets to start from.
