@@ -6,7 +6,7 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test sanitize format format-check tidy growth latency primitives sharpness bench-compare \
+.PHONY: help build demo test sanitize format format-check tidy growth latency primitives sharpness edges bench-compare \
         surface-study surface-figures contact-sheet install clean
 .DEFAULT_GOAL := build
 
@@ -45,6 +45,9 @@ primitives: ## time of each step for every instruction set
 
 sharpness: ## how sharp the surface shows kerbs, ditches and drops of known shape
 	@scripts/setup build benchmark && scripts/benchmark sharpness
+
+edges: ## what methods make of the ground on both sides of kerbs, ditches and drops, and of ghosts below
+	@scripts/setup build benchmark && scripts/benchmark edges
 
 bench-compare: build ## is METHOD in the working tree slower than in REVISION, on SCANS?
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(SCANS)

@@ -105,7 +105,6 @@ enum class MountVerdict : std::uint8_t {
   height_limit,    ///< refused: the height is not within the limits
   tilt_limit,      ///< refused: the tilt is beyond the limit
   outlier,         ///< refused: too far from what scans before have told (`track`)
-  out_of_memory,   ///< refused: no memory for the points
 };
 
 /// Name of a verdict, e.g. "not_lowest".

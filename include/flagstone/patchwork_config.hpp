@@ -138,6 +138,11 @@ struct PatchworkConfig {
   /// lower bound.
   float noise_margin = 0.5f;
 
+  /// Points of a ground patch farther than this below its plane are ground where they lie in a
+  /// plane of their own, as the bottom of a ditch does, else noise; metres, above 0, up to 1,000,
+  /// or infinity for neither: then noise_margin alone decides. No more than noise_margin counts.
+  float support_margin = 0.25f;
+
   /// Plane fits a bin; the paper's and everybody's 3. 1 to 100.
   int iterations = 3;
 

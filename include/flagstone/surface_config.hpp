@@ -68,9 +68,9 @@ struct PointRule {
   float standing_height = 0.72f;
 
   /// Points farther below the surface are noise; metres, 0 to 1,000.
-  float noise_depth = 1.0f;
+  float noise_depth = 0.15f;
   /// Added to that for each metre of range; metres a metre, 0 to 10.
-  float noise_growth = 0.06f;
+  float noise_growth = 0.02f;
 };
 
 /// Settings of the method `surface`. They are the same for every sensor but for its height.

@@ -118,8 +118,8 @@ class Benchmark {
   /// Also finds what memory the first of them holds once it has seen every scan.
   std::unique_ptr<TimedSegment> segmenter(const std::string& target, TimedSegment::Stages stages) {
     const std::size_t held_before = allocation_count().bytes;
-    auto made =
-        std::make_unique<TimedSegment>(views_, settings_.config, settings_.threads, target, stages);
+    auto made = std::make_unique<TimedSegment>(views_, settings_.config, settings_.mount,
+                                               settings_.threads, target, stages);
     for (std::size_t scan = 0; scan < scans_.size() && !watch_.stop(); ++scan) made->visit(scan);
     if (!results_.bytes_held && allocations_are_counted()) {
       results_.bytes_held = allocation_count().bytes - held_before;

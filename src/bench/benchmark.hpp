@@ -17,10 +17,11 @@ namespace flagstone::bench {
 
 /// What is measured.
 struct BenchmarkSettings {
-  TimedConfig config = {};  ///< of the method that is timed
-  unsigned threads = 1;     ///< on one scan; with one, all that is timed shares one core
-  std::string target = {};  ///< instruction set; empty for the best
-  std::size_t rounds = 0;   ///< over all scans; 0 for as many as take about ten seconds
+  TimedConfig config = {};   ///< of the method that is timed
+  MountSettings mount = {};  ///< how the sensor stands; its height is the method's
+  unsigned threads = 1;      ///< on one scan; with one, all that is timed shares one core
+  std::string target = {};   ///< instruction set; empty for the best
+  std::size_t rounds = 0;    ///< over all scans; 0 for as many as take about ten seconds
   std::optional<PeerPlaces> peers = {};  ///< compares with other people's programs too
 };
 

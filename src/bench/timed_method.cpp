@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "bench/timed_method.hpp"
 
+#include <utility>
+
+#include "flagstone/levelled_segmenter.hpp"
 #include "flagstone/patchwork.hpp"
 #include "flagstone/surface_segmenter.hpp"
 
@@ -37,12 +40,13 @@ float sensor_height(const TimedConfig& config) {
   return std::visit([](const auto& settings) { return settings.sensor_height; }, config);
 }
 
-std::unique_ptr<Segmenter> make_timed(const TimedConfig& config, unsigned threads,
-                                      StageTimes* stage_times) {
-  if (const auto* const surface = std::get_if<SurfaceConfig>(&config)) {
-    return make<SurfaceSegmenter>(*surface, threads, stage_times);
-  }
-  return make<Patchwork>(std::get<PatchworkConfig>(config), threads, stage_times);
+std::unique_ptr<Segmenter> make_timed(const TimedConfig& config, const MountSettings& mount,
+                                      unsigned threads, StageTimes* stage_times) {
+  const auto* const surface = std::get_if<SurfaceConfig>(&config);
+  std::unique_ptr<Segmenter> method =
+      surface != nullptr ? make<SurfaceSegmenter>(*surface, threads, stage_times)
+                         : make<Patchwork>(std::get<PatchworkConfig>(config), threads, stage_times);
+  return std::make_unique<LevelledSegmenter>(std::move(method), sensor_height(config), mount);
 }
 
 }  // namespace flagstone::bench

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <variant>
 
+#include "flagstone/mount.hpp"
 #include "flagstone/patchwork_config.hpp"
 #include "flagstone/segmenter.hpp"
 #include "flagstone/stage_times.hpp"
@@ -30,10 +31,11 @@ inline constexpr std::array<std::string_view, 2> timed_methods = {"patchwork", "
 /// Height of the sensor, metres.
 [[nodiscard]] float sensor_height(const TimedConfig& config);
 
-/// The method with these settings. From then on every scan adds the seconds of its stages to
-/// `stage_times`; null times no stage. Throws std::invalid_argument where configuration or threads
-/// are not allowed.
-[[nodiscard]] std::unique_ptr<Segmenter> make_timed(const TimedConfig& config, unsigned threads,
+/// The method with these settings, on clouds of this mount; making them level is none of the
+/// stages. From then on every scan adds the seconds of its stages to `stage_times`; null times no
+/// stage. Throws std::invalid_argument where configuration or threads are not allowed.
+[[nodiscard]] std::unique_ptr<Segmenter> make_timed(const TimedConfig& config,
+                                                    const MountSettings& mount, unsigned threads,
                                                     StageTimes* stage_times);
 
 }  // namespace flagstone::bench

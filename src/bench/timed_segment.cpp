@@ -21,10 +21,12 @@ std::string used(std::string target) {
 }  // namespace
 
 TimedSegment::TimedSegment(std::span<const CloudView> scans, const TimedConfig& config,
-                           unsigned threads, std::string target, Stages stages)
+                           const MountSettings& mount, unsigned threads, std::string target,
+                           Stages stages)
     : scans_(scans),
       target_(used(std::move(target))),
-      segmenter_(make_timed(config, threads, stages == Stages::timed ? &stage_times_ : nullptr)) {}
+      segmenter_(
+          make_timed(config, mount, threads, stages == Stages::timed ? &stage_times_ : nullptr)) {}
 
 Visit TimedSegment::visit(std::size_t scan) {
   use_simd_target(target_);

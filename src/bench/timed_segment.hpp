@@ -22,8 +22,9 @@ class TimedSegment final : public Contestant {
   enum class Stages : bool { not_timed, timed };
 
   /// Throws std::invalid_argument where configuration, threads or instruction set are not allowed.
-  TimedSegment(std::span<const CloudView> scans, const TimedConfig& config, unsigned threads,
-               std::string target, Stages stages = Stages::not_timed);
+  TimedSegment(std::span<const CloudView> scans, const TimedConfig& config,
+               const MountSettings& mount, unsigned threads, std::string target,
+               Stages stages = Stages::not_timed);
 
   Visit visit(std::size_t scan) override;
 

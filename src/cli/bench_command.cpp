@@ -60,15 +60,15 @@ std::vector<io::Cloud> read_scans(const std::vector<ScanInput>& inputs, int colu
 }
 
 /// The settings of the method that is timed. --method lets no other through.
-bench::TimedConfig timed_config(const MethodOptions& options) {
-  const MethodConfig config = options.resolve();
+bench::TimedConfig timed_config(const MethodOptions& options, MountSettings& mount) {
+  const MethodConfig config = options.resolve(mount);
   if (const auto* const surface = std::get_if<SurfaceConfig>(&config)) return *surface;
   return std::get<PatchworkConfig>(config);
 }
 
 int bench(const BenchOptions& options) {
   bench::BenchmarkSettings settings = options.settings;
-  settings.config = timed_config(options.method);
+  settings.config = timed_config(options.method, settings.mount);
   if (options.peers) settings.peers = options.places;
   const std::vector<ScanInput> inputs = find_scans(options.scans);
   const std::vector<io::Cloud> clouds = read_scans(inputs, options.columns);

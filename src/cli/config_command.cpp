@@ -41,8 +41,9 @@ void add_config_command(CLI::App& app, int& exit_code) {
       "Example:  flagstone config --method patchwork --sensor os0-128 > mine.toml\n");
   options->add_to(*command);
   command->callback([options, &exit_code] {
-    const MethodConfig config = options->resolve();
-    fmt::print("{}\n{}", header_of(*options, config), to_toml(config));
+    MountSettings mount;
+    const MethodConfig config = options->resolve(mount);
+    fmt::print("{}\n{}{}", header_of(*options, config), to_toml(config), to_toml(mount));
     exit_code = 0;
   });
 }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -19,6 +20,7 @@
 
 #include "baselines/settings.hpp"
 #include "io/message.hpp"
+#include "mount/mount_settings.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -67,6 +69,23 @@ std::string comment_of(const Setting& setting) {
   const bool is_flag = std::holds_alternative<bool*>(setting.value);
   return is_flag ? std::string(setting.meaning)
                  : fmt::format("{}; {}", setting.meaning, to_string(setting.allowed));
+}
+
+/// One line for each setting, in tables.
+std::string settings_text(const std::vector<Setting>& settings) {
+  std::string text;
+  std::string_view section;
+  for (const Setting& setting : settings) {
+    const std::size_t dot = setting.key.find('.');
+    const std::string_view own_section =
+        dot == std::string_view::npos ? std::string_view() : setting.key.substr(0, dot);
+    if (own_section != section) text += fmt::format("\n[{}]\n", own_section);
+    section = own_section;
+    const std::string_view name =
+        dot == std::string_view::npos ? setting.key : setting.key.substr(dot + 1);
+    text += fmt::format("{} = {}  # {}\n", name, value_text(setting), comment_of(setting));
+  }
+  return text;
 }
 
 std::string zones_text(const std::vector<Zone>& zones) {
@@ -263,28 +282,24 @@ void apply_text(std::string_view text, std::string_view source,
 }  // namespace
 
 std::string to_toml(MethodConfig config) {
-  std::string text;
-  std::string_view section;
-  for (const Setting& setting : settings_of(config)) {
-    const std::size_t dot = setting.key.find('.');
-    const std::string_view own_section =
-        dot == std::string_view::npos ? std::string_view() : setting.key.substr(0, dot);
-    if (own_section != section) text += fmt::format("\n[{}]\n", own_section);
-    section = own_section;
-    const std::string_view name =
-        dot == std::string_view::npos ? setting.key : setting.key.substr(dot + 1);
-    text += fmt::format("{} = {}  # {}\n", name, value_text(setting), comment_of(setting));
-  }
+  const std::string text = settings_text(settings_of(config));
   const auto* patchwork = std::get_if<PatchworkConfig>(&config);
   return patchwork == nullptr ? text : text + zones_text(patchwork->zones);
 }
 
+std::string to_toml(MountSettings mount) { return settings_text(settings_of(mount)); }
+
+void apply_toml(std::string_view text, std::string_view source, MethodConfig& config,
+                MountSettings& mount) {
+  auto* patchwork = std::get_if<PatchworkConfig>(&config);
+  std::vector<Setting> settings = settings_of(config);
+  std::ranges::move(settings_of(mount), std::back_inserter(settings));
+  apply_text(text, source, settings, patchwork == nullptr ? nullptr : &patchwork->zones);
+}
+
 void apply_toml(std::string_view text, std::string_view source, MethodConfig& config) {
-  if (auto* patchwork = std::get_if<PatchworkConfig>(&config)) {
-    apply_text(text, source, settings_of(*patchwork), &patchwork->zones);
-  } else {
-    apply_text(text, source, settings_of(config), nullptr);
-  }
+  auto* patchwork = std::get_if<PatchworkConfig>(&config);
+  apply_text(text, source, settings_of(config), patchwork == nullptr ? nullptr : &patchwork->zones);
 }
 
 void apply_toml(std::string_view text, std::string_view source, PatchworkConfig& config) {

@@ -7,16 +7,22 @@
 #include <string_view>
 
 #include "flagstone/make_segmenter.hpp"
+#include "flagstone/mount.hpp"
 
 namespace flagstone::cli {
 
 /// Every setting as commented TOML, which `apply_toml` reads back to the same configuration.
 std::string to_toml(MethodConfig config);
+/// The table `mount`, likewise.
+std::string to_toml(MountSettings mount);
 
 /// Overwrites the settings that `text` names; the others stay. Zones are replaced as a whole.
 /// Throws std::invalid_argument with one line that begins with `source`, the file's name, for a
 /// syntax error, a setting there is none of, or a value of the wrong type. Ranges are not checked
-/// here. The key `sensor` is for sensor_named_in() and sets nothing.
+/// here. The key `sensor` is for sensor_named_in() and sets nothing. The table `mount` is a setting
+/// like others where it is asked for.
+void apply_toml(std::string_view text, std::string_view source, MethodConfig& config,
+                MountSettings& mount);
 void apply_toml(std::string_view text, std::string_view source, MethodConfig& config);
 void apply_toml(std::string_view text, std::string_view source, PatchworkConfig& config);
 
@@ -27,7 +33,7 @@ std::optional<std::string> sensor_named_in(std::string_view text, std::string_vi
 /// Sets the sensor's height, metres, in the settings of methods that have one.
 void set_sensor_height(float height, MethodConfig& config);
 
-/// The sensor's height, metres, of methods that have one.
+/// The sensor's height in the settings of a method, metres; `otherwise` where it has none.
 float sensor_height_of(MethodConfig config, float otherwise);
 
 }  // namespace flagstone::cli

@@ -102,7 +102,7 @@ void EvalMethods::add_to(CLI::App& command) {
           "the rows CZM + ... too; may repeat")
       ->type_name("METHOD.KEY=VALUE")
       ->allow_extra_args(false);
-  add_sensor_height_option(command, sensor_height);
+  mount.add_to(command);
   command
       .add_option("--labels", labels,
                   "Labels that another program made, scored like a method: NAME.label, NAME.npy or "
@@ -122,6 +122,7 @@ void EvalMethods::add_to(CLI::App& command) {
 std::vector<EvalMethods::OwnSetting> EvalMethods::own_settings() const {
   std::vector<OwnSetting> all;
   for (const std::string& setting : settings) {
+    if (setting.starts_with("mount.")) continue;
     auto [method, rest] = split_setting(setting);
     refuse_sensor_in_setting(rest);
     all.push_back({std::move(method), std::move(rest)});
@@ -129,35 +130,41 @@ std::vector<EvalMethods::OwnSetting> EvalMethods::own_settings() const {
   return all;
 }
 
-PatchworkConfig EvalMethods::overlaid(PatchworkConfig patchwork) const {
+PatchworkConfig EvalMethods::overlaid(PatchworkConfig patchwork,
+                                      MountSettings& mount_settings) const {
   MethodConfig config = std::move(patchwork);
-  if (!config_file.empty()) apply_file(config_file, config);
+  mount_settings = {};
+  if (!config_file.empty()) apply_file(config_file, config, mount_settings);
+  for (const std::string& setting : settings) {
+    if (!setting.starts_with("mount.")) continue;
+    apply_toml(setting, fmt::format("--set {}", setting), config, mount_settings);
+  }
   for (const auto& [method, setting] : own_settings()) {
-    if (method == "patchwork") {
-      apply_toml(setting, fmt::format("--set patchwork.{}", setting), config);
-    }
+    if (method != "patchwork") continue;
+    apply_toml(setting, fmt::format("--set patchwork.{}", setting), config);
   }
   return std::get<PatchworkConfig>(config);
 }
 
-MethodConfig EvalMethods::settings_of(const std::string& method,
-                                      const std::optional<Sensor>& from) const {
-  const auto settings_from = [&](MethodConfig config) {
+MethodConfig EvalMethods::settings_of(const std::string& method, const std::optional<Sensor>& from,
+                                      MountSettings& mount_settings) const {
+  const auto settings_at = [&](const Sensor* at) {
+    const bool from_patchwork = starts_from_patchwork(method);
+    const PatchworkConfig patchwork =
+        overlaid(at != nullptr && from_patchwork ? PatchworkConfig::for_sensor(*at)
+                                                 : PatchworkConfig::preset(preset),
+                 mount_settings);
+    MethodConfig config = at != nullptr && !from_patchwork ? default_config(method, *at)
+                                                           : default_config(method, patchwork);
     for (const auto& [owner, setting] : own_settings()) {
       if (owner != method || method == "patchwork") continue;
       apply_toml(setting, fmt::format("--set {}.{}", method, setting), config);
     }
-    if (sensor_height) set_sensor_height(*sensor_height, config);
+    mount.apply_to(config, mount_settings);
     return config;
   };
-  if (!from) {
-    return settings_from(default_config(method, overlaid(PatchworkConfig::preset(preset))));
-  }
-  return settings_at_own_height(*from, [&](const Sensor& at) {
-    return settings_from(starts_from_patchwork(method)
-                             ? default_config(method, overlaid(PatchworkConfig::for_sensor(at)))
-                             : default_config(method, at));
-  });
+  if (!from) return settings_at(nullptr);
+  return settings_at_own_height(*from, [&](const Sensor& at) { return settings_at(&at); });
 }
 
 std::vector<eval::Method> EvalMethods::resolve() const {
@@ -179,7 +186,10 @@ std::vector<eval::Method> EvalMethods::resolve() const {
   }
   std::vector<eval::Method> methods;
   for (const std::string& name : evaluated) {
-    methods.push_back(eval::method_of(name, settings_of(name, from)));
+    MountSettings own_mount;
+    MethodConfig config = settings_of(name, from, own_mount);
+    own_mount.check();
+    methods.push_back(eval::method_of(name, std::move(config), own_mount));
   }
   for (const std::string& entry : labels) {
     methods.push_back(labels_made_elsewhere(entry, label_map));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/mount_options.hpp"
 #include "eval/method.hpp"
 #include "flagstone/sensor.hpp"
 
@@ -18,8 +19,8 @@ struct EvalMethods {
   std::string preset = "default";
   std::string sensor{};  ///< name or file; empty for none
   std::string config_file{};
-  std::vector<std::string> settings{};  ///< method.key=value
-  std::optional<float> sensor_height{};
+  std::vector<std::string> settings{};  ///< method.key=value or mount.key=value
+  MountOptions mount{};
   std::vector<std::string> labels{};  ///< name=folder
   io::LabelMap label_map = io::LabelMap::flagstone;
 
@@ -41,11 +42,14 @@ struct EvalMethods {
   [[nodiscard]] std::vector<OwnSetting> own_settings() const;
 
   /// Settings of Patchwork with file and --set laid over them, for all that start from them.
-  [[nodiscard]] PatchworkConfig overlaid(PatchworkConfig config) const;
+  [[nodiscard]] PatchworkConfig overlaid(PatchworkConfig config,
+                                         MountSettings& mount_settings) const;
 
-  /// Settings of one method, with --set and --sensor-height laid over them. `from`: a sensor.
+  /// Settings of one method, with --set, --sensor-height and --tilt laid over them. `from`: the
+  /// sensor they are derived from, if any.
   [[nodiscard]] MethodConfig settings_of(const std::string& method,
-                                         const std::optional<Sensor>& from) const;
+                                         const std::optional<Sensor>& from,
+                                         MountSettings& mount_settings) const;
 };
 
 }  // namespace flagstone::cli

@@ -141,7 +141,7 @@ std::string Evaluation::fingerprint() const {
   for (const auto& low : protocol_.low_ground) text += fmt::format(" {}<{}", low.id, low.height);
   for (const eval::Method& method : methods_) {
     text += fmt::format("\n{} {}", method.name,
-                        method.config ? to_toml(*method.config)
+                        method.config ? to_toml(*method.config) + to_toml(method.mount)
                                       : fmt::format("{} {}", method.labels.string(),
                                                     static_cast<int>(method.label_map)));
   }

@@ -32,14 +32,14 @@ void MethodOptions::add_to(CLI::App& command, std::span<const std::string_view> 
       .add_option("--set", settings, "One setting, e.g. --set elevation.enabled=false; may repeat")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  add_sensor_height_option(command, sensor_height);
+  mount.add_to(command);
 }
 
 bool MethodOptions::starts_from_preset() const {
   return method == "patchwork" || method.starts_with("czm");
 }
 
-MethodConfig MethodOptions::resolve() const {
+MethodConfig MethodOptions::resolve(MountSettings& mount_settings) const {
   if (!starts_from_preset() && preset != "default") {
     throw std::invalid_argument(fmt::format(
         "--preset {}: method {} has settings of its own; presets are of --method patchwork and "
@@ -47,11 +47,14 @@ MethodConfig MethodOptions::resolve() const {
         preset, method));
   }
   const std::optional<Sensor> from = chosen_sensor();
+  const auto settings_at = [&](const Sensor& at) {
+    return overlaid(default_config(method, at), mount_settings);
+  };
   MethodConfig config =
-      from ? settings_at_own_height(
-                 *from, [&](const Sensor& at) { return overlaid(default_config(method, at)); })
-           : overlaid(default_config(method, PatchworkConfig::preset(preset)));
+      from ? settings_at_own_height(*from, settings_at)
+           : overlaid(default_config(method, PatchworkConfig::preset(preset)), mount_settings);
   check(config);
+  mount_settings.check();
   return config;
 }
 
@@ -59,13 +62,14 @@ std::optional<Sensor> MethodOptions::chosen_sensor() const {
   return cli::chosen_sensor(sensor, config_file, preset);
 }
 
-MethodConfig MethodOptions::overlaid(MethodConfig config) const {
-  if (!config_file.empty()) apply_file(config_file, config);
+MethodConfig MethodOptions::overlaid(MethodConfig config, MountSettings& mount_settings) const {
+  mount_settings = {};
+  if (!config_file.empty()) apply_file(config_file, config, mount_settings);
   for (const std::string& setting : settings) {
     refuse_sensor_in_setting(setting);
-    apply_toml(setting, fmt::format("--set {}", setting), config);
+    apply_toml(setting, fmt::format("--set {}", setting), config, mount_settings);
   }
-  if (sensor_height) set_sensor_height(*sensor_height, config);
+  mount.apply_to(config, mount_settings);
   return config;
 }
 
@@ -77,16 +81,12 @@ CLI::Option* add_preset_option(CLI::App& command, std::string& preset) {
       ->capture_default_str();
 }
 
-CLI::Option* add_sensor_height_option(CLI::App& command, std::optional<float>& height) {
-  return command.add_option("--sensor-height", height, "Height of the sensor above ground, metres")
-      ->type_name("M");
-}
-
-void apply_file(const std::string& file, MethodConfig& config) {
+void apply_file(const std::string& file, MethodConfig& config, MountSettings& mount_settings) {
   std::vector<std::byte> bytes;
   const Status status = io::load_bytes(file, bytes);
   if (!status.ok()) throw std::invalid_argument(status.message());
-  apply_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, config);
+  apply_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, config,
+             mount_settings);
 }
 
 }  // namespace flagstone::cli

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/mount_options.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/sensor.hpp"
 
@@ -21,7 +22,7 @@ struct MethodOptions {
   std::string sensor;  ///< name or file; empty for none
   std::string config_file;
   std::vector<std::string> settings;  ///< key=value
-  std::optional<float> sensor_height;
+  MountOptions mount;
 
   /// Adds the options to a command that runs any of these methods.
   void add_to(CLI::App& command, std::span<const std::string_view> names = method_names());
@@ -33,24 +34,22 @@ struct MethodOptions {
   /// resolve() does.
   [[nodiscard]] std::optional<Sensor> chosen_sensor() const;
 
-  /// The settings they come to: preset or sensor, then file, then --set, then --sensor-height;
-  /// checked. Those of a sensor are derived for the height they come to. Throws
-  /// std::invalid_argument with one line that says what is wrong.
-  [[nodiscard]] MethodConfig resolve() const;
+  /// The settings they come to: preset or sensor, then file, then --set, then --sensor-height and
+  /// --tilt; checked. Those of a sensor are derived for the height they come to. How the sensor
+  /// stands is written to `mount_settings`. Throws std::invalid_argument with one line that says
+  /// what is wrong.
+  [[nodiscard]] MethodConfig resolve(MountSettings& mount_settings) const;
 
  private:
-  /// `config` with file, --set and --sensor-height laid over it.
-  [[nodiscard]] MethodConfig overlaid(MethodConfig config) const;
+  /// `config` with file, --set, --sensor-height and --tilt laid over it.
+  [[nodiscard]] MethodConfig overlaid(MethodConfig config, MountSettings& mount_settings) const;
 };
 
 /// Adds --preset to a command: which of Patchwork's presets to start from.
 CLI::Option* add_preset_option(CLI::App& command, std::string& preset);
 
-/// Adds --sensor-height to a command.
-CLI::Option* add_sensor_height_option(CLI::App& command, std::optional<float>& height);
-
 /// Overwrites the settings that a TOML file names. Throws std::invalid_argument with one line that
 /// says what is wrong.
-void apply_file(const std::string& file, MethodConfig& config);
+void apply_file(const std::string& file, MethodConfig& config, MountSettings& mount_settings);
 
 }  // namespace flagstone::cli

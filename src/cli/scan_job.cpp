@@ -109,6 +109,8 @@ Status ScanWorker::work(const ScanInput& input, const ScanInput* later, ScanRepo
   if (!status.ok()) {
     return Status(status.code(), fmt::format("{}: {}", input.file.string(), status.message()));
   }
+  report.mount = mount_report();
+  report.mount_is_own = job_.mount.estimates();
   report.points = cloud.size();
   report.patches = result_.patches().size();
   for (std::size_t code = 0; code < label_count; ++code) {
@@ -121,6 +123,13 @@ Status ScanWorker::work(const ScanInput& input, const ScanInput* later, ScanRepo
   if (!status.ok()) return status;
 
   return score_and_draw(input, report);
+}
+
+std::optional<MountReport> ScanWorker::mount_report() const {
+  const LevelledSegmenter& levelled = runner_.levelled();
+  if (job_.told) return MountReport{levelled.mount(), *job_.told};
+  if (job_.mount.estimates()) return MountReport{levelled.mount(), levelled.decision()};
+  return {};
 }
 
 Status ScanWorker::write(const ScanInput& input, ScanReport& report) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -31,6 +32,8 @@ enum class OutputFormat {
 struct ScanJob {
   std::string method;
   MethodConfig config;
+  MountSettings mount;
+  std::optional<MountDecision> told;  ///< how the mount was found out before, if it was
   io::ReadOptions read;
   std::filesystem::path output;
   OutputFormat format = OutputFormat::label;
@@ -49,7 +52,7 @@ class ScanWorker {
   explicit ScanWorker(const ScanJob& job)
       : job_(job),
         reader_(job.read),
-        runner_(job.method, job.config),
+        runner_(job.method, job.config, job.mount),
         label_writer_(job.label_map) {}
 
   /// Never throws: what goes wrong with this scan is in the report. The file of `later`, a scan
@@ -57,6 +60,7 @@ class ScanWorker {
   ScanReport run(const ScanInput& input, const ScanInput* later = nullptr) noexcept;
 
  private:
+  [[nodiscard]] std::optional<MountReport> mount_report() const;
   Status work(const ScanInput& input, const ScanInput* later, ScanReport& report);
   Status write(const ScanInput& input, ScanReport& report);
   Status write_split(const ScanInput& input, ScanReport& report);

@@ -38,6 +38,14 @@ Json scores_json(const ScanReport& report) {
   return scores;
 }
 
+Json mount_json(const MountReport& report) {
+  return {{"sensor_height", report.mount.sensor_height},
+          {"up", report.mount.up},
+          {"verdict", to_string(report.decision.verdict)},
+          {"confidence", report.decision.confidence},
+          {"why", to_sentence(report.decision)}};
+}
+
 std::string scores_text(std::span<const ScanReport> reports) {
   struct Sum {
     double precision = 0, recall = 0, f1 = 0;
@@ -79,6 +87,10 @@ std::string text_line(const ScanReport& report) {
   for (const auto& [protocol, confusion] : report.scores) {
     line += fmt::format("; F1 {:.2f} % ({})", 100 * confusion.f1(), protocol);
   }
+  if (report.mount && report.mount_is_own) {
+    line += fmt::format("; sensor taken for {:.2f} m high: {}", report.mount->mount.sensor_height,
+                        to_sentence(report.mount->decision));
+  }
   return line;
 }
 
@@ -95,6 +107,7 @@ std::string json_line(const ScanReport& report) {
   json["milliseconds"] = {
       {"read", report.read_ms}, {"segment", report.segment_ms}, {"write", report.write_ms}};
   if (report.picture_ms > 0) json["milliseconds"]["picture"] = report.picture_ms;
+  if (report.mount) json["mount"] = mount_json(*report.mount);
   if (!report.scores.empty()) json["scores"] = scores_json(report);
   json["outputs"] = Json::array();
   for (const auto& output : report.outputs) json["outputs"].push_back(output.string());

@@ -12,6 +12,7 @@
 
 #include "eval/confusion.hpp"
 #include "flagstone/label.hpp"
+#include "flagstone/mount.hpp"
 
 namespace flagstone::cli {
 
@@ -19,6 +20,12 @@ namespace flagstone::cli {
 struct Score {
   std::string protocol;
   eval::Confusion confusion;
+};
+
+/// How the sensor was taken to stand.
+struct MountReport {
+  Mount mount;             ///< what the scan was segmented with
+  MountDecision decision;  ///< what was found out, by this scan or by the one that told the mount
 };
 
 /// What became of one scan.
@@ -35,6 +42,8 @@ struct ScanReport {
   double write_ms = 0;    ///< labels or clouds, without the picture
   double picture_ms = 0;  ///< 0 without a picture
   std::vector<Score> scores;
+  std::optional<MountReport> mount;  ///< where it was to be found out
+  bool mount_is_own = false;         ///< by this scan: the line for people says so
   std::vector<std::filesystem::path> outputs;
 
   [[nodiscard]] double ground_share() const noexcept;

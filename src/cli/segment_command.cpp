@@ -22,6 +22,7 @@
 #include "cli/crew.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/method_options.hpp"
+#include "cli/mount_estimation.hpp"
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
 #include "cli/scan_job.hpp"
@@ -144,28 +145,49 @@ void check_surface(const SegmentOptions& options, const MethodConfig& config) {
   }
 }
 
+/// What is tracked goes from scan to scan, in their order.
+void check_threads(const SegmentOptions& options, const MountSettings& mount) {
+  if (!mount.tracks() || options.threads <= 1) return;
+  throw std::invalid_argument(
+      fmt::format("--threads {}: with a tracked sensor height scans are segmented one after the "
+                  "other; leave it out, or use --sensor-height estimate",
+                  options.threads));
+}
+
 int segment(const SegmentOptions& options) {
-  const ScanJob job{.method = options.method.method,
-                    .config = options.method.resolve(),
-                    .read = {.columns = options.columns},
-                    .output = options.output,
-                    .format = options.format,
-                    .label_map = options.label_map,
-                    .picture = options.picture,
-                    .tint_patches = options.tint_patches,
-                    .heights = options.heights,
-                    .surface = options.surface,
-                    .surface_resolution = options.surface_resolution.value_or(0),
-                    .reference = options.reference};
+  MountSettings mount;
+  const MethodConfig config = options.method.resolve(mount);
+  check_threads(options, mount);
+  ScanJob job{.method = options.method.method,
+              .config = config,
+              .mount = mount,
+              .told = {},
+              .read = {.columns = options.columns},
+              .output = options.output,
+              .format = options.format,
+              .label_map = options.label_map,
+              .picture = options.picture,
+              .tint_patches = options.tint_patches,
+              .heights = options.heights,
+              .surface = options.surface,
+              .surface_resolution = options.surface_resolution.value_or(0),
+              .reference = options.reference};
   check_tint(options, job.config);
   check_surface(options, job.config);
   const std::vector<ScanInput> scans = list_scans(options.scans);
 
   catch_interrupts();
+  const unsigned threads = mount.tracks() ? 1 : options.threads;
+  if (mount.estimates() && !mount.tracks()) {
+    const FoundMount found = find_mount(scans, mount, job.read);
+    job.mount = found.settings;
+    job.told = found.decision;
+    if (!options.json) fmt::print("{}\n", to_text(found));
+  }
   Reporter reporter(scans.size(), options.json);
-  const std::size_t ahead = thread_count(options.threads);  // a scan for each worker
+  const std::size_t ahead = thread_count(threads);  // a scan for each worker
   Stopwatch watch;
-  const std::size_t workers = run_crew(scans.size(), options.threads, [&] {
+  const std::size_t workers = run_crew(scans.size(), threads, [&] {
     return [&, worker = std::make_shared<ScanWorker>(job)](std::size_t index) {
       const std::size_t later = index + ahead;
       reporter.add(index,
@@ -251,7 +273,9 @@ void add_segment_command(CLI::App& app, int& exit_code) {
                    "Metres a cell of that grid, 0.1 to 10. Default: the surface's finest")
       ->needs(surface)
       ->type_name("M");
-  command->add_option("--threads", options->threads, "Scans worked on at once. Default: all cores")
+  command
+      ->add_option("--threads", options->threads,
+                   "Scans worked on at once. Default: all cores; one where the height is tracked")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   command->add_flag("--json", options->json, "Print one JSON object per scan instead of text");

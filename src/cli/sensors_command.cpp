@@ -83,11 +83,12 @@ int list_sensors(const SensorsOptions& options) {
 std::string derivation_text(const Sensor& sensor, const PatchworkConfig& config) {
   const Layout layout = layout_of(config);
   return fmt::format(
-      "# Rings where the beams of sensor {} ({}) meet flat ground, h / tan(-elevation) away:\n"
-      "# edges halfway between beams, each ring 1.8 m and 15 % of its distance long or longer. "
-      "Bins are\n"
-      "# about as wide as long and have 20 points or more. {} rings, {} zones, {} bins. See "
-      "docs/sensors.md.\n",
+      "# Rings lie where the beams of sensor {} ({}) meet flat ground,\n"
+      "# h / tan(-elevation) away: edges halfway between beams, two beams or 1.8 m in each, no "
+      "ring\n"
+      "# shorter than 15 % of its distance. Bins are about as wide as long and have 20 points or "
+      "more.\n"
+      "# {} rings, {} zones, {} bins. See docs/sensors.md.\n",
       sensor.name, sensor.title, layout.rings, config.zones.size(), layout.bins);
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/config_toml.hpp"
 #include "cli/evaluation.hpp"
 #include "cli/method_options.hpp"
 #include "cli/result_files.hpp"
@@ -48,7 +49,8 @@ std::vector<SweepAxis> axes_of(const SweepOptions& options) {
 }
 
 /// A method per point of the grid.
-std::vector<eval::Method> points_of(const Sweep& sweep, const MethodConfig& base) {
+std::vector<eval::Method> points_of(const Sweep& sweep, const MethodConfig& base,
+                                    const MountSettings& mount) {
   std::size_t count = 1;
   for (const SweepAxis& axis : sweep.axes) count *= axis.values.size();
   constexpr std::size_t most = 10000;
@@ -65,15 +67,18 @@ std::vector<eval::Method> points_of(const Sweep& sweep, const MethodConfig& base
     for (std::size_t a = 0; a < values.size(); ++a) {  // after what says where the rings begin
       if (sweep.axes[a].key == "bins") apply_axis(sweep.axes[a].key, values[a], config);
     }
-    points.push_back(eval::method_of(sweep.method, std::move(config)));
+    MountSettings own_mount = mount;  // whose height may be what is swept over
+    own_mount.mount.sensor_height = sensor_height_of(config, mount.mount.sensor_height);
+    points.push_back(eval::method_of(sweep.method, std::move(config), own_mount));
   }
   return points;
 }
 
 int sweep(const SweepOptions& options) {
   Sweep sweep{.method = options.method.method, .axes = axes_of(options), .results = {}};
-  Evaluation evaluation(options.evaluation, points_of(sweep, options.method.resolve()),
-                        options.files.journal());
+  MountSettings mount;
+  const MethodConfig base = options.method.resolve(mount);
+  Evaluation evaluation(options.evaluation, points_of(sweep, base, mount), options.files.journal());
   options.files.prepare();
   sweep.results = evaluation.run();
   if (sweep.results.scans == 0) return 1;

@@ -104,6 +104,10 @@ std::vector<Setting> settings_of(PatchworkConfig& c) {
        &c.noise_margin,
        "points farther below the plane are no part of it but noise",
        {.low = 0, .high = 1000, .unit = "m", .without_low = true, .or_infinity = true}},
+      {"support_margin",
+       &c.support_margin,
+       "points farther below a ground plane are ground in a plane of their own, else noise",
+       {.low = 0, .high = 1000, .unit = "m", .without_low = true, .or_infinity = true}},
       {"iterations", &c.iterations, "plane fits a bin", {.low = 1, .high = 100}},
       {"judge_final_set", &c.judge_final_set,
        "whether the likelihood judges the final ground set (paper) or the last fitted one (public "

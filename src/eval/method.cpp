@@ -31,10 +31,11 @@ std::string title_of(std::string_view name) {
   return std::string(found == titles.end() ? name : found->second);
 }
 
-Method method_of(std::string_view name, MethodConfig config) {
+Method method_of(std::string_view name, MethodConfig config, const MountSettings& mount) {
   return {.name = std::string(name),
           .title = title_of(name),
           .config = std::move(config),
+          .mount = mount,
           .labels = {},
           .label_map = io::LabelMap::flagstone};
 }

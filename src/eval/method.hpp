@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "flagstone/make_segmenter.hpp"
+#include "flagstone/mount.hpp"
 #include "io/label_files.hpp"
 
 namespace flagstone::eval {
@@ -17,6 +18,7 @@ struct Method {
   std::string name;                    ///< as make_segmenter() knows it, or as the user calls it
   std::string title;                   ///< as the paper's Table I has it
   std::optional<MethodConfig> config;  ///< none for labels made elsewhere
+  MountSettings mount{};               ///< `estimate` and `track`: from each scan for itself
 
   /// Labels made elsewhere: NAME.label or NAME.npy of each scan, or SemanticKITTI's
   /// sequences/NN/predictions/NNNNNN.label, or what `flagstone segment` makes of the dataset's
@@ -26,7 +28,7 @@ struct Method {
 };
 
 /// A method of make_segmenter() with these settings.
-Method method_of(std::string_view name, MethodConfig config);
+Method method_of(std::string_view name, MethodConfig config, const MountSettings& mount = {});
 
 /// How the paper's tables call a method; the name itself where they do not.
 std::string title_of(std::string_view name);

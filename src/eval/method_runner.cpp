@@ -7,8 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
+#include <vector>
 
 namespace flagstone::eval {
 namespace {
@@ -38,40 +41,61 @@ bool lowest_come_first(CloudView cloud, const std::vector<std::uint16_t>& rings,
 
 }  // namespace
 
-MethodRunner::MethodRunner(std::string_view name, const MethodConfig& config) {
-  if (const auto* settings = std::get_if<CascadedConfig>(&config)) {
-    auto cascaded = std::make_unique<Cascaded>(*settings);
-    ring_aware_ = cascaded.get();
-    segmenter_ = std::move(cascaded);
-  } else {
-    segmenter_ = make_segmenter(name, config);
+/// CascadedSeg, told the rings of the next scan.
+class MethodRunner::OnRings final : public Segmenter {
+ public:
+  explicit OnRings(const CascadedConfig& config) : cascaded_(config) {}
+
+  Status segment(CloudView cloud, Segmentation& result) noexcept override {
+    return has_rings ? cascaded_.segment(cloud, rings, result) : cascaded_.segment(cloud, result);
   }
+  [[nodiscard]] std::size_t beams() const { return cascaded_.config().beam_elevations.size(); }
+
+  std::vector<std::uint16_t> rings;
+  bool has_rings = false;
+
+ private:
+  Cascaded cascaded_;
+};
+
+MethodRunner::MethodRunner(std::string_view name, const MethodConfig& config,
+                           const MountSettings& mount) {
+  std::unique_ptr<Segmenter> method;
+  if (const auto* settings = std::get_if<CascadedConfig>(&config)) {
+    auto on_rings = std::make_unique<OnRings>(*settings);
+    on_rings_ = on_rings.get();
+    method = std::move(on_rings);
+  } else {
+    method = make_segmenter(name, config);
+  }
+  // Commands give method and mount the same height.
+  levelled_.emplace(std::move(method), mount.mount.sensor_height, mount);
 }
 
 bool MethodRunner::find_rings(const io::Cloud& cloud) {
   const io::Field* field = cloud.find("ring");
   if (field == nullptr || cloud.empty()) return false;
-  const std::size_t beams = ring_aware_->config().beam_elevations.size();
-  rings_.resize(cloud.size());
+  const std::size_t beams = on_rings_->beams();
+  std::vector<std::uint16_t>& rings = on_rings_->rings;
+  rings.resize(cloud.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const double ring = cloud.value(i, *field);
     const bool is_one = ring >= 0 && ring < static_cast<double>(beams);  // not if NaN
     if (!is_one) return false;
-    rings_[i] = static_cast<std::uint16_t>(ring);
-    if (static_cast<double>(rings_[i]) != ring) return false;
-    count = std::max<std::size_t>(count, rings_[i] + std::size_t{1});
+    rings[i] = static_cast<std::uint16_t>(ring);
+    if (static_cast<double>(rings[i]) != ring) return false;
+    count = std::max<std::size_t>(count, rings[i] + std::size_t{1});
   }
-  return count == beams && lowest_come_first(cloud.view(), rings_, count);
+  return count == beams && lowest_come_first(cloud.view(), rings, count);
 }
 
 void MethodRunner::prepare(const io::Cloud& cloud) {
-  has_rings_ = ring_aware_ != nullptr && find_rings(cloud);
+  if (on_rings_ != nullptr) on_rings_->has_rings = find_rings(cloud);
 }
 
 Status MethodRunner::segment(const io::Cloud& cloud, Segmentation& result) {
-  Status status = has_rings_ ? ring_aware_->segment(cloud.view(), rings_, result)
-                             : segmenter_->segment(cloud.view(), result);
+  Status status = levelled_->segment(cloud.view(), result);
   if (status.ok() || !status.message().empty()) return status;
   return Status(status.code(),
                 status.code() == StatusCode::out_of_memory

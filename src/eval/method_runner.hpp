@@ -2,24 +2,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <memory>
+#include <optional>
 #include <string_view>
-#include <vector>
 
+#include "flagstone/levelled_segmenter.hpp"
 #include "flagstone/make_segmenter.hpp"
+#include "flagstone/mount.hpp"
 #include "flagstone/segmentation.hpp"
 #include "flagstone/status.hpp"
 #include "io/cloud.hpp"
 
 namespace flagstone::eval {
 
-/// A method on clouds as files hold them: it is told the rings of the points where the file has
-/// them and the method can use them. One per thread.
+/// A method on clouds as files hold them, of sensors that stand as the mount says: it is told the
+/// rings of the points where the file has them and the method can use them. One per thread.
 class MethodRunner {
  public:
-  /// As make_segmenter().
-  MethodRunner(std::string_view name, const MethodConfig& config);
+  /// As make_segmenter() and LevelledSegmenter.
+  MethodRunner(std::string_view name, const MethodConfig& config, const MountSettings& mount = {});
 
   /// Reads the rings of a cloud that is to be segmented next. A field `ring` counts if it numbers
   /// as many rings as the method has beams, as whole numbers from 0, the lowest first; else the
@@ -29,13 +29,19 @@ class MethodRunner {
   /// As Segmenter::segment() on the cloud it is prepared for, with a message where it fails.
   Status segment(const io::Cloud& cloud, Segmentation& result);
 
+  /// What was found out of the sensor's mount, by this scan and those before.
+  [[nodiscard]] const LevelledSegmenter& levelled() const noexcept { return *levelled_; }
+
+  /// Forgets the scans before.
+  void reset() noexcept { levelled_->reset(); }
+
  private:
+  class OnRings;
+
   bool find_rings(const io::Cloud& cloud);
 
-  std::unique_ptr<Segmenter> segmenter_;
-  Cascaded* ring_aware_ = nullptr;  // the segmenter, if it can be told the rings
-  bool has_rings_ = false;
-  std::vector<std::uint16_t> rings_;
+  OnRings* on_rings_ = nullptr;  // the method, if it can be told the rings
+  std::optional<LevelledSegmenter> levelled_;
 };
 
 }  // namespace flagstone::eval

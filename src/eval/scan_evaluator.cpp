@@ -81,12 +81,16 @@ Status ScanEvaluator::read(const LabelledScan& scan) {
 Status ScanEvaluator::segment(Worker& worker, std::optional<double>& segment_ms) {
   const std::optional<MethodConfig>& config = worker.method->config;
   const bool is_new = !worker.runner && config;
-  if (is_new) worker.runner = std::make_unique<MethodRunner>(worker.method->name, *config);
+  if (is_new)
+    worker.runner =
+        std::make_unique<MethodRunner>(worker.method->name, *config, worker.method->mount);
   worker.runner->prepare(cloud_);
   // Memory is taken and caches are filled before the first time that counts.
   Status status;
   const bool is_kept = workers_.size() <= most_kept;
   if (is_new && is_kept) status = worker.runner->segment(cloud_, result_);
+  // Every scan is looked at for itself, so that the order of scans and threads does not matter.
+  worker.runner->reset();
   Stopwatch watch;
   if (status.ok()) status = worker.runner->segment(cloud_, result_);
   segment_ms = watch.lap();

@@ -52,7 +52,10 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
     return std::min(static_cast<std::size_t>(std::max(place, 0.0f)), width - 1);
   };
   double squares = 0;
-  double weights = 0;
+  double below_weight = 0;
+  double sum_x = 0;
+  double sum_y = 0;
+  double weight = 0;
   for (const NearPoint& p : points) {
     const Vector3f place = turn.apply({p.x, p.y, p.z});
     const float z = plane.above(place[0], place[1], place[2]);
@@ -62,8 +65,11 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
       cell |= ground;
       if (z < 0) {  // above it grass makes it thicker than it is
         squares += double{p.weight} * z * z;
-        weights += double{p.weight};
+        below_weight += double{p.weight};
       }
+      sum_x += double{p.weight} * p.x;
+      sum_y += double{p.weight} * p.y;
+      weight += double{p.weight};
     } else if (z > standing_from && z < standing_to) {
       cell |= standing;
     } else if (z < -(below_from + below_growth * range)) {
@@ -96,7 +102,9 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
   const auto all = static_cast<float>(agreement.cells);
   agreement.free = all > 0 ? free / all : 0;
   agreement.below = all + below > 0 ? below / (all + below) : 0;
-  agreement.spread = weights > 0 ? static_cast<float>(std::sqrt(squares / weights)) : 0;
+  agreement.spread = below_weight > 0 ? static_cast<float>(std::sqrt(squares / below_weight)) : 0;
+  agreement.x = weight > 0 ? static_cast<float>(sum_x / weight) : 0;
+  agreement.y = weight > 0 ? static_cast<float>(sum_y / weight) : 0;
   const auto is_told = [](int cells) { return cells > 1; };
   agreement.directions = static_cast<int>(std::ranges::count_if(shows, is_told));
   agreement.seen = static_cast<int>(std::ranges::count_if(seen, is_told));

@@ -21,6 +21,8 @@ struct Agreement {
   float spread = 0;
   int directions = 0;
   int seen = 0;
+  float x = 0,
+        y = 0;  ///< where the ground is seen, on the average, metres in the frame of the points
 };
 
 /// Counts, in cells seen from above, where there is ground, where something stands on it, and where

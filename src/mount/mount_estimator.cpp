@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,6 +30,10 @@ namespace {
 /// Fewer places with a point do not make a ground.
 constexpr std::size_t fewest_points = 40;
 
+/// Directions of sixteen: ground in so many surrounds the sensor, in so few lies on one side of it.
+constexpr int all_round = 8;
+constexpr int narrow = 4;
+
 MountSettings checked(const MountSettings& settings) {
   settings.check();
   return settings;
@@ -48,7 +53,8 @@ struct MountEstimator::Workings {
         agreement(settings.limits) {}
 
   MountDecision estimate(CloudView cloud) noexcept;
-  void take_plane(const GroundPlane& plane, MountDecision& decision) const noexcept;
+  void take_plane(const GroundPlane& plane, const Agreement& agreed,
+                  MountDecision& decision) const noexcept;
   [[nodiscard]] std::optional<MountVerdict> beyond_limits(const Mount& mount) const noexcept;
 
   MountSettings settings;
@@ -60,13 +66,18 @@ struct MountEstimator::Workings {
   AgreementCount agreement;
 };
 
-void MountEstimator::Workings::take_plane(const GroundPlane& plane,
+void MountEstimator::Workings::take_plane(const GroundPlane& plane, const Agreement& agreed,
                                           MountDecision& decision) const noexcept {
+  const auto [x, y, z] = plane.up;
   if (looks_for_tilt) {
     decision.mount.up = mount::unit(level.undo(plane.up));
     decision.mount.sensor_height = plane.height;
   } else {
-    decision.mount.sensor_height = plane.height / plane.up[2];  // straight down
+    // Straight down; where ground is seen on one side only, there: nobody knows whether its slope
+    // goes on to the sensor or is the sensor's own.
+    const float off = static_cast<float>(all_round - agreed.directions) / (all_round - narrow);
+    const float to_seen = std::clamp(off, 0.0f, 1.0f);
+    decision.mount.sensor_height = (plane.height + to_seen * (x * agreed.x + y * agreed.y)) / z;
   }
   decision.tilt = degrees_between(decision.mount.up, {0, 0, 1});
 }
@@ -95,8 +106,8 @@ MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
   decision.verdict = MountVerdict::no_level;
   const std::optional<GroundPlane> plane = search.find(points);
   if (!plane) return decision;
-  take_plane(*plane, decision);
   const Agreement agreed = agreement.of(points, *plane);
+  take_plane(*plane, agreed, decision);
   decision.cells = agreed.cells;
   decision.free = agreed.free;
   decision.below = agreed.below;

@@ -49,7 +49,6 @@ void add_reason(std::ostream& text, const MountDecision& decision) {
     case MountVerdict::height_limit: text << "that height is not within the limits"; break;
     case MountVerdict::tilt_limit: text << "that tilt is beyond the limit"; break;
     case MountVerdict::outlier: text << "too far from what the scans before have told"; break;
-    case MountVerdict::out_of_memory: text << "no memory for the points"; break;
   }
 }
 

@@ -34,7 +34,6 @@ const char* to_string(MountVerdict verdict) noexcept {
     case MountVerdict::height_limit: return "height_limit";
     case MountVerdict::tilt_limit: return "tilt_limit";
     case MountVerdict::outlier: return "outlier";
-    case MountVerdict::out_of_memory: return "out_of_memory";
   }
   return "unknown";
 }

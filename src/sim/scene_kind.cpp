@@ -31,6 +31,14 @@ constexpr std::array kinds{
     SceneKind{"urban_street", "terraced houses, shop windows, buses, cyclists, pedestrians",
               urban_street},
     SceneKind{"highway", "2 x 3 lanes, barriers, slopes, superelevation, trucks", highway},
+    SceneKind{"drops", "the same road along quays, deep ditches, embankments down", drops},
+    SceneKind{"crossroads", "crowned roads that cross, islands, flower beds, waiting traffic",
+              crossroads},
+    SceneKind{"ramp", "car park of two storeys, a ramp of 12 to 15 % between, low ceilings", ramp},
+    SceneKind{"tunnel", "two lanes into a hill: walkways, vault or slab, fans, wet patches",
+              tunnel},
+    SceneKind{"indoor_hall", "warehouse: racks, pallets, forklifts, docks, a glossy floor",
+              indoor_hall},
 };
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST_P(BenchmarkOf, FindsTheGroundThatTheMethodFindsWithAnyInstructionSet) {
   const std::vector<io::Cloud> scans = {cloud_of(4000, 1), cloud_of(3000, 2)};
   Segmentation expected;
   std::vector<std::optional<std::size_t>> ground;
-  const auto segmenter = make_timed(config(), 1, nullptr);
+  const auto segmenter = make_timed(config(), {}, 1, nullptr);
   for (const io::Cloud& scan : scans) {
     ASSERT_TRUE(segmenter->segment(scan.view(), expected).ok());
     ground.emplace_back(expected.count(Label::ground));

@@ -122,7 +122,8 @@ TEST(EvalMethods, TheAblationHasTheTermsThatItsNameListsWhateverPatchworkHas) {
 
 TEST(EvalMethods, TheSensorsHeightReachesEveryMethodThatHasOne) {
   std::vector<std::string> without;
-  for (eval::Method& method : EvalMethods{.names = {"all"}, .sensor_height = 1.25f}.resolve()) {
+  for (eval::Method& method :
+       EvalMethods{.names = {"all"}, .mount = {.sensor_height = 1.25f}}.resolve()) {
     const auto settings = settings_of(method.config.value());
     const auto height = std::ranges::find(settings, "sensor_height", &Setting::key);
     if (height == settings.end()) {
@@ -207,7 +208,7 @@ TEST(EvalMethods, ASensorIsWhatTheSettingsOfAllAreDerivedFrom) {
   const auto methods = EvalMethods{.names = {"all"},
                                    .sensor = "vlp-16",
                                    .settings = {"patchwork.iterations=5", "gpf.segments=7"},
-                                   .sensor_height = 1.5f}
+                                   .mount = {.sensor_height = 1.5f}}
                            .resolve();
   PatchworkConfig expected = PatchworkConfig::for_sensor(sensor);
   expected.iterations = 5;

@@ -177,7 +177,9 @@ TEST_P(MovingScene, TrafficGoesOnBetweenStopsClearOfTheSensor) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, MovingScene, testing::Values("urban_street", "highway"),
+INSTANTIATE_TEST_SUITE_P(Scenes, MovingScene,
+                         testing::Values("urban_street", "highway", "crossroads", "ramp", "tunnel",
+                                         "indoor_hall"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 TEST(SteepStreet, MostDrivesHaveGradesAboveTenPercentUnderTheWheelsUpAndDown) {
@@ -312,16 +314,89 @@ TEST(BumpyField, MakesTheVehiclePitchAndRoll) {
   EXPECT_GT(std::sqrt(roll / stops) * degrees, 3);
 }
 
-TEST(Steps, ListsRisesThatTheGroundHasFromEndToEnd) {
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const Landscape land = kind_named("steps").make(seed);
-    for (const GroundStep& step : land.steps) {
-      for (const double share : {0.001, 0.5, 0.999}) {
-        const double x = step.x_begin + share * (step.x_end - step.x_begin);
-        const double rise = land.ground.height(x, step.y_end) - land.ground.height(x, step.y_begin);
-        EXPECT_NEAR(rise, step.rise, 1e-9) << step.kind << " at " << x;
+TEST(Ramp, ClimbsOrFallsAStoreyAtTwelveToFifteenPercent) {
+  int up = 0;
+  constexpr int drives = 12;
+  for (std::uint64_t seed = 0; seed < drives; ++seed) {
+    const Landscape land = kind_named("ramp").make(seed);
+    const double rise = land.ground.height(50, 0) - land.ground.height(-50, 0);
+    EXPECT_GT(std::abs(rise), 2.5);
+    EXPECT_LT(std::abs(rise), 3.3);
+    double steepest = 0;
+    for (double x = -50; x < 50; x += 1) {
+      const double climb = land.ground.height(x + 1, 0) - land.ground.height(x, 0);
+      steepest = std::max(steepest, std::abs(climb));
+    }
+    EXPECT_GT(steepest, 0.119);
+    EXPECT_LT(steepest, 0.151);
+    up += rise > 0;
+  }
+  EXPECT_GT(up, 0);
+  EXPECT_LT(up, drives);
+}
+
+// How high the nearest thing over the sensor is, metres above the ground; 100 for none.
+double ceiling_over(const World& world, const Frame& pose) {
+  const auto hit = world.scene.caster().cast(pose.origin, {0, 0, 1}, 0.1, 100);
+  return hit ? world.above_ground(pose.origin) + hit->range : 100;
+}
+
+TEST(Ramp, HasACeilingOverEveryStop) {
+  const World world("ramp", 2);
+  for (const Frame& pose : world.drive.poses()) EXPECT_LT(ceiling_over(world, pose), 6.5);
+  // On a storey, a low one.
+  EXPECT_LT(ceiling_over(world, world.drive.poses().front()), 2.85);
+}
+
+TEST(Tunnel, BeginsOrEndsDuringTheDrive) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const World world("tunnel", seed);
+    const bool first = ceiling_over(world, world.drive.poses().front()) < 7;
+    const bool last = ceiling_over(world, world.drive.poses().back()) < 7;
+    EXPECT_NE(first, last) << "seed " << seed;
+  }
+}
+
+TEST(Tunnel, HasWetRoadThatMirrors) {
+  const Landscape land = kind_named("tunnel").make(1);
+  int wet = 0;
+  for (const Stop& stop : land.route) {
+    for (double aside = -2; aside < 5; aside += 0.25) {
+      for (double ahead = 0; ahead < 8; ahead += 0.5) {
+        wet += land.ground.surface(stop.x + ahead, stop.y + aside).mirror > 0.5F;
       }
     }
+  }
+  EXPECT_GT(wet, 50);
+}
+
+TEST(Steps, ListsRisesThatTheGroundHasFromEndToEnd) {
+  for (const char* const scene : {"steps", "drops"}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const Landscape land = kind_named(scene).make(seed);
+      for (const GroundStep& step : land.steps) {
+        for (const double share : {0.001, 0.5, 0.999}) {
+          const double x = step.x_begin + share * (step.x_end - step.x_begin);
+          const double rise =
+              land.ground.height(x, step.y_end) - land.ground.height(x, step.y_begin);
+          EXPECT_NEAR(rise, step.rise, 1e-9) << step.kind << " at " << x;
+        }
+      }
+    }
+  }
+}
+
+TEST(Drops, LeadAtLeastAMetreDownBesideTheRouteWhateverTheSeed) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Landscape land = kind_named("drops").make(seed);
+    const auto depths_beside_route = [&](double depth) {
+      return std::ranges::any_of(land.steps, [&](const GroundStep& step) {
+        return std::abs(step.rise + depth) < 1e-9 && step.x_begin < half_drive + 30 &&
+               step.x_end > -half_drive - 30;
+      });
+    };
+    for (const double depth : {1.0, 1.5, 2.0, 3.0}) EXPECT_TRUE(depths_beside_route(depth));
+    EXPECT_FALSE(depths_beside_route(0.6));
   }
 }
 

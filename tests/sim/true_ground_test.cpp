@@ -197,7 +197,7 @@ TEST(StreetGround, IsWhereTheGroundPointsOfThatStreetsScanAre) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TrueGroundOfScene,
                          testing::Values("flat_street", "steep_street", "parked_cars",
-                                         "bushes_and_lawn", "bumpy_field", "steps"),
+                                         "bushes_and_lawn", "bumpy_field", "steps", "drops"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "sim/barrier.hpp"
 #include "sim/building_materials.hpp"
+#include "sim/excavation.hpp"
 #include "sim/ground_plan.hpp"
 #include "sim/machines.hpp"
 #include "sim/mound.hpp"
@@ -33,32 +34,6 @@ constexpr Surface grass{.semantic = SemanticClass::terrain, .reflectivity = 0.4F
 constexpr Surface puddle{
     .semantic = SemanticClass::other_ground, .reflectivity = 0.05F, .mirror = 0.8F};
 constexpr Surface clay_pipe{.semantic = SemanticClass::other_object, .reflectivity = 0.3F};
-
-// A pit with sloping sides; at its end of low x a ramp leads down.
-struct Pit {
-  double x_begin = 0, x_end = 0;  // metres
-  double t_near = 0, t_far = 0;   // distances from the path, on one side of it
-  double depth = 2;               // metres
-  double run = 0.6;               // of its sides, metres out for a metre down
-  double ramp = 6;                // the same of the ramp
-
-  [[nodiscard]] double at(double x, double out) const noexcept {
-    const double side = std::min({x_end - x, out - t_near, t_far - out}) / run;
-    return -std::clamp(std::min(side, (x - x_begin) / ramp), 0.0, depth);
-  }
-};
-
-// A narrow trench along the path with upright sides.
-struct Trench {
-  double x_begin = 0, x_end = 0, t_near = 0, width = 1, depth = 1.2;  // metres
-  static constexpr double face = 0.08;  // sides lean, so that the ground stays a function
-
-  [[nodiscard]] double at(double x, double out) const noexcept {
-    const double inside =
-        std::min({x - x_begin, x_end - x, out - t_near, t_near + width - out}) / face;
-    return -depth * std::clamp(inside, 0.0, 1.0);
-  }
-};
 
 // t is measured to the left of the haul road's middle, along y.
 struct Site {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/barrier.hpp"
+#include "sim/dam_edges.hpp"
 #include "sim/ground_plan.hpp"
 #include "sim/open_land.hpp"
 #include "sim/plants.hpp"
@@ -35,11 +36,6 @@ constexpr double level_land = 20;  // from here outward the land waves, metres f
 constexpr Surface asphalt{.semantic = SemanticClass::road, .reflectivity = 0.2F};
 constexpr Surface marking{.semantic = SemanticClass::lane_marking, .reflectivity = 0.6F};
 constexpr Surface gravel{.semantic = SemanticClass::other_ground, .reflectivity = 0.32F};
-constexpr Surface grass{.semantic = SemanticClass::terrain, .reflectivity = 0.4F};
-constexpr Surface water{
-    .semantic = SemanticClass::other_ground, .reflectivity = 0.04F, .mirror = 0.9F};
-// Walls that hold the land are no ground, though they belong to its surface.
-constexpr Surface masonry{.semantic = SemanticClass::other_structure, .reflectivity = 0.35F};
 constexpr Surface concrete{.semantic = SemanticClass::other_structure, .reflectivity = 0.4F};
 
 // What stands along a block of the dam's side.
@@ -50,77 +46,13 @@ struct Block {
   Furnished furnished;
 };
 
-// The measures that the seed draws.
-struct Measures {
-  double dam = 3;          // how much lower the land lies beside the dam, metres
-  double run = 1.7;        // metres out for a metre down or up
-  double drop = 2;         // of the retaining wall below the road, metres
-  double cut = 3;          // how much higher the land lies beside the cutting
-  double ditch = 0.8;      // depth, metres
-  double bottom = 0.8;     // width of its flat bottom, metres
-  double cut_ditch = 0.5;  // depth of the one below the cutting, metres
-  bool wet = false;        // is there water in the dam's ditch?
-};
-
-std::vector<EdgeKind> dam_kinds(const Measures& with) {
-  const double foot = with.run * with.dam;
-  const double berm = foot + 0.8;
-  const double bottom = berm + 0.7 * with.ditch;
-  const double up = bottom + with.bottom;
-  constexpr double face = 0.06;  // leans back, so that the ground stays a function of x and y
-  const double below_wall = with.dam - with.drop;
-  return {
-      {.corners = {{0, 0}, {foot, -with.dam}}, .slopes = {{"dam down", 0, 1}}, .surface = grass},
-      {.corners = {{0, 0},
-                   {foot, -with.dam},
-                   {berm, -with.dam},
-                   {bottom, -with.dam - with.ditch},
-                   {up, -with.dam - with.ditch},
-                   {up + 0.7 * with.ditch, -with.dam}},
-       .slopes = {{"dam down", 0, 1}, {"ditch down", 2, 3}, {"ditch up again", 4, 5}},
-       .surface = grass,
-       .between = {grass, grass, grass, with.wet ? water : grass, grass}},
-      {.corners = {{0, 0},
-                   {face, -with.drop},
-                   {1.5, -with.drop},
-                   {1.5 + with.run * below_wall, -with.dam}},
-       .slopes = {{"retaining wall down", 0, 1}},
-       .surface = grass,
-       .between = {masonry, grass, grass}}};
-}
-
-std::vector<EdgeKind> cutting_kinds(const Measures& with) {
-  const double side = 1.2 * with.cut_ditch;
-  const double bottom = side + 0.5;
-  const double foot = bottom + side;
-  constexpr double wall = 1;  // metres
-  constexpr double face = 0.05;
-  return {{.corners = {{0, 0},
-                       {side, -with.cut_ditch},
-                       {bottom, -with.cut_ditch},
-                       {foot, 0},
-                       {foot + with.run * with.cut, with.cut}},
-           .slopes = {{"ditch down", 0, 1}, {"cutting up", 3, 4}},
-           .surface = grass},
-          {.corners = {{0, 0},
-                       {side, -with.cut_ditch},
-                       {bottom, -with.cut_ditch},
-                       {foot, 0},
-                       {foot + face, wall},
-                       {foot + 1, wall},
-                       {foot + 1 + with.run * (with.cut - wall), with.cut}},
-           .slopes = {{"ditch down", 0, 1}, {"retaining wall up", 3, 4}},
-           .surface = grass,
-           .between = {grass, grass, grass, masonry, grass, grass}}};
-}
-
 // The road runs straight along x; t = y is measured to the left of its centre line.
 struct Road {
   double half_road = 4.4;  // of the asphalt, metres
   double shoulder = 1.5;
   double grade = 0, cross_fall = 0;
   double dam_side = -1;  // +1: the dam's slope lies to the left, the cutting to the right
-  Measures measures;
+  DamMeasures measures;
   std::array<std::vector<EdgeKind>, 2> kinds;  // of the dam and of the cutting
   std::array<EdgeRow, 2> edges;
   std::vector<Furnished> furnished;  // the dam's side, block by block
@@ -162,7 +94,7 @@ std::shared_ptr<const Road> draw_road(Random& random) {
   road->grade = random.uniform(-0.025, 0.025);
   road->cross_fall = random.uniform(-0.025, 0.025);
   road->dam_side = random.chance(0.5) ? 1 : -1;
-  Measures& measures = road->measures;
+  DamMeasures& measures = road->measures;
   measures.dam = random.uniform(2, 4);
   measures.run = random.uniform(1.5, 2);
   measures.drop = random.uniform(1, std::min(3.0, measures.dam));

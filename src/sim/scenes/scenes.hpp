@@ -64,5 +64,26 @@ Landscape urban_street(std::uint64_t seed);
 /// shoulders, guard rails, cuttings with a ditch or embankments, noise barriers, a gantry, trucks
 /// and cars; 400 m long.
 Landscape highway(std::uint64_t seed);
+/// The same road with edges that lead deep down: quays of 1.5 to 3 m, ditches of 1 and 1.5 m,
+/// embankments of 1.5 and 3 m.
+Landscape drops(std::uint64_t seed);
+
+/// Two crowned roads that cross: round kerbs, islands, raised flower beds, zebra crossings, traffic
+/// lights, houses or parks at the corners, vehicles that wait or cross, pedestrians.
+Landscape crossroads(std::uint64_t seed);
+
+/// A multi-storey car park: a ramp of 12 to 15 % from one storey to the next, ceilings 2.35 to
+/// 2.8 m high, columns, beams, parapets, parked cars. The ground is the storey one is on: the floor
+/// of the upper one lies behind the head of the ramp only.
+Landscape ramp(std::uint64_t seed);
+
+/// A road of two lanes through a cutting into a tunnel, or out of one: raised walkways, arched or
+/// flat ceiling, jet fans, lamps, wet patches, traffic.
+Landscape tunnel(std::uint64_t seed);
+
+/// A warehouse with a glossy, nearly level floor: racks along or across a wide aisle, pallets on
+/// the floor, a dock 1.1 m above a yard with trucks, columns, forklifts, people. Nothing hangs
+/// lower than the roof beams, so that sensors of any height between 0.3 and 2 m may drive.
+Landscape indoor_hall(std::uint64_t seed);
 
 }  // namespace flagstone::sim

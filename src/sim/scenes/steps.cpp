@@ -44,6 +44,28 @@ PlacedKind kerb(std::string_view name, double height) {
           .at_road = true};
 }
 
+PlacedKind beside_road(EdgeKind kind) { return {.kind = std::move(kind), .at_road = false}; }
+
+PlacedKind wall_down(std::string_view name, double depth) {
+  constexpr double face = 0.05;
+  return beside_road(
+      {.corners = {{0, 0}, {face, -depth}}, .slopes = {{name, 0, 1}}, .surface = concrete});
+}
+
+// Both slopes as wide as `slope`, the bottom between them as `bottom`.
+PlacedKind ditch(std::string_view down, std::string_view up_again, double depth, double slope,
+                 double bottom) {
+  return beside_road(
+      {.corners = {{0, 0}, {slope, -depth}, {slope + bottom, -depth}, {2 * slope + bottom, 0}},
+       .slopes = {{down, 0, 1}, {up_again, 2, 3}},
+       .surface = grass});
+}
+
+PlacedKind slope_down(std::string_view name, double depth, double width) {
+  return beside_road(
+      {.corners = {{0, 0}, {width, -depth}}, .slopes = {{name, 0, 1}}, .surface = grass});
+}
+
 PlacedKind flight_of_stairs() {
   constexpr int rises = 5;
   constexpr double rise = 0.16;
@@ -61,24 +83,32 @@ PlacedKind flight_of_stairs() {
           .at_road = false};
 }
 
-const std::vector<PlacedKind>& edge_kinds() {
+// Edges of all sorts.
+const std::vector<PlacedKind>& mixed_edges() {
   static const std::vector<PlacedKind> kinds{
       kerb("kerb, 5 cm up", 0.05),
       kerb("kerb, 10 cm up", 0.10),
       kerb("kerb, 15 cm up", 0.15),
-      {.kind = {.corners = {{0, 0}, {0.6, -0.6}, {1.8, -0.6}, {2.4, 0}},
-                .slopes = {{"ditch, 60 cm down", 0, 1}, {"ditch, 60 cm up again", 2, 3}},
-                .surface = grass},
-       .at_road = false},
-      {.kind = {.corners = {{0, 0}, {0.05, -1}},
-                .slopes = {{"retaining wall, 1 m down", 0, 1}},
-                .surface = concrete},
-       .at_road = false},
+      ditch("ditch, 60 cm down", "ditch, 60 cm up again", 0.6, 0.6, 1.2),
+      wall_down("retaining wall, 1 m down", 1),
       flight_of_stairs(),
       {.kind = {.corners = {{0, 0}, {3, 1.5}, {5, 1.5}, {8, 0}},
                 .slopes = {{"embankment, 1.5 m up", 0, 1}},
                 .surface = grass},
        .at_road = false}};
+  return kinds;
+}
+
+// Edges that lead deep down.
+const std::vector<PlacedKind>& deep_edges() {
+  static const std::vector<PlacedKind> kinds{
+      wall_down("quay, 1.5 m down", 1.5),
+      wall_down("quay, 2 m down", 2),
+      wall_down("quay, 3 m down", 3),
+      ditch("ditch, 1 m down", "ditch, 1 m up again", 1, 0.7, 1.2),
+      ditch("ditch, 1.5 m down", "ditch, 1.5 m up again", 1.5, 1, 1.5),
+      slope_down("embankment, 1.5 m down", 1.5, 2.5),
+      slope_down("embankment, 3 m down", 3, 4.5)};
   return kinds;
 }
 
@@ -104,8 +134,8 @@ struct Road {
 };
 
 // All kinds in an order that the seed draws, again and again.
-std::vector<Edge> draw_edges(double half_road, Random& random) {
-  const std::vector<PlacedKind>& kinds = edge_kinds();
+std::vector<Edge> draw_edges(const std::vector<PlacedKind>& kinds, double half_road,
+                             Random& random) {
   std::vector<std::size_t> order;
   std::vector<Edge> edges;
   while (edges.size() < block_count) {
@@ -122,7 +152,7 @@ std::vector<Edge> draw_edges(double half_road, Random& random) {
   return edges;
 }
 
-Road draw_road(Random& random) {
+Road draw_road(const std::vector<PlacedKind>& kinds, Random& random) {
   Road road{.half_road = random.uniform(3, 3.8),
             .grade = random.uniform(-0.01, 0.01),
             .cross_fall = random.uniform(-0.01, 0.01),
@@ -131,7 +161,7 @@ Road draw_road(Random& random) {
     side = {.x_begin = -half_length,
             .block_length = block_length,
             .blend = blend,
-            .blocks = draw_edges(road.half_road, random)};
+            .blocks = draw_edges(kinds, road.half_road, random)};
   }
   return road;
 }
@@ -194,11 +224,9 @@ Mesh furnish_road(double half_road, const Ground& ground, Random random) {
   return mesh;
 }
 
-}  // namespace
-
-Landscape steps(std::uint64_t seed) {
+Landscape road_along(const std::vector<PlacedKind>& kinds, std::uint64_t seed) {
   Random random = Random::stream(seed, 0);
-  Road road = draw_road(random);
+  Road road = draw_road(kinds, random);
   Ground ground = make_road(road);
   std::vector<Stop> route =
       wander_along([](double x) { return Stop{.x = x, .y = lane, .yaw = 0}; }, random);
@@ -211,5 +239,11 @@ Landscape steps(std::uint64_t seed) {
                       random](const Ground& on) { return furnish_road(half_road, on, random); },
           .steps = std::move(known)};
 }
+
+}  // namespace
+
+Landscape steps(std::uint64_t seed) { return road_along(mixed_edges(), seed); }
+
+Landscape drops(std::uint64_t seed) { return road_along(deep_edges(), seed); }
 
 }  // namespace flagstone::sim
