@@ -6,8 +6,8 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test sanitize format format-check tidy growth latency primitives sharpness bench-compare \
-        surface-study surface-figures install clean
+.PHONY: help build demo test sanitize format format-check tidy growth latency primitives sharpness edges bench-compare \
+        surface-study surface-figures contact-sheet install clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
@@ -46,6 +46,9 @@ primitives: ## time of each step for every instruction set
 sharpness: ## how sharp the surface shows kerbs, ditches and drops of known shape
 	@scripts/setup build benchmark && scripts/benchmark sharpness
 
+edges: ## what methods make of the ground on both sides of kerbs, ditches and drops, and of ghosts below
+	@scripts/setup build benchmark && scripts/benchmark edges
+
 bench-compare: build ## is METHOD in the working tree slower than in REVISION, on SCANS?
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(SCANS)
 
@@ -54,6 +57,9 @@ surface-study: build ## measures the method surface, writes the tables of docs/s
 
 surface-figures: ## draws the figures of docs/surface.md
 	@scripts/setup build benchmark plot && scripts/benchmark surface_stages
+
+contact-sheet: build ## draws every scene as three sensors see it: docs/images/worlds.png; SHEET: options of bench/contact_sheet.py
+	@scripts/setup plot && "$$(scripts/plotting-python)" bench/contact_sheet.py $(SHEET)
 
 install: build ## install the library and the command under PREFIX (/usr/local)
 	@cmake --install build --prefix $(PREFIX)

@@ -21,6 +21,7 @@ SCENES = [
     "bumpy_field",
     "embankment",
     "steps",
+    "drops",
     "tunnel",
     "construction_site",
     "indoor_hall",

@@ -31,7 +31,10 @@ PatchworkConfig patchwork_config(std::size_t choice) {
   switch (choice / names.size() % 4) {
     case 1: one_zone(1, 1, 1000); break;
     case 2: one_zone(17, 3, 80); break;
-    case 3: one_zone(1000, 60, 200); break;
+    case 3:
+      one_zone(1000, 60, 200);
+      config.field_of_view = {.begin = 100, .width = 160};
+      break;
     default: break;
   }
   return config;

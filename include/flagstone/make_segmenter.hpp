@@ -14,6 +14,7 @@
 #include "flagstone/baselines/ransac.hpp"
 #include "flagstone/patchwork_config.hpp"
 #include "flagstone/segmenter.hpp"
+#include "flagstone/sensor.hpp"
 #include "flagstone/surface_config.hpp"
 
 /// Methods by name; the target is flagstone::baselines.
@@ -38,6 +39,12 @@ MethodConfig default_config(std::string_view name);
 /// The same for rows of the ablation made from `patchwork`: its zones and numbers, with the terms
 /// of the ground likelihood that the name lists and no others. Other methods do not look at it.
 MethodConfig default_config(std::string_view name, const PatchworkConfig& patchwork);
+
+/// The settings a method has for a sensor: those derived from it where the method has a rule
+/// (Patchwork's `for_sensor` for `patchwork` and czm+..., `surface`'s for `surface`), for
+/// `cascaded` the sensor's beams, for the others the sensor's height. Throws std::invalid_argument
+/// as these do.
+MethodConfig default_config(std::string_view name, const Sensor& sensor);
 
 /// Throws std::invalid_argument naming the field, its value and the range allowed.
 void check(const MethodConfig& config);

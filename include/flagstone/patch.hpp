@@ -50,6 +50,8 @@ struct Patch {
   std::uint32_t point_count = 0;  ///< points of the bin, |S_n|
   std::uint32_t ground_count =
       0;  ///< points of the bin labelled ground; 0 if the patch is rejected
+  std::uint32_t sunken_count =
+      0;  ///< of those, points below the plane in one of their own: a ditch's bottom
 
   std::array<float, 3> mean{};         ///< mean of the ground set, metres, sensor frame
   std::array<float, 3> normal{};       ///< n = v_3, unit length, pointing up (z >= 0), eq. (3)

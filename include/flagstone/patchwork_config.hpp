@@ -8,6 +8,8 @@
 
 namespace flagstone {
 
+struct Sensor;
+
 /// One zone Z_m of the Concentric Zone Model (paper, section III-B): rings of sectors around the
 /// sensor. A zone begins where the one before it ends, the first at `min_range`.
 struct Zone {
@@ -15,7 +17,7 @@ struct Zone {
   /// Its length is N_r,m, 1 to 1,000 rings. `equal_rings` gives the paper's equal widths.
   std::vector<float> ring_radii;
 
-  /// N_theta,m: sectors a ring is cut into, 1 to 3,600.
+  /// N_theta,m: sectors a ring is cut into, within the field of view; 1 to 3,600.
   int sectors = 32;
 
   /// M_h of this zone: when seeds are chosen, points below M_h * h_s are passed over as
@@ -26,6 +28,16 @@ struct Zone {
 /// `count` rings of equal width from `inner` to `outer` metres: the outer radii, as eq. (2) has
 /// them.
 std::vector<float> equal_rings(float inner, float outer, int count);
+
+/// What of the full turn the zones cover. Points outside it are out of range: a sensor that sees
+/// them is not the one that was configured, and no bin beside them would be the right one.
+struct FieldOfView {
+  /// Where sector 0 begins, degrees counter-clockwise from x, -360 to 360.
+  float begin = -180;
+  /// How far it goes from there, counter-clockwise, degrees, above 0, up to 360. At 360 the zones
+  /// close around the sensor.
+  float width = 360;
+};
 
 /// phi, eq. (8): the patch's normal must stand up.
 struct UprightnessTerm {
@@ -84,6 +96,8 @@ struct PatchworkConfig {
   /// m; at most 65,535 bins in all.
   std::vector<Zone> zones = default_zones();
 
+  FieldOfView field_of_view{};
+
   // Points below any ground
   // ------------------------------------------------------------------------
 
@@ -124,6 +138,11 @@ struct PatchworkConfig {
   /// lower bound.
   float noise_margin = 0.5f;
 
+  /// Points of a ground patch farther than this below its plane are ground where they lie in a
+  /// plane of their own, as the bottom of a ditch does, else noise; metres, above 0, up to 1,000,
+  /// or infinity for neither: then noise_margin alone decides. No more than noise_margin counts.
+  float support_margin = 0.25f;
+
   /// Plane fits a bin; the paper's and everybody's 3. 1 to 100.
   int iterations = 3;
 
@@ -143,6 +162,15 @@ struct PatchworkConfig {
 
   /// Names of the presets: default, paper, reference.
   static std::span<const std::string_view> preset_names() noexcept;
+
+  /// Settings derived from a sensor: zones, field of view, ranges and margins that suit its beams
+  /// and its height, by the rule of docs/sensors.md. What the rule does not speak of is as in
+  /// `default`. Throws std::invalid_argument where the sensor's check() does, and where its height
+  /// is 0 or none of its beams meets flat ground within its range.
+  static PatchworkConfig for_sensor(const Sensor& sensor);
+
+  /// The same for a known sensor at its usual height; see Sensor::named.
+  static PatchworkConfig for_sensor(std::string_view name);
 
   /// Throws std::invalid_argument naming the field, its value and the range allowed, for the first
   /// value out of range.

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string_view>
+
 namespace flagstone {
+
+struct Sensor;
 
 /// Which patches are believed to be ground.
 struct PatchAcceptance {
@@ -64,9 +68,9 @@ struct PointRule {
   float standing_height = 0.72f;
 
   /// Points farther below the surface are noise; metres, 0 to 1,000.
-  float noise_depth = 1.0f;
+  float noise_depth = 0.15f;
   /// Added to that for each metre of range; metres a metre, 0 to 10.
-  float noise_growth = 0.06f;
+  float noise_growth = 0.02f;
 };
 
 /// Settings of the method `surface`. They are the same for every sensor but for its height.
@@ -88,6 +92,13 @@ struct SurfaceConfig {
   PatchAcceptance acceptance{};
   Refinement refinement{};
   PointRule point{};
+
+  /// Settings derived from a sensor: its height and its range; see docs/sensors.md. Throws
+  /// std::invalid_argument where the sensor's check() does.
+  static SurfaceConfig for_sensor(const Sensor& sensor);
+
+  /// The same for a known sensor at its usual height; see Sensor::named.
+  static SurfaceConfig for_sensor(std::string_view name);
 
   /// Throws std::invalid_argument naming the field, its value and the range allowed, for the first
   /// value out of range.

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "baselines/settings.hpp"
 #include "flagstone/patchwork.hpp"
 #include "flagstone/surface_segmenter.hpp"
 
@@ -27,6 +28,15 @@ PatchworkConfig with_terms_of(std::string_view name, PatchworkConfig config) {
   config.elevation.enabled = terms.find("+e") != std::string_view::npos;
   config.flatness.enabled = terms.find("+f") != std::string_view::npos;
   return config;
+}
+
+/// Rings of the sensor's own; a rosette has none.
+void use_beams_of(const Sensor& sensor, CascadedConfig& config) {
+  if (sensor.draws_rosette()) return;
+  config.beam_elevations.assign(sensor.elevations.rbegin(), sensor.elevations.rend());
+  config.max_range = static_cast<float>(sensor.max_range);
+  const double firings_a_turn = sensor.firings * 360 / (sensor.azimuth_end - sensor.azimuth_begin);
+  config.columns = static_cast<int>(std::clamp(firings_a_turn, 1.0, 3600.0));
 }
 
 std::unique_ptr<Segmenter> make(const PatchworkConfig& config) {
@@ -50,7 +60,7 @@ std::unique_ptr<Segmenter> make(const CascadedConfig& config) {
 
 std::span<const std::string_view> method_names() noexcept { return names; }
 
-MethodConfig default_config(std::string_view name) { return default_config(name, {}); }
+MethodConfig default_config(std::string_view name) { return default_config(name, PatchworkConfig()); }
 
 MethodConfig default_config(std::string_view name, const PatchworkConfig& patchwork) {
   if (name == "ransac") return RansacConfig{};
@@ -66,6 +76,22 @@ MethodConfig default_config(std::string_view name, const PatchworkConfig& patchw
     throw std::invalid_argument(message.str());
   }
   return with_terms_of(name, name.starts_with("czm") ? patchwork : r_gpf_config());
+}
+
+MethodConfig default_config(std::string_view name, const Sensor& sensor) {
+  if (name == "surface") return SurfaceConfig::for_sensor(sensor);
+  if (name == "patchwork" || name.starts_with("czm")) {
+    return default_config(name, PatchworkConfig::for_sensor(sensor));
+  }
+  sensor.check();
+  MethodConfig config = default_config(name);
+  for (const Setting& setting : settings_of(config)) {
+    if (setting.key == "sensor_height") {
+      *std::get<float*>(setting.value) = static_cast<float>(sensor.height);
+    }
+  }
+  if (auto* cascaded = std::get_if<CascadedConfig>(&config)) use_beams_of(sensor, *cascaded);
+  return config;
 }
 
 void check(const MethodConfig& config) {

@@ -14,6 +14,7 @@
 #include "cli/bench_command.hpp"
 #include "cli/config_command.hpp"
 #include "cli/demo_command.hpp"
+#include "cli/doctor_command.hpp"
 #include "cli/eval_command.hpp"
 #include "cli/info_command.hpp"
 #include "cli/print_error.hpp"
@@ -46,6 +47,7 @@ int run(int argc, char** argv) {
   app.formatter(std::make_shared<BriefListing>());
   int exit_code = 0;
   flagstone::cli::add_segment_command(app, exit_code);
+  flagstone::cli::add_doctor_command(app, exit_code);
   flagstone::cli::add_simulate_command(app, exit_code);
   flagstone::cli::add_eval_command(app, exit_code);
   flagstone::cli::add_sweep_command(app, exit_code);

@@ -31,6 +31,7 @@
 #include "cli/simulated_sequence.hpp"
 #include "core/stopwatch.hpp"
 #include "flagstone/sensor.hpp"
+#include "sim/conditions.hpp"
 #include "sim/drive.hpp"
 #include "sim/noise.hpp"
 #include "sim/scene_kind.hpp"
@@ -45,6 +46,9 @@ struct SimulateOptions {
   std::string sensor = "hdl-64e";
   double sensor_height = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the sensor's own
   std::string tilt = "0,0";
+  std::string noise = "default";
+  std::vector<std::string> weather{"clear"};
+  bool keep_no_returns = false;
   std::size_t frames = 200;
   std::uint64_t seed = 1;
   std::string output;
@@ -128,7 +132,8 @@ class SequenceRun {
       if (kept_[first + offset]) continue;
       std::call_once(at.built, [&] { at.scene = std::make_unique<sim::Scene>(at.drive->scene()); });
       const int frame = static_cast<int>(offset);
-      const sim::SimulatedScan scan = at.drive->scan(*at.scene, sim::Noise{}, frame);
+      const sim::SimulatedScan scan =
+          at.drive->scan(*at.scene, origin_.noise, frame, origin_.keep_no_returns);
       files_.write(first + offset, scan, at.drive->ground_of(scan, frame));
       report();
     }
@@ -172,12 +177,17 @@ class SequenceRun {
   std::exception_ptr failure_;
 };
 
+/// An error that names those there are, each of which has a `name`.
+std::invalid_argument no_such(std::string_view option, std::string_view name, const auto& all) {
+  std::vector<std::string_view> names;
+  for (const auto& each : all) names.push_back(each.name);
+  return std::invalid_argument(
+      fmt::format("{}: there is no '{}'; choose {}", option, name, fmt::join(names, ", ")));
+}
+
 const sim::SceneKind& scene_named(const std::string& name) {
   if (const sim::SceneKind* scene = sim::find_scene_kind(name)) return *scene;
-  std::vector<std::string_view> names;
-  for (const sim::SceneKind& scene : sim::scene_kinds()) names.push_back(scene.name);
-  throw std::invalid_argument(
-      fmt::format("--scene: there is no '{}'; choose {}", name, fmt::join(names, ", ")));
+  throw no_such("--scene", name, sim::scene_kinds());
 }
 
 // SemanticKITTI's folders have two digits.
@@ -209,11 +219,30 @@ sim::Mounting mounting_of(const SimulateOptions& options, const Sensor& sensor) 
 }
 
 Sensor sensor_named(const std::string& name) {
-  try {
-    return Sensor::named(name);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(fmt::format("--sensor: {}", error.what()));
+  const auto found = std::ranges::find(Sensor::known(), name, &Sensor::name);
+  if (found == Sensor::known().end()) throw no_such("--sensor", name, Sensor::known());
+  return *found;
+}
+
+SequenceOrigin origin_of(const SimulateOptions& options) {
+  const Sensor sensor = sensor_named(options.sensor);
+  const sim::NoiseLevel* level = sim::find_noise_level(options.noise);
+  if (level == nullptr) throw no_such("--noise", options.noise, sim::noise_levels());
+  sim::Noise noise = level->noise;
+  for (const std::string& name : options.weather) {
+    const sim::Weather* weather = sim::find_weather(name);
+    if (weather == nullptr) throw no_such("--weather", name, sim::weathers());
+    weather->add_to(noise);
   }
+  return {.scene = options.scene,
+          .sensor = sensor,
+          .mounting = mounting_of(options, sensor),
+          .noise_name = options.noise,
+          .weather = options.weather,
+          .noise = noise,
+          .keep_no_returns = options.keep_no_returns,
+          .seed = options.seed,
+          .frames = options.frames};
 }
 
 int simulate(const SimulateOptions& options) {
@@ -221,12 +250,7 @@ int simulate(const SimulateOptions& options) {
   check_sequence(options.sequence);
   const SimulatedSequence files(std::filesystem::path(options.output) / "sequences" /
                                 options.sequence);
-  const Sensor sensor = sensor_named(options.sensor);
-  const SequenceOrigin origin{.scene = options.scene,
-                              .sensor = sensor,
-                              .mounting = mounting_of(options, sensor),
-                              .seed = options.seed,
-                              .frames = options.frames};
+  const SequenceOrigin origin = origin_of(options);
   files.begin(origin);
   const unsigned threads =
       options.threads == 0 ? std::max(1U, std::thread::hardware_concurrency()) : options.threads;
@@ -245,7 +269,7 @@ int simulate(const SimulateOptions& options) {
   files.write_poses(sequence.poses());
   const std::size_t drives = (options.frames + drive_length - 1) / drive_length;
   fmt::print("{}, {}, seed {}: {} frames in {} drive{}, {} simulated, {} kept as they were\n",
-             options.scene, sensor.name, options.seed, options.frames, drives,
+             options.scene, origin.sensor.name, options.seed, options.frames, drives,
              drives == 1 ? "" : "s", sequence.simulated(), sequence.kept());
   if (sequence.simulated() > 0) {
     fmt::print("{:.1f} s, {:.1f} scans a second\n", seconds,
@@ -262,11 +286,19 @@ std::string description() {
       "Written as SemanticKITTI lays out a sequence. Run again, it keeps the frames that are "
       "there.\n\nScenes:\n";
   for (const sim::SceneKind& scene : sim::scene_kinds()) {
-    text += fmt::format("  {:<16} {}\n", scene.name, scene.summary);
+    text += fmt::format("  {:<17} {}\n", scene.name, scene.summary);
+  }
+  text += "\nNoise:\n";
+  for (const sim::NoiseLevel& level : sim::noise_levels()) {
+    text += fmt::format("  {:<16} {}\n", level.name, level.summary);
+  }
+  text += "\nWeather:\n";
+  for (const sim::Weather& weather : sim::weathers()) {
+    text += fmt::format("  {:<16} {}\n", weather.name, weather.summary);
   }
   text += "\nSensors:\n";
   for (const Sensor& sensor : Sensor::known()) {
-    text += fmt::format("  {:<16} {}\n", sensor.name, sensor.title);
+    text += fmt::format("  {:<17} {}\n", sensor.name, sensor.title);
   }
   return text;
 }
@@ -293,6 +325,17 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
                    "looks down ahead, positive roll has the right side lower")
       ->type_name("PITCH,ROLL")
       ->capture_default_str();
+  command->add_option("--noise", options->noise, "How the sensor errs; the names stand above")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command
+      ->add_option("--weather", options->weather,
+                   "What is in the air and on the road; one or more of the names above")
+      ->delimiter(',')
+      ->type_name("NAME,...")
+      ->capture_default_str();
+  command->add_flag("--keep-no-returns", options->keep_no_returns,
+                    "Write beams without echo as points at (0, 0, 0), as many drivers do");
   command
       ->add_option("--frames", options->frames,
                    fmt::format("Scans, 1 to 100000; every {} a new world", drive_length))
@@ -305,7 +348,7 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("-o,--output", options->output,
-                   "Folder for sequences/NN with velodyne, labels, ground, poses; made if missing")
+                   "Folder for sequences/NN with velodyne, labels, ground, echoes; made if missing")
       ->required()
       ->type_name("DIR");
   command

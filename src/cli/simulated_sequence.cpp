@@ -7,6 +7,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -19,8 +20,11 @@
 #include "io/label_files.hpp"
 #include "io/load_bytes.hpp"
 #include "io/npy.hpp"
+#include "io/npy_header.hpp"
 #include "io/write_cloud.hpp"
 #include "sim/drive.hpp"
+#include "sim/echo.hpp"
+#include "sim/semantic_class.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;
@@ -50,6 +54,27 @@ Json sensor_json(const Sensor& sensor) {
   return json;
 }
 
+Json noise_json(const SequenceOrigin& origin) {
+  const sim::Noise& noise = origin.noise;
+  return {{"name", origin.noise_name},
+          {"range_sigma_scale", noise.range_sigma_scale},
+          {"drop_rate", noise.drop_rate},
+          {"half_detection", noise.half_detection},
+          {"ghost_rate", noise.ghost_rate},
+          {"ghost_max_range", noise.ghost_max_range},
+          {"intensity_sigma", noise.intensity_sigma},
+          {"mirroring", noise.mirroring},
+          {"wetness", noise.wetness},
+          {"mixed_rate", noise.mixed_rate},
+          {"beam_width", noise.beam_width},
+          {"rain_rate", noise.rain_rate},
+          {"rain_extinction", noise.rain_extinction},
+          {"dust_clouds", noise.dust_clouds},
+          {"dust_extinction", noise.dust_extinction},
+          {"crosstalk_rate", noise.crosstalk_rate},
+          {"block_loss_rate", noise.block_loss_rate}};
+}
+
 // What decides about the bytes of every frame.
 Json origin_json(const SequenceOrigin& origin) {
   const sim::Mounting& mount = origin.mounting;
@@ -57,7 +82,29 @@ Json origin_json(const SequenceOrigin& origin) {
           {"seed", origin.seed},
           {"version", FLAGSTONE_VERSION},
           {"mount", {{"height", mount.height}, {"pitch", mount.pitch}, {"roll", mount.roll}}},
+          {"noise", noise_json(origin)},
+          {"weather", origin.weather},
+          {"no_returns_kept", origin.keep_no_returns},
           {"sensor", sensor_json(origin.sensor)}};
+}
+
+// What the codes in label files mean.
+Json class_json() {
+  Json classes = {{"0", "unlabeled"}};
+  for (int code = 1; code < 256; ++code) {
+    const auto name = sim::name_of(static_cast<sim::SemanticClass>(code));
+    if (!name.empty()) classes[std::to_string(code)] = name;
+  }
+  return classes;
+}
+
+// What the codes in echo files mean.
+Json echo_json() {
+  Json echoes = Json::object();
+  for (std::size_t code = 0; code < sim::echo_kind_names.size(); ++code) {
+    echoes[std::to_string(code)] = sim::echo_kind_names[code];
+  }
+  return echoes;
 }
 
 std::string scene_text(const SequenceOrigin& origin) {
@@ -69,6 +116,13 @@ std::string scene_text(const SequenceOrigin& origin) {
                       {"world_seed", sim::drive_seed(origin.seed, first / sim::frames_per_drive)}});
   }
   scene["drives"] = drives;
+  scene["files"] = {{"scans", "velodyne/NNNNNN.bin"},
+                    {"labels", "labels/NNNNNN.label"},
+                    {"ground", "ground/NNNNNN.ground.npy"},
+                    {"echoes", "echoes/NNNNNN.echo.npy"},
+                    {"poses", "poses.txt"}};
+  scene["classes"] = class_json();
+  scene["echo_kinds"] = echo_json();
   return scene.dump(1) + '\n';
 }
 
@@ -140,6 +194,11 @@ void SimulatedSequence::begin(const SequenceOrigin& origin) const {
   make_folder(folder_ / "velodyne");
   make_folder(folder_ / "labels");
   make_folder(folder_ / "ground");
+  make_folder(folder_ / "echoes");
+}
+
+fs::path SimulatedSequence::echo_file(std::size_t frame) const {
+  return folder_ / "echoes" / fmt::format("{:06}.echo.npy", frame);
 }
 
 bool SimulatedSequence::has(std::size_t frame) const {
@@ -148,7 +207,8 @@ bool SimulatedSequence::has(std::size_t frame) const {
   const std::uintmax_t points = scan / scan_bytes;
   return scan > 0 && scan % scan_bytes == 0 &&
          size_of(label_file(frame)) == points * sizeof(std::uint32_t) &&
-         size_of(ground_file(frame)) == io::height_file_size(points);
+         size_of(ground_file(frame)) == io::height_file_size(points) &&
+         size_of(echo_file(frame)) == io::npy_header(io::FieldType::uint8, points).size() + points;
 }
 
 void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan,
@@ -158,6 +218,9 @@ void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan,
   must(io::write_cloud(scan_file(frame), cloud));
   must(io::write_class_file(label_file(frame), scan.classes));
   must(io::write_npy_file(ground_file(frame), ground, std::array{ground.size()}));
+  std::string echoes = io::npy_header(io::FieldType::uint8, scan.echoes.size());
+  for (const sim::EchoKind kind : scan.echoes) echoes += static_cast<char>(kind);
+  must(io::write_file(echo_file(frame), echoes));
 }
 
 void SimulatedSequence::write_poses(std::span<const sim::Frame> poses) const {

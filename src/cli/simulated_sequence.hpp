@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "flagstone/sensor.hpp"
 #include "sim/frame.hpp"
@@ -20,14 +21,19 @@ struct SequenceOrigin {
   std::string scene;
   Sensor sensor;
   sim::Mounting mounting;
+  std::string noise_name;            ///< of a sim::NoiseLevel
+  std::vector<std::string> weather;  ///< names of sim::Weather, all of them at once
+  sim::Noise noise;                  ///< what both make
+  bool keep_no_returns = false;
   std::uint64_t seed = 0;
   std::size_t frames = 0;
 };
 
 /// The files of a simulated sequence, laid out as SemanticKITTI's: velodyne/NNNNNN.bin,
 /// labels/NNNNNN.label, poses.txt, calib.txt, beside them ground/NNNNNN.ground.npy, the true height
-/// of the ground at each point, and scene.json, which says what the sequence was made from. Every
-/// file is there whole or not at all. What fails throws std::runtime_error.
+/// of the ground at each point, echoes/NNNNNN.echo.npy, what each is an echo of, and scene.json,
+/// which says what the sequence was made from. Every file is there whole or not at all. What fails
+/// throws std::runtime_error.
 class SimulatedSequence {
  public:
   explicit SimulatedSequence(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -38,7 +44,7 @@ class SimulatedSequence {
   /// folder already holds something else, or more frames than `origin` has.
   void begin(const SequenceOrigin& origin) const;
 
-  /// Are the scan, its labels and its ground there, of sizes that fit each other?
+  /// Are the scan, its labels, its ground and its echoes there, of sizes that fit each other?
   [[nodiscard]] bool has(std::size_t frame) const;
 
   /// `ground` is what sim::true_ground() gives for the scan.
@@ -53,6 +59,7 @@ class SimulatedSequence {
   [[nodiscard]] std::filesystem::path scan_file(std::size_t frame) const;
   [[nodiscard]] std::filesystem::path label_file(std::size_t frame) const;
   [[nodiscard]] std::filesystem::path ground_file(std::size_t frame) const;
+  [[nodiscard]] std::filesystem::path echo_file(std::size_t frame) const;
   void refuse_others(const SequenceOrigin& origin) const;
 
   std::filesystem::path folder_;

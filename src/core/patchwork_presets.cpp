@@ -49,6 +49,7 @@ PatchworkConfig paper() {
   config.keep_below_margin = false;
   config.distance_margin = 0.15f;
   config.noise_margin = infinity;
+  config.support_margin = infinity;
   config.iterations = 3;
   config.judge_final_set = true;
   config.uprightness = {.enabled = true, .angle = 45};
@@ -83,6 +84,7 @@ PatchworkConfig reference() {
   config.keep_below_margin = true;
   config.distance_margin = 0.125f;
   config.noise_margin = infinity;
+  config.support_margin = infinity;
   config.iterations = 3;
   config.judge_final_set = false;
   config.uprightness = {.enabled = true, .angle = 45};

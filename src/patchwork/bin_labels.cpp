@@ -3,7 +3,11 @@
 #include "patchwork/bin_labels.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+
+#include "core/plane.hpp"
+#include "patches/sunken_plane.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "patchwork/bin_labels.cpp"
@@ -96,13 +100,51 @@ namespace flagstone::patchwork {
 namespace {
 HWY_EXPORT(label_bin);
 HWY_EXPORT(copy_runs);
+
+/// Of the points of a bin that are noise, makes those ground that lie in a plane of their own;
+/// returns how many. In double precision: few bins have such points.
+std::uint32_t label_sunken(const patches::BinBatch& batch, std::size_t bin, double least_normal_z,
+                           std::uint8_t* labels) {
+  const auto each_deep = [&](const auto& work) {
+    for (std::size_t i = 0; i < batch.size(bin); ++i) {
+      if (labels[i] != static_cast<std::uint8_t>(Label::noise)) continue;
+      work(i, Vector3{batch.x(bin)[i], batch.y(bin)[i], batch.z(bin)[i]});
+    }
+  };
+  Moments moments;
+  each_deep([&](std::size_t, const Vector3& p) { moments.add(p[0], p[1], p[2]); });
+  const double deep = moments.count;
+  Plane plane = plane_of(moments);
+  for (const double margin : patches::sunken_fit_margins) {
+    moments = {};
+    each_deep([&](std::size_t, const Vector3& p) {
+      if (std::abs(patches::height_above(plane, p)) < margin) moments.add(p[0], p[1], p[2]);
+    });
+    if (moments.count < patches::fewest_sunken_points) return 0;
+    plane = plane_of(moments);
+  }
+  if (!patches::is_sunken_ground(plane, deep, least_normal_z)) return 0;
+  std::uint32_t found = 0;
+  each_deep([&](std::size_t i, const Vector3& p) {
+    if (std::abs(patches::height_above(plane, p)) >= patches::sunken_margin) return;
+    labels[i] = static_cast<std::uint8_t>(Label::ground);
+    ++found;
+  });
+  return found;
+}
+
 }  // namespace
 
 LabelCounts BinLabels::write(const patches::BinBatch& batch, std::size_t i,
-                             const patches::GroundSet& set, const patches::BinGroups& groups,
-                             std::span<Label> labels) noexcept {
+                             const patches::GroundSet& set, std::optional<double> least_normal_z,
+                             const patches::BinGroups& groups, std::span<Label> labels) noexcept {
   std::uint8_t* packed = packed_.data();
-  const LabelCounts counts = HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, packed);
+  LabelCounts counts = HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, packed);
+  if (least_normal_z && counts.noise >= patches::fewest_sunken_points) {
+    counts.sunken = label_sunken(batch, i, *least_normal_z, packed);
+    counts.ground += counts.sunken;
+    counts.noise -= counts.sunken;
+  }
   if (groups.moved()) {
     for (const patches::MovedPoint& point : groups.points(batch.bin(i))) {
       labels[point.index] = static_cast<Label>(*packed++);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "core/buffer.hpp"
@@ -18,6 +19,7 @@ namespace flagstone::patchwork {
 struct LabelCounts {
   std::uint32_t ground = 0;
   std::uint32_t noise = 0;
+  std::uint32_t sunken = 0;  ///< of the ground, what lies in a plane below the set's
 };
 
 /// Labels the points of bins where they stand in the cloud.
@@ -27,9 +29,11 @@ class BinLabels {
   void reserve(std::size_t points) { packed_.reserve(points + 128); }
 
   /// Labels the points of bin `i` of the batch: ground if in the set, noise below it, nonground
-  /// above.
+  /// above. `least_normal_z` says how upright a plane of points below the set must be for these to
+  /// be ground too; where they are looked for.
   LabelCounts write(const patches::BinBatch& batch, std::size_t i, const patches::GroundSet& set,
-                    const patches::BinGroups& groups, std::span<Label> labels) noexcept;
+                    std::optional<double> least_normal_z, const patches::BinGroups& groups,
+                    std::span<Label> labels) noexcept;
 
   /// Gives all points of a bin one label.
   /// Returns how many they are.

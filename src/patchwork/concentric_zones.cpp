@@ -22,6 +22,10 @@ float squared(float radius) {
 }  // namespace
 
 ConcentricZones::ConcentricZones(const PatchworkConfig& config) {
+  const double begin = config.field_of_view.begin / 360.0 + 0.5;
+  begin_turn_ = static_cast<float>(begin - std::floor(begin));
+  if (begin_turn_ == 1) begin_turn_ = 0;
+  turns_ = config.field_of_view.width / 360;
   squared_radii_.push_back(squared(config.min_range));
   for (std::size_t zone = 0; zone < config.zones.size(); ++zone) {
     for (std::size_t ring = 0; ring < config.zones[zone].ring_radii.size(); ++ring) {

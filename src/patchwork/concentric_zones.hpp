@@ -66,6 +66,13 @@ class ConcentricZones {
   [[nodiscard]] float least_squared_range() const noexcept { return least_squared_range_; }
   [[nodiscard]] float max_squared_range() const noexcept { return squared_radii_.back(); }
 
+  /// Do sectors begin elsewhere than at theta = -pi, or not go all around?
+  [[nodiscard]] bool have_own_view() const noexcept { return begin_turn_ != 0 || turns_ != 1; }
+  /// Where sector 0 begins, counted from theta = -pi, as a share of a full turn: 0 to below 1.
+  [[nodiscard]] float begin_turn() const noexcept { return begin_turn_; }
+  /// What of the full turn the zones cover, above 0, up to 1.
+  [[nodiscard]] float turns() const noexcept { return turns_; }
+
   [[nodiscard]] const RingTree& tree() const noexcept { return tree_; }
 
   /// @name Tables by ring
@@ -85,6 +92,8 @@ class ConcentricZones {
   std::vector<Ring> rings_;
   std::vector<float> squared_radii_;  ///< L_min^2 and each ring's outer radius squared, m^2
   float least_squared_range_ = 0;
+  float begin_turn_ = 0;
+  float turns_ = 1;
   std::vector<float> sectors_;
   std::vector<float> first_bins_;
   std::vector<float> noise_heights_;

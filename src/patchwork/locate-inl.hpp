@@ -105,8 +105,35 @@ HWY_INLINE IntVector with_binless(IntVector bins, FloatVector squared_range, Flo
   return hn::IfThenElse(hn::RebindMask(di, hn::And(in_range, valid)), bins, binless);
 }
 
+/// How far into the field of view, as a share of it: below 1 within, 1 or more outside. `turn` as
+/// of turn_of.
+HWY_INLINE FloatVector share_of_view(FloatVector turn, const ConcentricZones& zones) {
+  const FloatTag d;
+  const FloatVector one = hn::Set(d, 1.0f);
+  const FloatVector once = hn::IfThenElseZero(hn::Lt(turn, one), turn);  // theta = pi is -pi
+  const FloatVector beyond = hn::Sub(once, hn::Set(d, zones.begin_turn()));
+  // Just before where it begins is a full turn after it, which rounding must not reach.
+  const FloatVector before = hn::Min(hn::Add(beyond, one), hn::Set(d, 1 - 0x1p-24f));
+  const FloatVector from_begin = hn::IfThenElse(hn::Lt(beyond, hn::Zero(d)), before, beyond);
+  return hn::Div(from_begin, hn::Set(d, zones.turns()));
+}
+
+/// Sector j of eq. (2); theta = pi itself counts as -pi.
+HWY_INLINE IntVector sector_of(FloatVector turn, FloatVector sectors) {
+  const FloatVector turns = hn::Mul(turn, sectors);
+  return whole_part(hn::IfThenElseZero(hn::Lt(turns, sectors), turns));
+}
+
+/// The same of a field of view; rounding must not lead from the last sector to the first.
+HWY_INLINE IntVector sector_of_view(FloatVector share, FloatVector sectors) {
+  const FloatVector last = hn::Sub(sectors, hn::Set(FloatTag(), 1.0f));
+  const FloatVector sector = hn::Mul(share, sectors);
+  return whole_part(hn::IfThenElse(hn::Lt(sector, sectors), sector, last));
+}
+
 /// The bins of points, each a bin, noise(), out_of_range() or invalid(). Takes any bit pattern.
-template <bool few>
+/// `in_view`: the zones have a field of view of their own; else sector 0 begins at theta = -pi.
+template <bool few, bool in_view>
 HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z,
                             const ConcentricZones& zones) {
   const FloatTag d;
@@ -114,15 +141,19 @@ HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z,
   const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));  // infinite if too far
   const IntVector ring = ring_of<few>(squared_range, zones.tree());
 
-  // Sector j of eq. (2); theta = pi itself counts as -pi.
   const FloatVector sectors = of_ring<few>(zones.sectors(), ring);
-  const FloatVector turns = hn::Mul(turn_of(x, y), sectors);
-  const IntVector sector = whole_part(hn::IfThenElseZero(hn::Lt(turns, sectors), turns));
+  FloatVector turn = turn_of(x, y);
+  if constexpr (in_view) turn = share_of_view(turn, zones);
+  const IntVector sector = in_view ? sector_of_view(turn, sectors) : sector_of(turn, sectors);
   const FloatVector first_bin = of_ring<few>(zones.first_bins(), ring);
   IntVector bins = hn::Add(hn::BitCast(di, first_bin), sector);
 
   const auto noise = hn::Lt(z, of_ring<few>(zones.noise_heights(), ring));
   bins = hn::IfThenElse(hn::RebindMask(di, noise), all_lanes(zones.noise()), bins);
+  if constexpr (in_view) {
+    const auto seen = hn::Lt(turn, hn::Set(d, 1.0f));
+    bins = hn::IfThenElse(hn::RebindMask(di, seen), bins, all_lanes(zones.out_of_range()));
+  }
 
   // Points straight above or below the sensor are looked at closely, too.
   const auto in_range =

@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace flagstone::patchwork::HWY_NAMESPACE {
 namespace {
 
-template <bool few>
+template <bool few, bool in_view>
 void locate_all(const ConcentricZones& zones, const float* x, const float* y, const float* z,
                 std::size_t count, std::uint32_t* bins) {
   const FloatTag d;
@@ -23,7 +23,7 @@ void locate_all(const ConcentricZones& zones, const float* x, const float* y, co
   const auto locate_vector = [&](const float* vx, const float* vy, const float* vz,
                                  std::uint32_t* out) HWY_ATTR {
     const IntVector found =
-        locate<few>(hn::LoadU(d, vx), hn::LoadU(d, vy), hn::LoadU(d, vz), zones);
+        locate<few, in_view>(hn::LoadU(d, vx), hn::LoadU(d, vy), hn::LoadU(d, vz), zones);
     hn::StoreU(found, di, reinterpret_cast<std::int32_t*>(out));
   };
   std::size_t i = 0;
@@ -40,11 +40,11 @@ void locate_all(const ConcentricZones& zones, const float* x, const float* y, co
 
 void locate_points(const ConcentricZones& zones, const float* x, const float* y, const float* z,
                    std::size_t count, std::uint32_t* bins) {
-  if (zones.rings().size() <= RingTree::few) {
-    locate_all<true>(zones, x, y, z, count, bins);
-  } else {
-    locate_all<false>(zones, x, y, z, count, bins);
-  }
+  const bool few = zones.rings().size() <= RingTree::few;
+  const auto locate = zones.have_own_view()
+                          ? (few ? locate_all<true, true> : locate_all<false, true>)
+                          : (few ? locate_all<true, false> : locate_all<false, false>);
+  locate(zones, x, y, z, count, bins);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -90,6 +91,7 @@ struct Patchwork::Pipeline {
         zones(config),
         likelihood(config, zones.rings()),
         seed_floors(patchwork::seed_floors(config)),
+        sunken_normal_z(patchwork::sunken_normal_z(config)),
         crew(checked(threads)) {
     for (std::size_t i = 0; i < crew.size(); ++i) fitters.emplace_back(config);
   }
@@ -190,18 +192,26 @@ struct Patchwork::Pipeline {
     }
     clock.end(Stage::solve);
 
-    // The final ground set, eq. (6) of the last plane, less the noise below it. All other points
-    // stay nonground.
+    // The final ground set, eq. (6) of the last plane, less what lies far below it: that is noise,
+    // or ground in a plane of its own. All other points stay nonground.
     for (std::size_t i = 0; i < bins.size(); ++i) {
       Patch& patch = patches[bins[i].patch];
       if (!patch.is_ground()) continue;
-      const LabelCounts counts =
-          fitter.bin_labels.write(fitter.batch, i, fitter.fitted.sets[i], groups, labels);
+      const LabelCounts counts = fitter.bin_labels.write(
+          fitter.batch, i, set_to_label(fitter.fitted.sets[i]), sunken_normal_z, groups, labels);
       patch.ground_count = counts.ground;
+      patch.sunken_count = counts.sunken;
       fitter.totals[static_cast<std::size_t>(Label::ground)] += counts.ground;
       fitter.totals[static_cast<std::size_t>(Label::noise)] += counts.noise;
     }
     clock.end(Stage::label);
+  }
+
+  /// The part of a ground set that needs no plane of its own.
+  [[nodiscard]] patches::GroundSet set_to_label(patches::GroundSet set) const noexcept {
+    const float depth = config.support_margin + config.distance_margin;
+    set.bottom = std::max(set.bottom, set.top - depth);
+    return set;
   }
 
   void judge(const PlaneFit::Result& fitted, std::size_t i, std::size_t ring,
@@ -225,6 +235,8 @@ struct Patchwork::Pipeline {
   ConcentricZones zones;
   GroundLikelihood likelihood;
   std::vector<double> seed_floors;  ///< of each zone, metres
+  /// How upright ground below a patch must be; nothing if none is looked for.
+  std::optional<double> sunken_normal_z;
   ScanPoints scan;
   BinGroups groups;
   Buffer<FittedBin> fitted_bins;

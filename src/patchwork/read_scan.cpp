@@ -13,18 +13,22 @@ HWY_BEFORE_NAMESPACE();
 namespace flagstone::patchwork::HWY_NAMESPACE {
 namespace {
 
-template <bool few>
+template <bool few, bool in_view>
 struct Locate {
   HWY_INLINE IntVector operator()(FloatVector x, FloatVector y, FloatVector z) const {
-    return locate<few>(x, y, z, zones);
+    return locate<few, in_view>(x, y, z, zones);
   }
   const ConcentricZones& zones;
 };
 
 std::size_t read_zones(const patches::Stretch& stretch, const ConcentricZones& zones) {
-  return zones.rings().size() <= RingTree::few
-             ? patches::HWY_NAMESPACE::read_stretch(stretch, Locate<true>{zones})
-             : patches::HWY_NAMESPACE::read_stretch(stretch, Locate<false>{zones});
+  const bool few = zones.rings().size() <= RingTree::few;
+  if (zones.have_own_view()) {
+    return few ? patches::HWY_NAMESPACE::read_stretch(stretch, Locate<true, true>{zones})
+               : patches::HWY_NAMESPACE::read_stretch(stretch, Locate<false, true>{zones});
+  }
+  return few ? patches::HWY_NAMESPACE::read_stretch(stretch, Locate<true, false>{zones})
+             : patches::HWY_NAMESPACE::read_stretch(stretch, Locate<false, false>{zones});
 }
 
 }  // namespace

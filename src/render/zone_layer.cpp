@@ -27,31 +27,38 @@ double inner_radius(const PatchworkConfig& config, std::size_t zone, std::size_t
 }
 
 // Angle at which a sector begins, radians counter-clockwise from x.
-double sector_begin(const Zone& zone, int sector) noexcept {
-  return std::numbers::pi * (2.0 * sector / zone.sectors - 1);
+double sector_begin(const PatchworkConfig& config, const Zone& zone, int sector) noexcept {
+  const FieldOfView& view = config.field_of_view;
+  const double share = static_cast<double>(sector) / zone.sectors;
+  return (view.begin + share * view.width) * std::numbers::pi / 180;
 }
 
 // Appends one bin to the path, in metres. All bins turn the same way, so that together they fill
 // without a seam where they touch.
 void add_bin(cairo_t* context, const PatchworkConfig& config, const Patch& patch) noexcept {
   const Zone& zone = config.zones[patch.zone];
-  const double begin = sector_begin(zone, patch.sector);
-  const double end = sector_begin(zone, patch.sector + 1);
+  const double begin = sector_begin(config, zone, patch.sector);
+  const double end = sector_begin(config, zone, patch.sector + 1);
   cairo_new_sub_path(context);
   cairo_arc(context, 0, 0, zone.ring_radii[patch.ring], begin, end);
   cairo_arc_negative(context, 0, 0, inner_radius(config, patch.zone, patch.ring), end, begin);
   cairo_close_path(context);
 }
 
-void add_circle(cairo_t* context, double radius) noexcept {
+// A circle, or what the field of view leaves of it.
+void add_circle(cairo_t* context, const PatchworkConfig& config, double radius) noexcept {
+  const Zone& zone = config.zones.front();
   cairo_new_sub_path(context);
-  cairo_arc(context, 0, 0, radius, 0, 2 * std::numbers::pi);
+  cairo_arc(context, 0, 0, radius, sector_begin(config, zone, 0),
+            sector_begin(config, zone, zone.sectors));
 }
 
-void add_sector_lines(cairo_t* context, const Zone& zone, double inner) noexcept {
+void add_sector_lines(cairo_t* context, const PatchworkConfig& config, const Zone& zone,
+                      double inner) noexcept {
   const double outer = zone.ring_radii.back();
-  for (int sector = 0; sector < zone.sectors; ++sector) {
-    const double angle = sector_begin(zone, sector);
+  const int last = config.field_of_view.width < 360 ? zone.sectors : zone.sectors - 1;
+  for (int sector = 0; sector <= last; ++sector) {
+    const double angle = sector_begin(config, zone, sector);
     cairo_move_to(context, inner * std::cos(angle), inner * std::sin(angle));
     cairo_line_to(context, outer * std::cos(angle), outer * std::sin(angle));
   }
@@ -114,14 +121,15 @@ void draw_zone_lines(const Canvas& canvas, const TopView& view, const PatchworkC
   view.use_metres(context);
   for (std::size_t zone = 0; zone < config.zones.size(); ++zone) {
     const std::vector<float>& radii = config.zones[zone].ring_radii;
-    for (std::size_t ring = 0; ring + 1 < radii.size(); ++ring) add_circle(context, radii[ring]);
-    add_sector_lines(context, config.zones[zone], inner_radius(config, zone, 0));
+    for (std::size_t ring = 0; ring + 1 < radii.size(); ++ring)
+      add_circle(context, config, radii[ring]);
+    add_sector_lines(context, config, config.zones[zone], inner_radius(config, zone, 0));
   }
   stroke(context, 1.0 * unit, 0.28);
 
   view.use_metres(context);
-  add_circle(context, config.min_range);
-  for (const Zone& zone : config.zones) add_circle(context, zone.ring_radii.back());
+  add_circle(context, config, config.min_range);
+  for (const Zone& zone : config.zones) add_circle(context, config, zone.ring_radii.back());
   stroke(context, 2.0 * unit, 0.6);
   cairo_restore(context);
 }

@@ -3,6 +3,7 @@
 #include "sim/drive.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "sim/true_ground.hpp"
@@ -24,11 +25,16 @@ Drive::Drive(const SceneKind& kind, Sensor sensor, const Mounting& mounting, std
 
 Scene Drive::scene() const { return {landscape_.ground, landscape_.furnish(landscape_.ground)}; }
 
-SimulatedScan Drive::scan(const Scene& scene, const Noise& noise, int frame) const {
+SimulatedScan Drive::scan(const Scene& scene, const Noise& noise, int frame,
+                          bool keep_no_returns) const {
   const auto index = static_cast<std::size_t>(frame);
   // Stream 0 of the seed has drawn the world.
   const std::uint64_t noise_seed = Random::stream(seed_, index + 1).bits();
-  return simulate(scene, sensor_, noise, poses_[index], noise_seed, {.number = frame});
+  std::optional<RayCaster> moving;
+  if (landscape_.moving) moving.emplace(landscape_.moving(landscape_.ground, frame));
+  return simulate(
+      scene, sensor_, noise, poses_[index], noise_seed,
+      {.number = frame, .moving = moving ? &*moving : nullptr, .keep_no_returns = keep_no_returns});
 }
 
 std::vector<float> Drive::ground_of(const SimulatedScan& scan, int frame) const {

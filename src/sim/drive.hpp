@@ -38,8 +38,10 @@ class Drive {
   /// The world, ready for scan(): the same on every call, a good part of a second of work.
   [[nodiscard]] Scene scene() const;
 
-  /// What the sensor sees at a stop, 0 <= frame < frames_per_drive. Several threads may ask.
-  [[nodiscard]] SimulatedScan scan(const Scene& scene, const Noise& noise, int frame) const;
+  /// What the sensor sees at a stop, 0 <= frame < frames_per_drive, of the scene and of what moves
+  /// in it. Several threads may ask.
+  [[nodiscard]] SimulatedScan scan(const Scene& scene, const Noise& noise, int frame,
+                                   bool keep_no_returns = false) const;
 
   /// Where the ground is at each point of that scan: true_ground() along the vehicle's z axis.
   [[nodiscard]] std::vector<float> ground_of(const SimulatedScan& scan, int frame) const;

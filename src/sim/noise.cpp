@@ -6,15 +6,6 @@
 
 namespace flagstone::sim {
 
-Noise no_noise() {
-  return {.range_sigma_scale = 0,
-          .drop_rate = 0,
-          .half_detection = 0,
-          .ghost_rate = 0,
-          .ghost_max_range = 0,
-          .intensity_sigma = 0};
-}
-
 bool is_detected(const Noise& noise, double range, double reflectivity, double incidence,
                  Random& random) {
   const double strength = reflectivity * incidence / (range * range);

@@ -30,10 +30,53 @@ struct Noise {
 
   /// Standard deviation of the intensity, which runs from 0 to 1.
   double intensity_sigma = 0.03;
+
+  /// Multiplies how well glass, still water and the like mirror, Surface::mirror; 0..1. A beam that
+  /// is mirrored returns, if at all, as a ghost behind the mirror.
+  double mirroring = 1;
+
+  /// How well roads and pavements mirror for being wet, 0..1; wet ones are darker, by half at 1.
+  double wetness = 0;
+
+  /// Share of the beams on an edge between something near and something farther that are reported
+  /// between the two, 0..1.
+  double mixed_rate = 0;
+
+  /// Angle that the light of a beam fills, radians: how near to an edge is on it.
+  double beam_width = 0.003;
+
+  /// Share of the beams that a drop of rain sends back, if they go as far as that, 0..1.
+  double rain_rate = 0;
+
+  /// Light lost in rain, 1/m, on the way there and on the way back.
+  double rain_extinction = 0;
+
+  /// Clouds of dust about the vehicle: the first behind it, the others within 25 m, 1.5 to 4 m in
+  /// radius.
+  int dust_clouds = 0;
+
+  /// Light lost in the middle of a cloud, 1/m, less towards its rim; on the way there, what is lost
+  /// is sent back.
+  double dust_extinction = 0;
+
+  /// Share of the beams with a range made up by another sensor's light, in bursts of firings in a
+  /// row, 0..1.
+  double crosstalk_rate = 0;
+
+  /// Share of the beams lost in blocks: some degrees of a quarter of the rows; 0..1.
+  double block_loss_rate = 0;
 };
 
 /// Exact ranges, nothing lost, no ghosts.
-Noise no_noise();
+constexpr Noise no_noise() noexcept {
+  return {.range_sigma_scale = 0,
+          .drop_rate = 0,
+          .half_detection = 0,
+          .ghost_rate = 0,
+          .ghost_max_range = 0,
+          .intensity_sigma = 0,
+          .mirroring = 0};
+}
 
 /// Is an echo of this strength reported? `range` in metres, `incidence` as a cosine.
 bool is_detected(const Noise& noise, double range, double reflectivity, double incidence,

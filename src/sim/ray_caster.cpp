@@ -116,7 +116,8 @@ std::optional<RayCaster::Hit> RayCaster::cast(Vector3 origin, Vector3 direction,
   constexpr double edge_on = 1e-6;  // no more digits in the division than Embree's floats have
   const double range = std::abs(approach) < edge_on ? static_cast<double>(query.ray.tfar)
                                                     : dot(normal, a - origin) / approach;
-  return Hit{.range = range, .triangle = triangle, .incidence = std::abs(approach)};
+  return Hit{
+      .range = range, .triangle = triangle, .incidence = std::abs(approach), .normal = normal};
 }
 
 }  // namespace flagstone::sim

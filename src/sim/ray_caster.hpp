@@ -18,6 +18,7 @@ class RayCaster {
     double range;            ///< metres along the beam
     std::uint32_t triangle;  ///< index into the mesh
     double incidence;        ///< cosine of the angle between beam and surface normal, 0..1
+    Vector3 normal{};        ///< of the triangle, of length 1, on either side
   };
 
   /// Throws std::invalid_argument if a triangle names a vertex that is not there, std::bad_alloc if

@@ -31,6 +31,11 @@ void add_traffic_sign(Mesh& mesh, const Frame& frame) {
   add_box(mesh, frame, {.low = {0.04, -0.33, 2.2}, .high = {0.06, 0.33, 2.86}}, retroreflector);
 }
 
+void add_delineator(Mesh& mesh, const Frame& frame) {
+  constexpr Surface plastic{.semantic = SemanticClass::pole, .reflectivity = 0.6F};
+  add_box(mesh, frame, {.low = {-0.04, -0.06, -buried}, .high = {0.04, 0.06, 1}}, plastic);
+}
+
 void add_fence(Mesh& mesh, const Ground& ground, const Fence& fence) {
   constexpr double pitch = 0.15;  // of boards 0.1 m wide
   const double along = std::hypot(fence.x1 - fence.x0, fence.y1 - fence.y0);

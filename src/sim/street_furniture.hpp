@@ -16,6 +16,9 @@ void add_lamp_post(Mesh& mesh, const Frame& frame);
 /// ground.
 void add_traffic_sign(Mesh& mesh, const Frame& frame);
 
+/// A delineator at the edge of a road, 1 m high (class pole). `frame` stands on the ground.
+void add_delineator(Mesh& mesh, const Frame& frame);
+
 /// A fence of upright boards with gaps between, that follows the ground along the straight line
 /// from (x0, y0) to (x1, y1), metres.
 struct Fence {

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
+
+#include "sim/ground_plan.hpp"
 
 namespace flagstone::sim {
 namespace {
@@ -19,6 +20,7 @@ constexpr double bank_begin = 0.5;           // metres behind the sidewalk
 constexpr double bank_width = 4;
 constexpr double undulation_begin = 5;  // metres behind the sidewalk until it has its full height
 constexpr double dash_period = 6;       // of the centre marking, half of it painted
+constexpr double zebra_stripe = 0.5;    // metres across the street, and as much between
 
 constexpr Surface asphalt{.semantic = SemanticClass::road, .reflectivity = 0.24F};
 constexpr Surface paint{.semantic = SemanticClass::lane_marking, .reflectivity = 0.6F};
@@ -32,12 +34,24 @@ double smooth_step(double x) noexcept {
   return clamped * clamped * (3 - 2 * clamped);
 }
 
-// 1 within a driveway, 0 well outside of all.
+// 1 within `width` metres around `middle`, 0 well outside.
+double share_of(double middle, double width, double x) noexcept {
+  const double outside = std::abs(x - middle) - width / 2;
+  return std::clamp(1 - outside / driveway_ramp, 0.0, 1.0);
+}
+
 double driveway_share(const StreetSide& side, double x) noexcept {
   double share = 0;
   for (const Driveway& driveway : side.driveways) {
-    const double outside = std::abs(x - driveway.x) - driveway.width / 2;
-    share = std::max(share, std::clamp(1 - outside / driveway_ramp, 0.0, 1.0));
+    share = std::max(share, share_of(driveway.x, driveway.width, x));
+  }
+  return share;
+}
+
+double crossing_share(const StreetShape& shape, double x) noexcept {
+  double share = 0;
+  for (const double crossing : shape.crossings) {
+    share = std::max(share, share_of(crossing, crossing_width, x));
   }
   return share;
 }
@@ -73,30 +87,17 @@ double lateral_height(const StreetShape& shape, Side which, double x, double t) 
   double height = -shape.crown * on_road * on_road;
   height -= gutter_fall * std::clamp(out - shape.half_width, 0.0, side.parking_width);
 
-  // At a driveway the kerb is low and the sidewalk makes up for it on the way out.
+  // At a driveway or a crossing the kerb is low and the sidewalk makes up for it on the way out.
   const double on_sidewalk =
       std::clamp(out - shape.sidewalk_begin(which), 0.0, side.sidewalk_width);
+  const double low_kerb = std::max(driveway_share(side, x), crossing_share(shape, x));
   const double lowered =
-      (1 - driveway_kerb_share) * driveway_share(side, x) * (1 - on_sidewalk / side.sidewalk_width);
+      (1 - driveway_kerb_share) * low_kerb * (1 - on_sidewalk / side.sidewalk_width);
   height += side.kerb_height * (1 - lowered) *
             std::clamp((out - shape.kerb(which)) / kerb_face_width, 0.0, 1.0);
   height += sidewalk_rise * on_sidewalk;
   const double behind = out - shape.land_begin(which);
   return behind > 0 ? height + land_height(shape, side, x, t, behind) : height;
-}
-
-// Adds lines from `begin` to `end` inclusive, at most `step` apart.
-void add_lines(std::vector<double>& lines, double begin, double end, double step) {
-  const int count = std::max(1, static_cast<int>(std::ceil((end - begin) / step - 1e-9)));
-  for (int i = 0; i <= count; ++i) lines.push_back(begin + (end - begin) * i / count);
-}
-
-// Sorts, and drops lines that are so near to another one that only rounding tells them apart.
-void finish_lines(std::vector<double>& lines) {
-  constexpr double same = 1e-6;
-  std::ranges::sort(lines);
-  const auto repeated = std::ranges::unique(lines, [](double a, double b) { return b - a < same; });
-  lines.erase(repeated.begin(), repeated.end());
 }
 
 std::vector<double> lines_across(const StreetShape& shape) {
@@ -114,6 +115,9 @@ std::vector<double> lines_across(const StreetShape& shape) {
     add_lines(outward, shape.sidewalk_begin(which), shape.land_begin(which), road_step);
     add_lines(outward, shape.land_begin(which), bank_end, bank_step);
     add_lines(outward, bank_end, shape.land_end(which), land_step);
+    for (double out = 0; !shape.crossings.empty() && out < shape.half_width; out += zebra_stripe) {
+      outward.push_back(out);
+    }
     for (const double out : outward) lines.push_back(sign(which) * out);
   }
   finish_lines(lines);
@@ -124,14 +128,16 @@ std::vector<double> lines_along(const StreetShape& shape) {
   constexpr double step = 0.5;  // divides half of the dash period
   std::vector<double> lines;
   add_lines(lines, -shape.half_length, shape.half_length, step);
-  for (const StreetSide& side : shape.sides) {
-    for (const Driveway& driveway : side.driveways) {
-      for (const double end : {-1.0, 1.0}) {
-        lines.push_back(driveway.x + end * driveway.width / 2);
-        lines.push_back(driveway.x + end * (driveway.width / 2 + driveway_ramp));
-      }
+  const auto add_ends = [&](double middle, double width) {
+    for (const double end : {-1.0, 1.0}) {
+      lines.push_back(middle + end * width / 2);
+      lines.push_back(middle + end * (width / 2 + driveway_ramp));
     }
+  };
+  for (const StreetSide& side : shape.sides) {
+    for (const Driveway& driveway : side.driveways) add_ends(driveway.x, driveway.width);
   }
+  for (const double crossing : shape.crossings) add_ends(crossing, crossing_width);
   finish_lines(lines);
   return lines;
 }
@@ -160,6 +166,9 @@ double StreetShape::height(double x, double t) const noexcept {
 Surface StreetShape::surface(double x, double t) const noexcept {
   const Side which = t < 0 ? Side::right : Side::left;
   const double out = std::abs(t);
+  if (out < half_width && crossing_share(*this, x) == 1) {
+    return static_cast<int>(out / zebra_stripe) % 2 == 0 ? paint : asphalt;
+  }
   if (out < marking_width / 2) {
     const double in_period = x / dash_period - std::floor(x / dash_period);
     return in_period < 0.5 ? paint : asphalt;
@@ -167,25 +176,16 @@ Surface StreetShape::surface(double x, double t) const noexcept {
   if (out < half_width) return asphalt;
   if (out < kerb(which)) return cobbles;
   if (out < land_begin(which)) return slabs;
-  return driveway_share(side(which), x) == 1 ? gravel : lawn;
+  if (driveway_share(side(which), x) == 1) return gravel;
+  return paved_land ? slabs : lawn;
 }
 
 Ground make_ground(const StreetShape& shape) {
-  GroundGrid grid{.x = lines_along(shape), .offset = {}, .t = lines_across(shape)};
-  std::vector<double> heights;
-  std::vector<Surface> surfaces;
-  heights.reserve(grid.x.size() * grid.t.size());
-  surfaces.reserve(grid.x.size() * grid.t.size());
-  for (std::size_t i = 0; i < grid.x.size(); ++i) {
-    grid.offset.push_back(shape.centre_line(grid.x[i]));
-    for (const double t : grid.t) heights.push_back(shape.height(grid.x[i], t));
-    if (i + 1 == grid.x.size()) break;
-    const double middle_x = (grid.x[i] + grid.x[i + 1]) / 2;
-    for (std::size_t j = 0; j + 1 < grid.t.size(); ++j) {
-      surfaces.push_back(shape.surface(middle_x, (grid.t[j] + grid.t[j + 1]) / 2));
-    }
-  }
-  return {std::move(grid), std::move(heights), std::move(surfaces)};
+  return cut_ground({.x = lines_along(shape),
+                     .t = lines_across(shape),
+                     .offset = [&](double x) { return shape.centre_line(x); },
+                     .height = [&](double x, double t) { return shape.height(x, t); },
+                     .surface = [&](double x, double t) { return shape.surface(x, t); }});
 }
 
 }  // namespace flagstone::sim

@@ -48,6 +48,9 @@ struct GradeChange {
   double length = 8;  ///< how softly: half of it within about this length, metres
 };
 
+/// How wide a zebra crossing is along the street, metres.
+inline constexpr double crossing_width = 3.5;
+
 /// Everything that makes the ground of a street. The road runs along x and drives on the right; t
 /// is measured across from its centre line, to the left.
 struct StreetShape {
@@ -66,6 +69,8 @@ struct StreetShape {
 
   std::array<StreetSide, 2> sides;  ///< indexed by Side
   std::vector<Undulation> undulations;
+  std::vector<double> crossings;  ///< middles of zebra crossings, where both kerbs are low, metres
+  bool paved_land = false;        ///< slabs behind the sidewalks, not lawn
 
   [[nodiscard]] const StreetSide& side(Side which) const noexcept {
     return sides[static_cast<std::size_t>(which)];

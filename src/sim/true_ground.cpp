@@ -15,6 +15,10 @@ std::vector<float> true_ground(const Ground& ground, const Frame& pose, Vector3 
   heights.reserve(xyzi.size() / columns);
   for (std::size_t i = 0; i + columns <= xyzi.size(); i += columns) {
     const Vector3 point{xyzi[i], xyzi[i + 1], xyzi[i + 2]};
+    if (point.x == 0 && point.y == 0 && point.z == 0) {
+      heights.push_back(std::numeric_limits<float>::quiet_NaN());
+      continue;
+    }
     const Vector3 world = pose.to_world(point);
     const double to_ground = world.z > ground.height(world.x, world.y) ? -1 : 1;
     const std::optional<double> way = ground.first_crossing(world, to_ground * up);

@@ -17,7 +17,7 @@ namespace flagstone::sim {
 ///
 /// The line leans with the vehicle, so that it may meet a steep face more than once: what counts is
 /// the first ground on the way down from a point above the ground, or up from one below. NaN where
-/// the ground does not cover the point or the way.
+/// the ground does not cover the point or the way, and for (0, 0, 0), which is no echo at all.
 std::vector<float> true_ground(const Ground& ground, const Frame& pose, Vector3 up,
                                std::span<const float> xyzi);
 

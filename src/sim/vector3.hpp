@@ -15,6 +15,7 @@ struct Vector3 {
   constexpr Vector3(double x_value, double y_value, double z_value) noexcept
       : x(x_value), y(y_value), z(z_value) {}
 
+  friend constexpr bool operator==(Vector3, Vector3) noexcept = default;
   friend constexpr Vector3 operator+(Vector3 a, Vector3 b) noexcept {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
   }

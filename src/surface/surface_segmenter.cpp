@@ -31,6 +31,7 @@
 #include "surface/slab_counts.hpp"
 #include "surface/square_cells.hpp"
 #include "surface/square_patches.hpp"
+#include "surface/sunken_ground.hpp"
 
 namespace flagstone {
 
@@ -50,6 +51,7 @@ using surface::ResidualPyramid;
 using surface::SquareCells;
 using surface::SquarePatch;
 using surface::SquarePatches;
+using surface::SunkenGround;
 
 namespace {
 
@@ -133,6 +135,7 @@ struct SurfaceSegmenter::Pipeline {
         coarse(pyramid.grids().front(), config.sensor_height),
         pull_push(pyramid.grids().front().width),
         point_heights(config, cells),
+        sunken_ground(config, cells),
         groups(patches::Listing::points),
         crew(checked(threads)) {
     for (const surface::Grid& grid : pyramid.grids()) widest = std::max(widest, grid.width);
@@ -206,6 +209,9 @@ struct SurfaceSegmenter::Pipeline {
     for (const surface::Fitter& fitter : fitters) {
       for (std::size_t i = 0; i < label_count; ++i) totals[i] += fitter.totals[i];
     }
+    const std::size_t sunken = sunken_ground.find(scan, labels);
+    totals[static_cast<std::size_t>(Label::ground)] += sunken;
+    totals[static_cast<std::size_t>(Label::noise)] -= sunken;
     clock.end(Stage::label);
     return totals;
   }
@@ -313,6 +319,7 @@ struct SurfaceSegmenter::Pipeline {
   std::size_t widest = 0;
   PullPush pull_push;
   PointHeights point_heights;
+  SunkenGround sunken_ground;
   ScanPoints scan;
   BinGroups groups;
   Buffer<FittedSquare> fitted_patches;

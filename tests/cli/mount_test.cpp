@@ -83,19 +83,27 @@ TEST_F(MountOfScans, EstimatedHeightComesFromTheFirstScanThatTellsItAndIsSaid) {
                     HasSubstr("told by " + path("scans/1.bin"))));
 }
 
-TEST_F(MountOfScans, EstimatedHeightFindsGroundThatAWrongOneMisses) {
+TEST_F(MountOfScans, EstimatedHeightGivesTheLabelsOfASensorWhereTheMethodExpectsIt) {
   put_scan(folder_ / "scans/0.bin", yard(4.2f));
+  put_scan(folder_ / "usual/0.bin", yard(1.73f));
+  ASSERT_EQ(run({"segment", path("usual"), "--output", path("expected"), "--method", "patchwork"})
+                .exit_code,
+            0);
 
   const Outcome wrong = segment({"--sensor-height", "1.73"}, "wrong");
   const Outcome estimated = segment({"--sensor-height", "estimate"}, "estimated");
 
   ASSERT_EQ(wrong.exit_code, 0) << wrong.err;
   ASSERT_EQ(estimated.exit_code, 0) << estimated.err;
-  const auto ground = [&](const std::string& output) {
-    return std::ranges::count(codes_of(folder_ / output / "0.label"), 1U);
+  const auto expected = codes_of(folder_ / "expected/0.label");
+  const auto different = [&](const std::string& output) {
+    const auto codes = codes_of(folder_ / output / "0.label");
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) count += codes[i] != expected[i] ? 1U : 0U;
+    return count;
   };
-  EXPECT_GT(ground("estimated"), 6800);  // of 7,200
-  EXPECT_LT(ground("wrong"), 100);
+  EXPECT_LT(different("estimated"), 20U);
+  EXPECT_GT(different("wrong"), 200U);
 }
 
 TEST_F(MountOfScans, EstimatedOnceTheBytesDoNotDependOnThreads) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@
 #include "cli/line_matchers.hpp"
 #include "io/file_contents.hpp"
 #include "io/height_files.hpp"
+#include "io/label_files.hpp"
 #include "io/status_matchers.hpp"
 #include "io/temporary_folder.hpp"
 
@@ -52,12 +54,14 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("2 frames in 1 drive, 2 simulated, 0 kept"));
   const fs::path sequence = folder / "out" / "sequences" / "07";
-  EXPECT_THAT(names_below(folder / "out"),
-              ElementsAre("sequences/07/calib.txt", "sequences/07/ground/000000.ground.npy",
-                          "sequences/07/ground/000001.ground.npy",
-                          "sequences/07/labels/000000.label", "sequences/07/labels/000001.label",
-                          "sequences/07/poses.txt", "sequences/07/scene.json",
-                          "sequences/07/velodyne/000000.bin", "sequences/07/velodyne/000001.bin"));
+  EXPECT_THAT(
+      names_below(folder / "out"),
+      ElementsAre("sequences/07/calib.txt", "sequences/07/echoes/000000.echo.npy",
+                  "sequences/07/echoes/000001.echo.npy", "sequences/07/ground/000000.ground.npy",
+                  "sequences/07/ground/000001.ground.npy", "sequences/07/labels/000000.label",
+                  "sequences/07/labels/000001.label", "sequences/07/poses.txt",
+                  "sequences/07/scene.json", "sequences/07/velodyne/000000.bin",
+                  "sequences/07/velodyne/000001.bin"));
   auto files = files_below(sequence);
   for (const std::string frame : {"000000", "000001"}) {
     const std::size_t points = files["velodyne/" + frame + ".bin"].size() / 16;
@@ -65,6 +69,9 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
     EXPECT_EQ(files["labels/" + frame + ".label"].size(), 4 * points);
     std::vector<float> ground;
     EXPECT_THAT(io::read_height_file(sequence / "ground" / (frame + ".ground.npy"), points, ground),
+                io::is_ok());
+    std::vector<std::uint32_t> echoes;
+    EXPECT_THAT(io::read_reference(sequence / "echoes" / (frame + ".echo.npy"), points, echoes),
                 io::is_ok());
   }
   EXPECT_NE(files["velodyne/000000.bin"], files["velodyne/000001.bin"]);
@@ -78,6 +85,8 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
   EXPECT_EQ(scene["sensor"]["name"], "hdl-64e");
   EXPECT_THAT(scene["sensor"]["elevations"], SizeIs(64));
   EXPECT_EQ(scene["mount"]["height"], 1.73);
+  EXPECT_EQ(scene["noise"]["name"], "default");
+  EXPECT_EQ(scene["weather"], nlohmann::json::array({"clear"}));
   EXPECT_EQ(scene["seed"], 5);
   EXPECT_EQ(scene["frames"], 2);
   ASSERT_THAT(scene["drives"], SizeIs(1));
@@ -98,6 +107,42 @@ TEST(SimulateCommand, WritesWhatSegmentAndEvalTakeAsAWhole) {
   EXPECT_THAT(judged.out, HasSubstr("Heights above the ground against the truth"));
 }
 
+TEST(SimulateCommand, SaysWhatEveryPointOfASensorInTheRainIsAnEchoOf) {
+  const io::TemporaryFolder folder;
+
+  const Outcome outcome =
+      simulate(folder / "out", "steps",
+               {"--frames", "1", "--sensor", "livox-avia", "--sensor-height", "2.5", "--tilt",
+                "15,-5", "--weather", "rain,dust", "--noise", "harsh", "--keep-no-returns"});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const fs::path sequence = folder / "out" / "sequences" / "00";
+  auto files = files_below(sequence);
+  const std::size_t points = files["velodyne/000000.bin"].size() / 16;
+  EXPECT_EQ(points, 24'000U) << "one for every beam";
+  std::vector<std::uint32_t> echoes;
+  std::vector<std::uint32_t> classes;
+  ASSERT_THAT(io::read_reference(sequence / "echoes" / "000000.echo.npy", points, echoes),
+              io::is_ok());
+  ASSERT_THAT(io::read_reference(sequence / "labels" / "000000.label", points, classes),
+              io::is_ok());
+  for (std::size_t i = 0; i < points; ++i) {
+    constexpr std::uint32_t surface = 0;
+    constexpr std::uint32_t none = 6;
+    constexpr std::uint32_t outlier = 1;
+    EXPECT_EQ(classes[i] == outlier, echoes[i] != surface && echoes[i] != none);
+    EXPECT_EQ(classes[i] == 0, echoes[i] == none);
+  }
+  const auto scene = nlohmann::json::parse(files["scene.json"]);
+  EXPECT_EQ(scene["sensor"]["rosette"], nlohmann::json::array({61.803, -38.197}));
+  EXPECT_EQ(scene["mount"], nlohmann::json::parse(R"({"height": 2.5, "pitch": 15, "roll": -5})"));
+  EXPECT_EQ(scene["weather"], nlohmann::json::array({"rain", "dust"}));
+  EXPECT_EQ(scene["noise"]["rain_rate"], 0.02);
+  EXPECT_EQ(scene["no_returns_kept"], true);
+  EXPECT_EQ(scene["classes"]["40"], "road");
+  EXPECT_EQ(scene["files"]["echoes"], "echoes/NNNNNN.echo.npy");
+}
+
 TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
   const io::TemporaryFolder folder;
   const fs::path resumed = folder / "resumed" / "sequences" / "00";
@@ -105,10 +150,11 @@ TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
   const Outcome whole =
       simulate(folder / "whole", "bumpy_field", {"--frames", "12", "--threads", "1"});
   const Outcome begun =
-      simulate(folder / "resumed", "bumpy_field", {"--frames", "4", "--threads", "2"});
+      simulate(folder / "resumed", "bumpy_field", {"--frames", "5", "--threads", "2"});
   fs::remove(resumed / "velodyne" / "000001.bin");
   fs::resize_file(resumed / "labels" / "000002.label", 1000);
   fs::remove(resumed / "ground" / "000003.ground.npy");
+  fs::resize_file(resumed / "echoes" / "000004.echo.npy", 200);
   const Outcome finished =
       simulate(folder / "resumed", "bumpy_field", {"--frames", "12", "--threads", "2"});
 
@@ -175,6 +221,8 @@ TEST(SimulateCommand, NumbersOutsideTheirRangeAreOneLine) {
                                                 {"--tilt", "5,x"},
                                                 {"--tilt", "5,91"},
                                                 {"--tilt", "nan,0"},
+                                                {"--weather", "rain,hail"},
+                                                {"--noise", "loud"},
                                                 {"--sequence", "../"}}) {
     const Outcome outcome = simulate(folder / "out", "flat_street", wrong);
 
@@ -210,9 +258,12 @@ TEST(SimulateCommand, RefusesToMixScenesAndSeedsAndToForgetFrames) {
       simulate(folder / "out", "flat_street", {"--frames", "2", "--sensor", "vlp-16"});
   const Outcome other_tilt =
       simulate(folder / "out", "flat_street", {"--frames", "2", "--tilt", "0,1"});
+  const Outcome other_weather =
+      simulate(folder / "out", "flat_street", {"--frames", "2", "--weather", "wet"});
   const Outcome fewer = simulate(folder / "out", "flat_street", {"--frames", "1"});
 
-  for (const Outcome& refused : {other_scene, other_seed, other_sensor, other_tilt, fewer}) {
+  for (const Outcome& refused :
+       {other_scene, other_seed, other_sensor, other_tilt, other_weather, fewer}) {
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.err, is_one_line_with("choose another --output or --sequence"));
   }

@@ -30,6 +30,23 @@ struct Expected {
   double to_boundary = 0;  ///< as a share of the range
 };
 
+constexpr double degree = std::numbers::pi / 180;
+
+std::uint32_t bins_of(const PatchworkConfig& config) {
+  std::size_t bins = 0;
+  for (const Zone& zone : config.zones) {
+    bins += zone.ring_radii.size() * static_cast<std::size_t>(zone.sectors);
+  }
+  return static_cast<std::uint32_t>(bins);
+}
+
+/// How far theta lies counter-clockwise from where the field of view begins, 0 to 2 pi.
+double from_begin(double theta, const FieldOfView& view) {
+  const double turn = 2 * std::numbers::pi;
+  const double angle = theta - view.begin * degree;
+  return angle - turn * std::floor(angle / turn);
+}
+
 Expected by_equation(Point p, const PatchworkConfig& config) {
   const double rho = std::hypot(static_cast<double>(p.x), static_cast<double>(p.y));
   const double theta = std::atan2(static_cast<double>(p.y), static_cast<double>(p.x));
@@ -39,18 +56,20 @@ Expected by_equation(Point p, const PatchworkConfig& config) {
     for (const float outer : zone.ring_radii) {
       expected.to_boundary = std::min(expected.to_boundary, std::abs(rho - outer) / rho);
       if (rho >= inner && rho < outer) {
-        const double turn = (theta + std::numbers::pi) / (2 * std::numbers::pi) * zone.sectors;
-        const double to_sector =
-            std::abs(turn - std::round(turn)) * 2 * std::numbers::pi / zone.sectors;
+        const double width = config.field_of_view.width * degree;
+        const double into_view = from_begin(theta, config.field_of_view);
+        const double turn = into_view / width * zone.sectors;
+        const double to_sector = std::abs(turn - std::round(turn)) * width / zone.sectors;
         expected.to_boundary = std::min(expected.to_boundary, to_sector);
-        expected.bin += static_cast<std::uint32_t>(turn) % static_cast<std::uint32_t>(zone.sectors);
+        if (turn >= zone.sectors) break;
+        expected.bin += static_cast<std::uint32_t>(turn);
         return expected;
       }
       inner = outer;
       expected.bin += static_cast<std::uint32_t>(zone.sectors);
     }
   }
-  expected.bin += 1;  // out_of_range
+  expected.bin = bins_of(config) + 1;  // out_of_range
   return expected;
 }
 
@@ -73,6 +92,13 @@ PatchworkConfig any_zones() {
   return config;
 }
 
+/// Anywhere, of any width; all around in one case of four.
+FieldOfView any_view() {
+  const int choice = *rc::gen::inRange(0, 4);
+  return {.begin = static_cast<float>(*rc::gen::inRange(-3600, 3601)) / 10.0f,
+          .width = choice == 0 ? 360.0f : static_cast<float>(*rc::gen::inRange(1, 3600)) / 10.0f};
+}
+
 Point any_point(double reach) {
   const double range = reach * *rc::gen::inRange(0, 1000001) / 1000000.0;
   const double angle = std::numbers::pi * *rc::gen::inRange(-1000000, 1000001) / 1000000.0;
@@ -92,6 +118,58 @@ TEST(ConcentricZones, AnyZonesRingsAndSectorsGiveTheBinOfEquation2) {
       if (expected.to_boundary < 1e-6) continue;  // within rounding of a boundary
       const std::uint32_t bin = locate(zones, p);
       RC_ASSERT(bin == expected.bin || (bin == zones.out_of_range() && expected.bin == bin));
+    }
+  }));
+}
+
+TEST(ConcentricZones, AnyFieldOfViewGivesTheBinWithinItAndNoneOutside) {
+  EXPECT_TRUE(rc::check([] {
+    PatchworkConfig config = any_zones();
+    config.field_of_view = any_view();
+    config.check();
+    const ConcentricZones zones(config);
+    for (int i = 0; i < 50; ++i) {
+      const Point p = any_point(1.1 * config.zones.back().ring_radii.back());
+      if (p.x == 0 && p.y == 0) continue;
+      const Expected expected = by_equation(p, config);
+      if (expected.to_boundary < 2e-6) continue;  // within rounding of a boundary
+      RC_ASSERT(locate(zones, p) == expected.bin);
+    }
+  }));
+}
+
+TEST(ConcentricZones, SectorsOfAFieldOfViewAreCountedFromWhereItBegins) {
+  PatchworkConfig config;
+  config.zones = {{.ring_radii = {10, 20}, .sectors = 4}};
+  config.field_of_view = {.begin = 120, .width = 120};  // to the rear, across theta = pi
+  const ConcentricZones zones(config);
+
+  EXPECT_EQ(zones.bin_count(), 8U);
+  EXPECT_EQ(locate(zones, {-3, 5, 0}), 0U);       // 121 degrees
+  EXPECT_EQ(locate(zones, {-5, 0.1f, 0}), 1U);    // 179
+  EXPECT_EQ(locate(zones, {-5, 0.0f, 0}), 2U);    // 180, a boundary
+  EXPECT_EQ(locate(zones, {-5, -0.0f, 0}), 2U);   // -180
+  EXPECT_EQ(locate(zones, {-5, -0.1f, 0}), 2U);   // 181
+  EXPECT_EQ(locate(zones, {-15, -0.1f, 0}), 6U);  // in the second ring
+  EXPECT_EQ(locate(zones, {-3, -5, 0}), 3U);      // 239
+  for (const Point outside :
+       {Point{-3, 5.5f, 0}, {-3, -5.5f, 0}, {5, 0, 0}, {0, 5, 0}, {0, -5, 0}}) {
+    EXPECT_EQ(locate(zones, outside), zones.out_of_range()) << outside.x << ' ' << outside.y;
+  }
+}
+
+TEST(ConcentricZones, AFullTurnThatBeginsElsewhereLeavesNoPointOut) {
+  EXPECT_TRUE(rc::check([] {
+    PatchworkConfig config;
+    config.zones = {{.ring_radii = {80}, .sectors = *rc::gen::inRange(1, 3601)}};
+    config.field_of_view.begin = static_cast<float>(*rc::gen::inRange(-360, 361));
+    const ConcentricZones zones(config);
+    // Where it begins, and as close to it as numbers come.
+    const double begin = config.field_of_view.begin * degree;
+    for (const double angle : {begin, begin - 1e-9, begin - 1e-7, begin + 1e-7}) {
+      const Point p{static_cast<float>(10 * std::cos(angle)),
+                    static_cast<float>(10 * std::sin(angle)), 0};
+      RC_ASSERT(locate(zones, p) < zones.bin_count());
     }
   }));
 }
@@ -126,9 +204,13 @@ TEST(ConcentricZones, ThetaOfPiIsThetaOfMinusPi) {
 
 TEST(ConcentricZones, NoBitPatternEscapesItsBins) {
   const ConcentricZones zones{PatchworkConfig()};
+  PatchworkConfig rear;
+  rear.field_of_view = {.begin = 90, .width = 180};
+  const ConcentricZones rear_zones(rear);
   EXPECT_TRUE(rc::check([&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     const Point p{std::bit_cast<float>(x), std::bit_cast<float>(y), std::bit_cast<float>(z)};
     RC_ASSERT(locate(zones, p) <= zones.invalid());
+    RC_ASSERT(locate(rear_zones, p) <= rear_zones.invalid());
   }));
 }
 

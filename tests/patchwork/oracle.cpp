@@ -30,6 +30,20 @@ struct Place {
   double outer = 0;
 };
 
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// How far theta lies counter-clockwise from where the field of view begins, 0 to 2 pi.
+double into_view(double theta, const PatchworkConfig& config) {
+  const double turn = 2 * std::numbers::pi;
+  const double from_begin = theta - radians(config.field_of_view.begin);
+  return from_begin - turn * std::floor(from_begin / turn);
+}
+
+bool is_in_view(double theta, const PatchworkConfig& config) {
+  return config.field_of_view.width == 360 ||
+         into_view(theta, config) < radians(config.field_of_view.width);
+}
+
 Place place_of(double rho, double theta, const PatchworkConfig& config) {
   double inner = config.min_range;
   for (std::size_t m = 0; m < config.zones.size(); ++m) {
@@ -37,9 +51,9 @@ Place place_of(double rho, double theta, const PatchworkConfig& config) {
     for (std::size_t i = 0; i < zone.ring_radii.size(); ++i) {
       const double outer = zone.ring_radii[i];
       if (inner <= rho && rho < outer) {
-        const double width = 2 * std::numbers::pi / zone.sectors;
-        int sector = static_cast<int>(std::floor((theta + std::numbers::pi) / width));
-        if (sector == zone.sectors) sector = 0;  // theta = pi is -pi
+        const double width = radians(config.field_of_view.width) / zone.sectors;
+        int sector = static_cast<int>(std::floor(into_view(theta, config) / width));
+        if (sector == zone.sectors) sector = 0;  // a full turn is none
         return {static_cast<int>(m), static_cast<int>(i), sector, inner, outer};
       }
       inner = outer;
@@ -241,11 +255,13 @@ Answer segment(CloudView cloud, const PatchworkConfig& config) {
       answer.labels[k] = Label::invalid;
       continue;
     }
-    if (rho < config.min_range || rho >= l_max || std::abs(p.z()) > 10000) {
+    const double theta = std::atan2(p.y(), p.x());
+    if (rho < config.min_range || rho >= l_max || std::abs(p.z()) > 10000 ||
+        !is_in_view(theta, config)) {
       answer.labels[k] = Label::out_of_range;
       continue;
     }
-    const Place place = place_of(rho, std::atan2(p.y(), p.x()), config);
+    const Place place = place_of(rho, theta, config);
     if (p.z() < -static_cast<double>(config.sensor_height) - config.noise_depth -
                     config.noise_slope * place.outer) {
       answer.labels[k] = Label::noise;

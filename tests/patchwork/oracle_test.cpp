@@ -79,6 +79,17 @@ TEST_P(Oracle, AgreesOnCorruptedClouds) {
   expect_agreement("preset " + preset + ", 10 corrupted clouds", total);
 }
 
+TEST(OracleOnSettings, AgreesOnSettingsDerivedFromASensorAlsoWhereItsViewIsNarrow) {
+  for (const char* name : {"hdl-64e", "vlp-16", "at128", "livox-avia"}) {
+    const PatchworkConfig config = PatchworkConfig::for_sensor(name);
+    Difference total;
+    for (std::uint32_t seed = 0; seed < 3; ++seed) {
+      total += compare(tests::view_of(tests::made_up_cloud(20000, seed)), config);
+    }
+    expect_agreement(std::string("derived from ") + name, total);
+  }
+}
+
 TEST(OracleOnSettings, AgreesWhereEveryTermIsSwitched) {
   const std::vector<Point> cloud = tests::made_up_cloud(30000, 77);
   for (int switches = 0; switches < 32; ++switches) {

@@ -34,6 +34,12 @@ PatchworkConfig one_zone(int count, int sectors) {
   return config;
 }
 
+/// The same, of a sensor that sees nothing but what is behind it.
+PatchworkConfig rear_view(PatchworkConfig config) {
+  config.field_of_view = {.begin = 110, .width = 140};
+  return config;
+}
+
 /// A configuration and what it is called.
 struct Setting {
   std::string name;
@@ -50,10 +56,15 @@ std::vector<Setting> presets() {
 
 /// Layouts that take other paths than the presets'. Up to 16 rings are looked up in registers.
 std::vector<Setting> unusual_layouts() {
-  return {{"16 rings", one_zone(16, 32)},      {"17 rings", one_zone(17, 32)},
-          {"600 rings", one_zone(600, 2)},     {"one ring, one sector", one_zone(1, 1)},
-          {"60,000 bins", one_zone(1000, 60)}, {"3,600 sectors", one_zone(3, 3600)},
-          {"65,535 bins", one_zone(257, 255)}};
+  return {{"16 rings", one_zone(16, 32)},
+          {"17 rings", one_zone(17, 32)},
+          {"600 rings", one_zone(600, 2)},
+          {"one ring, one sector", one_zone(1, 1)},
+          {"60,000 bins", one_zone(1000, 60)},
+          {"3,600 sectors", one_zone(3, 3600)},
+          {"65,535 bins", one_zone(257, 255)},
+          {"a rear view", rear_view(PatchworkConfig())},
+          {"17 rings to the rear", rear_view(one_zone(17, 32))}};
 }
 
 std::vector<Setting> presets_and_unusual_layouts() {

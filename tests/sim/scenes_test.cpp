@@ -84,17 +84,16 @@ TEST_P(EveryScene, TruthIsExact) {
   }
 }
 
-// Beams of every direction from the sensor, along a spiral from pole to pole.
-bool stands_clear(const World& world, const Frame& pose) {
-  constexpr double reach = 1.2;  // metres; the ground is further away
+// Is nothing within `aside` metres of the sensor, nor `above` metres over it? Asks beams of every
+// direction, along a spiral from pole to pole.
+bool stands_clear(const RayCaster& world, const Frame& pose, double aside, double above) {
   constexpr int beams = 400;
   for (int i = 0; i < beams; ++i) {
     const double up = -1 + (2.0 * i + 1) / beams;
     const double across = std::sqrt(1 - up * up);
     const Vector3 beam{across * std::cos(2.4 * i), across * std::sin(2.4 * i), up};
-    if (world.scene.caster().cast(pose.origin, pose.direction_to_world(beam), 0, reach)) {
-      return false;
-    }
+    const double reach = up > 0 ? std::min(aside, above / up) : aside;
+    if (world.cast(pose.origin, pose.direction_to_world(beam), 0, reach)) return false;
   }
   return true;
 }
@@ -102,8 +101,9 @@ bool stands_clear(const World& world, const Frame& pose) {
 TEST_P(EveryScene, SensorStandsClearOfEverythingAndSeesGroundAheadAndBehind) {
   const World world(GetParam(), 2);
   for (int frame = 0; frame < frames_per_drive; ++frame) {
-    EXPECT_TRUE(stands_clear(world, world.drive.poses()[static_cast<std::size_t>(frame)]))
-        << "frame " << frame;
+    const Frame& pose = world.drive.poses()[static_cast<std::size_t>(frame)];
+    // The ground is further away; the ceiling of a car park is not.
+    EXPECT_TRUE(stands_clear(world.scene.caster(), pose, 1.2, 0.4)) << "frame " << frame;
     const SimulatedScan scan = world.drive.scan(world.scene, Noise{}, frame);
     std::size_t ahead = 0;
     std::size_t behind = 0;
@@ -134,17 +134,53 @@ TEST_P(EveryScene, StopsLieFrameSpacingApartAtTheSensorsHeight) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene,
-                         testing::Values("flat_street", "steep_street", "parked_cars",
-                                         "bushes_and_lawn", "bumpy_field", "steps"),
+TEST_P(EveryScene, OtherSeedsDrawOtherWorlds) {
+  const Landscape one = kind_named(GetParam()).make(1);
+  const Landscape again = kind_named(GetParam()).make(1);
+  const Landscape other = kind_named(GetParam()).make(2);
+  const std::vector<Vector3> things = one.furnish(one.ground).vertices();
+
+  EXPECT_EQ(things, again.furnish(again.ground).vertices());
+  EXPECT_NE(things, other.furnish(other.ground).vertices());
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const SceneKind& kind : scene_kinds()) names.emplace_back(kind.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_names()),
                          [](const auto& scene) { return scene.param; });
 
 TEST(SceneKinds, AreFoundByTheirNames) {
-  EXPECT_EQ(scene_kinds().size(), 6U);
   for (const SceneKind& kind : scene_kinds()) EXPECT_EQ(find_scene_kind(kind.name), &kind);
   EXPECT_EQ(find_scene_kind("moon"), nullptr);
   EXPECT_EQ(find_scene_kind(""), nullptr);
 }
+
+// Those with traffic.
+class MovingScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(MovingScene, TrafficGoesOnBetweenStopsClearOfTheSensor) {
+  const Landscape land = kind_named(GetParam()).make(3);
+  ASSERT_TRUE(land.moving);
+  const Drive drive = plan(GetParam(), 3);
+  std::vector<Vector3> before;
+  for (int stop = 0; stop < frames_per_drive; ++stop) {
+    Mesh now = land.moving(land.ground, stop);
+    EXPECT_EQ(now.vertices(), land.moving(land.ground, stop).vertices());
+    EXPECT_NE(now.vertices(), before) << "stop " << stop;
+    before = now.vertices();
+    const Frame& pose = drive.poses()[static_cast<std::size_t>(stop)];
+    EXPECT_TRUE(stands_clear(RayCaster(std::move(now)), pose, 2.4, 2.4)) << "stop " << stop;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, MovingScene,
+                         testing::Values("urban_street", "highway", "crossroads", "ramp", "tunnel",
+                                         "indoor_hall"),
+                         [](const auto& scene) { return std::string(scene.param); });
 
 TEST(SteepStreet, MostDrivesHaveGradesAboveTenPercentUnderTheWheelsUpAndDown) {
   constexpr int drives = 20;
@@ -278,16 +314,89 @@ TEST(BumpyField, MakesTheVehiclePitchAndRoll) {
   EXPECT_GT(std::sqrt(roll / stops) * degrees, 3);
 }
 
-TEST(Steps, ListsRisesThatTheGroundHasFromEndToEnd) {
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const Landscape land = kind_named("steps").make(seed);
-    for (const GroundStep& step : land.steps) {
-      for (const double share : {0.001, 0.5, 0.999}) {
-        const double x = step.x_begin + share * (step.x_end - step.x_begin);
-        const double rise = land.ground.height(x, step.y_end) - land.ground.height(x, step.y_begin);
-        EXPECT_NEAR(rise, step.rise, 1e-9) << step.kind << " at " << x;
+TEST(Ramp, ClimbsOrFallsAStoreyAtTwelveToFifteenPercent) {
+  int up = 0;
+  constexpr int drives = 12;
+  for (std::uint64_t seed = 0; seed < drives; ++seed) {
+    const Landscape land = kind_named("ramp").make(seed);
+    const double rise = land.ground.height(50, 0) - land.ground.height(-50, 0);
+    EXPECT_GT(std::abs(rise), 2.5);
+    EXPECT_LT(std::abs(rise), 3.3);
+    double steepest = 0;
+    for (double x = -50; x < 50; x += 1) {
+      const double climb = land.ground.height(x + 1, 0) - land.ground.height(x, 0);
+      steepest = std::max(steepest, std::abs(climb));
+    }
+    EXPECT_GT(steepest, 0.119);
+    EXPECT_LT(steepest, 0.151);
+    up += rise > 0;
+  }
+  EXPECT_GT(up, 0);
+  EXPECT_LT(up, drives);
+}
+
+// How high the nearest thing over the sensor is, metres above the ground; 100 for none.
+double ceiling_over(const World& world, const Frame& pose) {
+  const auto hit = world.scene.caster().cast(pose.origin, {0, 0, 1}, 0.1, 100);
+  return hit ? world.above_ground(pose.origin) + hit->range : 100;
+}
+
+TEST(Ramp, HasACeilingOverEveryStop) {
+  const World world("ramp", 2);
+  for (const Frame& pose : world.drive.poses()) EXPECT_LT(ceiling_over(world, pose), 6.5);
+  // On a storey, a low one.
+  EXPECT_LT(ceiling_over(world, world.drive.poses().front()), 2.85);
+}
+
+TEST(Tunnel, BeginsOrEndsDuringTheDrive) {
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    const World world("tunnel", seed);
+    const bool first = ceiling_over(world, world.drive.poses().front()) < 7;
+    const bool last = ceiling_over(world, world.drive.poses().back()) < 7;
+    EXPECT_NE(first, last) << "seed " << seed;
+  }
+}
+
+TEST(Tunnel, HasWetRoadThatMirrors) {
+  const Landscape land = kind_named("tunnel").make(1);
+  int wet = 0;
+  for (const Stop& stop : land.route) {
+    for (double aside = -2; aside < 5; aside += 0.25) {
+      for (double ahead = 0; ahead < 8; ahead += 0.5) {
+        wet += land.ground.surface(stop.x + ahead, stop.y + aside).mirror > 0.5F;
       }
     }
+  }
+  EXPECT_GT(wet, 50);
+}
+
+TEST(Steps, ListsRisesThatTheGroundHasFromEndToEnd) {
+  for (const char* const scene : {"steps", "drops"}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const Landscape land = kind_named(scene).make(seed);
+      for (const GroundStep& step : land.steps) {
+        for (const double share : {0.001, 0.5, 0.999}) {
+          const double x = step.x_begin + share * (step.x_end - step.x_begin);
+          const double rise =
+              land.ground.height(x, step.y_end) - land.ground.height(x, step.y_begin);
+          EXPECT_NEAR(rise, step.rise, 1e-9) << step.kind << " at " << x;
+        }
+      }
+    }
+  }
+}
+
+TEST(Drops, LeadAtLeastAMetreDownBesideTheRouteWhateverTheSeed) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Landscape land = kind_named("drops").make(seed);
+    const auto depths_beside_route = [&](double depth) {
+      return std::ranges::any_of(land.steps, [&](const GroundStep& step) {
+        return std::abs(step.rise + depth) < 1e-9 && step.x_begin < half_drive + 30 &&
+               step.x_end > -half_drive - 30;
+      });
+    };
+    for (const double depth : {1.0, 1.5, 2.0, 3.0}) EXPECT_TRUE(depths_beside_route(depth));
+    EXPECT_FALSE(depths_beside_route(0.6));
   }
 }
 
@@ -329,7 +438,7 @@ TEST(Drive, WorldsOfASequenceDiffer) {
   for (const SceneKind& kind : scene_kinds()) {
     const Drive one(kind, sparse_sensor(), drive_seed(1, 0));
     const Drive other(kind, sparse_sensor(), drive_seed(1, 1));
-    EXPECT_NE(one.poses()[3].origin.z, other.poses()[3].origin.z) << kind.name;
+    EXPECT_NE(one.poses()[3].origin, other.poses()[3].origin) << kind.name;
   }
 }
 

@@ -138,6 +138,16 @@ TEST(TrueGround, IsNotKnownWhereTheGroundDoesNotReach) {
   EXPECT_TRUE(std::isnan(heights[0]));
 }
 
+TEST(TrueGround, IsNotKnownForABeamWithoutEcho) {
+  const Frame level{.origin = {0, 0, 2}};
+
+  const std::vector<float> heights =
+      true_ground(step_ground(), level, std::vector<float>{0, 0, 0, 0, 0, 0, 0.5F, 0});
+
+  EXPECT_TRUE(std::isnan(heights[0]));
+  EXPECT_EQ(heights[1], -2);
+}
+
 class TrueGroundOfScene : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(TrueGroundOfScene, IsWhereGroundPointsWithoutNoiseAre) {
@@ -187,7 +197,7 @@ TEST(StreetGround, IsWhereTheGroundPointsOfThatStreetsScanAre) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TrueGroundOfScene,
                          testing::Values("flat_street", "steep_street", "parked_cars",
-                                         "bushes_and_lawn", "bumpy_field", "steps"),
+                                         "bushes_and_lawn", "bumpy_field", "steps", "drops"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace

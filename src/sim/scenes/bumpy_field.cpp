@@ -3,43 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "sim/interval.hpp"
+#include "sim/mound.hpp"
+#include "sim/open_land.hpp"
 #include "sim/plants.hpp"
 #include "sim/scenes/scenes.hpp"
 #include "sim/street_furniture.hpp"
+#include "sim/waves.hpp"
 
 namespace flagstone::sim {
 namespace {
 
 constexpr double half_length = 115;  // of the ground, metres
 constexpr double half_width = 75;
-constexpr double full_turn = 2 * std::numbers::pi;
 constexpr Surface grass{.semantic = SemanticClass::terrain, .reflectivity = 0.4F};
 constexpr Surface earth{.semantic = SemanticClass::other_ground, .reflectivity = 0.27F};
-
-struct Wave {
-  double amplitude;      // metres
-  double along, across;  // radians a metre
-  double phase;
-  [[nodiscard]] double at(double x, double t) const noexcept {
-    return amplitude * std::sin(along * x + across * t + phase);
-  }
-};
-
-// A round rise, or a dip if its height is below 0, of limited reach.
-struct Mound {
-  double x, t, radius, height;
-  [[nodiscard]] double at(double px, double pt) const noexcept {
-    const double dx = (px - x) / radius;
-    const double dt = (pt - t) / radius;
-    const double inside = 1 - dx * dx - dt * dt;
-    return inside > 0 ? height * inside * inside : 0;
-  }
-};
 
 // A step along the path: the land beyond is higher or lower.
 struct Bank {
@@ -55,44 +36,22 @@ struct Bank {
 
 // The vehicle's path and the land around it; t is measured to the left of the path, along y.
 struct Field {
-  double swing, swing_length;  // of the path
+  WindingPath path;
   std::vector<Wave> waves;
   std::vector<Wave> soil;  // where their sum is high, earth is bare
   std::vector<Mound> mounds;
   std::vector<Bank> banks;
 
-  [[nodiscard]] double path(double x) const noexcept {
-    return swing * std::sin(full_turn * x / swing_length);
-  }
-  [[nodiscard]] double path_heading(double x) const noexcept {
-    const double wave = full_turn / swing_length;
-    return std::atan(swing * wave * std::cos(wave * x));
-  }
   [[nodiscard]] double height(double x, double t) const noexcept {
-    double height = 0;
-    for (const Wave& wave : waves) height += wave.at(x, t);
+    double height = sum_at(waves, x, t);
     for (const Mound& mound : mounds) height += mound.at(x, t);
     for (const Bank& bank : banks) height += bank.at(t);
     return height;
   }
   [[nodiscard]] Surface surface(double x, double t) const noexcept {
-    double wet = 0;
-    for (const Wave& wave : soil) wet += wave.at(x, t);
-    return wet > 0.8 ? earth : grass;
+    return sum_at(soil, x, t) > 0.8 ? earth : grass;
   }
 };
-
-void draw_waves(std::vector<Wave>& waves, int count, Interval amplitude, Interval length,
-                Random& random) {
-  for (int i = 0; i < count; ++i) {
-    const double direction = random.uniform(0, full_turn);
-    const double wave = full_turn / random.uniform(length.low, length.high);
-    waves.push_back({.amplitude = random.uniform(amplitude.low, amplitude.high),
-                     .along = wave * std::cos(direction),
-                     .across = wave * std::sin(direction),
-                     .phase = random.uniform(0, full_turn)});
-  }
-}
 
 // Gentler where the vehicle has to pass.
 Mound draw_mound(Random& random) {
@@ -106,8 +65,7 @@ Mound draw_mound(Random& random) {
 }
 
 Field draw_field(Random& random) {
-  Field field{.swing = random.uniform(-4, 4),
-              .swing_length = random.uniform(80, 140),
+  Field field{.path = {.swing = random.uniform(-4, 4), .swing_length = random.uniform(80, 140)},
               .waves = {},
               .soil = {},
               .mounds = {},
@@ -147,7 +105,7 @@ Ground make_field(const Field& field) {
   GroundGrid grid{.x = {}, .offset = {}, .t = lines_across()};
   for (double x = -half_length; x <= half_length; x += step) {
     grid.x.push_back(x);
-    grid.offset.push_back(field.path(x));
+    grid.offset.push_back(field.path.y(x));
   }
   std::vector<double> heights;
   std::vector<Surface> surfaces;
@@ -161,19 +119,7 @@ Ground make_field(const Field& field) {
   return {std::move(grid), std::move(heights), std::move(surfaces)};
 }
 
-// Plants within an interval of distances from the path, on either side of it.
-template <class Plant>
-void scatter(Mesh& mesh, const Field& field, const Ground& ground, double per_square_metre,
-             Interval from_path, Plant plant, Random& random) {
-  constexpr double half = 90;  // of the length that is planted, metres
-  const double area = 4 * half * (from_path.high - from_path.low);
-  const int count = static_cast<int>(per_square_metre * area);
-  for (int i = 0; i < count; ++i) {
-    const double x = random.uniform(-half, half);
-    const double t = random.uniform(from_path.low, from_path.high);
-    plant(mesh, ground, x, field.path(x) + (random.chance(0.5) ? t : -t), random);
-  }
-}
+using Plant = void(Mesh&, const Ground&, double x, double y, Random&);
 
 void put_up_fence(Mesh& mesh, const Field& field, const Ground& ground, Random& random) {
   constexpr double piece = 6;  // straight, between bends of the path
@@ -181,17 +127,22 @@ void put_up_fence(Mesh& mesh, const Field& field, const Ground& ground, Random& 
   const double begin = random.uniform(-80, -20);
   const double end = begin + random.uniform(40, 80);
   for (double x = begin; x < end; x += piece) {
-    add_fence(mesh, ground,
-              {.x0 = x, .y0 = field.path(x) + t, .x1 = x + piece, .y1 = field.path(x + piece) + t});
+    add_fence(
+        mesh, ground,
+        {.x0 = x, .y0 = field.path.y(x) + t, .x1 = x + piece, .y1 = field.path.y(x + piece) + t});
   }
 }
 
 Mesh furnish_field(const Field& field, const Ground& ground, Random random) {
   Mesh mesh;
-  scatter(mesh, field, ground, 0.003, {6, 60}, add_tree, random);
-  scatter(mesh, field, ground, 0.008, {2.8, 40}, add_bush, random);
-  scatter(mesh, field, ground, 0.01, {2.8, 25}, add_ground_cover, random);
-  scatter(mesh, field, ground, 1.5, {0.5, 20}, add_tuft, random);
+  const auto grow = [&](double per_square_metre, Interval from_path, Plant* plant) {
+    scatter(field.path, {.from_path = from_path}, per_square_metre, random,
+            [&](double x, double y) { plant(mesh, ground, x, y, random); });
+  };
+  grow(0.003, {6, 60}, add_tree);
+  grow(0.008, {2.8, 40}, add_bush);
+  grow(0.01, {2.8, 25}, add_ground_cover);
+  grow(1.5, {0.5, 20}, add_tuft);
   put_up_fence(mesh, field, ground, random);
   return mesh;
 }
@@ -202,9 +153,7 @@ Landscape bumpy_field(std::uint64_t seed) {
   Random random = Random::stream(seed, 0);
   Field field = draw_field(random);
   Ground ground = make_field(field);
-  std::vector<Stop> route = wander_along(
-      [&](double x) { return Stop{.x = x, .y = field.path(x), .yaw = field.path_heading(x)}; },
-      random);
+  std::vector<Stop> route = wander_along([&](double x) { return field.path.at(x); }, random);
   return {.ground = std::move(ground),
           .route = std::move(route),
           .furnish = [field = std::move(field), random](const Ground& on) {

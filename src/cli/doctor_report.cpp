@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "cli/doctor_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "doctor/advice.hpp"
+#include "io/message.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+using doctor::Finding;
+using doctor::Severity;
+
+constexpr std::array<Severity, 3> most_severe_first{Severity::fix, Severity::note, Severity::fine};
+
+constexpr std::size_t id_width = 17;
+constexpr std::size_t line_width = 100;
+
+/// `text`, which begins at `column`, with a line break and `indent` spaces wherever a line would
+/// grow longer than line_width.
+std::string wrapped(std::string_view text, std::size_t column, std::size_t indent) {
+  std::string lines;
+  bool is_first = true;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+    if (!is_first && column + 1 + word.size() > line_width) {
+      lines += '\n' + std::string(indent, ' ');
+      column = indent;
+    } else if (!is_first) {
+      lines += ' ';
+      ++column;
+    }
+    lines += word;
+    column += word.size();
+    is_first = false;
+  }
+  return lines;
+}
+
+std::string block_of(const Finding& finding, bool bold) {
+  constexpr std::size_t indent = 6 + id_width;
+  const bool matters = finding.severity != Severity::fine;
+  const std::string severity = fmt::format("{:<6}", doctor::to_string(finding.severity));
+  std::string block = bold && matters ? "\033[1m" + severity + "\033[0m" : severity;
+  block +=
+      fmt::format("{:<{}}{}\n", finding.id, id_width, wrapped(finding.sentence, indent, indent));
+  if (!finding.remedy.empty()) {
+    block += std::string(indent, ' ') + wrapped(finding.remedy, indent, indent) + '\n';
+  }
+  return block + (matters ? "\n" : "");
+}
+
+std::size_t count(const DoctorReport& report, Severity severity) {
+  return static_cast<std::size_t>(
+      std::ranges::count(report.diagnosis.findings, severity, &Finding::severity));
+}
+
+std::string verdict_of(const DoctorReport& report) {
+  const std::size_t fixes = count(report, Severity::fix);
+  const std::size_t notes = count(report, Severity::note);
+  std::string text = fixes == 0   ? std::string("Nothing to fix")
+                     : fixes == 1 ? std::string("One thing to fix")
+                                  : fmt::format("{} things to fix", fixes);
+  if (notes > 0) text += notes == 1 ? ", one to note" : fmt::format(", {} to note", notes);
+  return text + (report.diagnosis.advice ? ". These settings fit:\n"
+                                         : ". No settings help as long as it stands.\n");
+}
+
+}  // namespace
+
+std::string text_of(const DoctorReport& report, bool bold) {
+  std::string text;
+  for (const std::string& file : report.files) text += io::printable(file) + '\n';
+  text += '\n';
+  std::string plain;
+  for (const Severity severity : most_severe_first) {
+    for (const Finding& finding : report.diagnosis.findings) {
+      if (finding.severity != severity) continue;
+      if (finding.is_plain) {
+        plain += (plain.empty() ? "fine  also: " : ", ") + finding.id;
+      } else {
+        text += block_of(finding, bold);
+      }
+    }
+  }
+  if (!plain.empty()) text += wrapped(plain, 0, 6) + '\n';
+  return text + '\n' + verdict_of(report);
+}
+
+std::string json_of(const DoctorReport& report) {
+  nlohmann::ordered_json json;
+  json["scans"] = report.files;
+  json["method"] = report.method;
+  json["fix"] = count(report, Severity::fix);
+  json["note"] = count(report, Severity::note);
+  json["findings"] = nlohmann::ordered_json::array();
+  for (const Finding& finding : report.diagnosis.findings) {
+    nlohmann::ordered_json entry{{"id", finding.id},
+                                 {"severity", doctor::to_string(finding.severity)},
+                                 {"sentence", finding.sentence},
+                                 {"remedy", finding.remedy}};
+    entry["values"] = nlohmann::ordered_json::object();
+    for (const auto& [name, value] : finding.values) entry["values"][name] = value;
+    json["findings"].push_back(std::move(entry));
+  }
+  if (report.diagnosis.advice) {
+    json["toml"] = toml_of(report);
+  } else {
+    json["toml"] = nullptr;
+  }
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+std::string toml_of(const DoctorReport& report) {
+  if (!report.diagnosis.advice) {
+    return "# 'flagstone doctor' found no settings that fit these scans\n";
+  }
+  return doctor::to_toml(*report.diagnosis.advice);
+}
+
+}  // namespace flagstone::cli
