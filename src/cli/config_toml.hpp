@@ -27,7 +27,4 @@ void apply_toml(std::string_view text, std::string_view source, PatchworkConfig&
 /// Sets the sensor's height, metres, in the settings of methods that have one.
 void set_sensor_height(float height, MethodConfig& config);
 
-/// The sensor's height in the settings of a method, metres; `otherwise` where it has none.
-float sensor_height_of(MethodConfig config, float otherwise);
-
 }  // namespace flagstone::cli
