@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "baselines/settings.hpp"
 #include "cli/config_toml.hpp"
 #include "cli/method_options.hpp"
 #include "doctor/advice.hpp"
