@@ -41,9 +41,9 @@ TEST(Doctor, FindsNothingInAScanThatIsFine) {
 
   EXPECT_THAT(complaints(diagnosis), testing::IsEmpty());
   EXPECT_FALSE(diagnosis.has_something_to_fix());
-  ASSERT_TRUE(diagnosis.advice.has_value());
-  EXPECT_FALSE(diagnosis.advice->has_mount);
-  EXPECT_EQ(diagnosis.advice->mount.sensor_height, Expected().sensor_height);
+  const Advice advice = diagnosis.advice.value();
+  EXPECT_FALSE(advice.has_mount);
+  EXPECT_EQ(advice.mount.sensor_height, Expected().sensor_height);
 }
 
 TEST(Doctor, HasAFindingForEveryFaultAlsoWhereAllIsFine) {
