@@ -41,7 +41,8 @@ TEST(Doctor, FindsNothingInAScanThatIsFine) {
 
   EXPECT_THAT(complaints(diagnosis), testing::IsEmpty());
   EXPECT_FALSE(diagnosis.has_something_to_fix());
-  const Advice advice = diagnosis.advice.value();
+  EXPECT_TRUE(diagnosis.advice.has_value());
+  const Advice advice = diagnosis.advice.value_or(Advice());
   EXPECT_FALSE(advice.has_mount);
   EXPECT_EQ(advice.mount.sensor_height, Expected().sensor_height);
 }
