@@ -82,12 +82,14 @@ def panel(points, classes, size, extent):
     row = np.floor((extent - points[:, 0]) / (2 * extent) * size).astype(int)
     inside = (column >= 0) & (column < size) & (row >= 0) & (row < size)
     dot = 1 if len(points) > 40_000 else 2  # pixels: few points shall be seen as well
-    for _, color, ids in KINDS:
-        chosen = inside & np.isin(classes, ids)
-        for down in range(dot):
-            for right in range(dot):
-                at = np.minimum(row[chosen] + down, size - 1), np.minimum(column[chosen] + right, size - 1)
-                picture[at] = rgb(color)
+    overhead = points[:, 2] > 1  # metres above the sensor: ceilings and crowns would hide the ground
+    for layer in (overhead, ~overhead):
+        for _, color, ids in KINDS:
+            chosen = inside & layer & np.isin(classes, ids)
+            for down in range(dot):
+                for right in range(dot):
+                    at = np.minimum(row[chosen] + down, size - 1), np.minimum(column[chosen] + right, size - 1)
+                    picture[at] = rgb(color)
     middle = size // 2  # where the sensor is
     picture[middle - 1 : middle + 2, middle - 3 : middle + 4] = 255
     picture[middle - 3 : middle + 4, middle - 1 : middle + 2] = 255
@@ -118,7 +120,7 @@ def draw(rows, options):
     for number, (name, color, _) in enumerate(KINDS):
         x = left + (number + 0.5) * (width - left) / len(KINDS)
         page[20:28, int(x) - 20 : int(x) + 20] = rgb(color)
-        write(x, 10, name, fontsize=7)
+        write(x, 10, name, fontsize=8)
     figure.figimage(page, 0, 0, origin="upper")
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=dots, facecolor=PAGE_COLOR)

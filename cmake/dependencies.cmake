@@ -69,21 +69,22 @@ if(needs_command OR FLAGSTONE_BUILD_FUZZERS OR FLAGSTONE_SANITIZED_TESTS)
   flagstone_dependency(
     fmt https://github.com/fmtlib/fmt/archive/9.1.0.tar.gz
     5dea48d1fcddc3ec571ce2058e13910a0d4a6bab4cc09a809d8b1dd1c88ae6f2 9)
+  flagstone_dependency(
+    tomlplusplus https://github.com/marzer/tomlplusplus/archive/refs/tags/v3.3.0.tar.gz
+    fc1a5eb410f3c67e90e5ad1264a1386d020067cfb01b633cc8c0441789aa6cf2 3.3)
 endif()
 
 if(needs_command OR FLAGSTONE_BUILD_FUZZERS)
   flagstone_dependency(
     nlohmann_json https://github.com/nlohmann/json/archive/v3.11.2.tar.gz
     d69f9deb6a75e2580465c6c4c5111b89c4dc2fa94e3a85fcd2ffcd9a143d9273 3.11)
-  flagstone_dependency(
-    tomlplusplus https://github.com/marzer/tomlplusplus/archive/refs/tags/v3.3.0.tar.gz
-    fc1a5eb410f3c67e90e5ad1264a1386d020067cfb01b633cc8c0441789aa6cf2 3.3)
 endif()
 
 if(needs_command)
   flagstone_dependency(
     CLI11 https://github.com/CLIUtils/CLI11/archive/v2.1.2.tar.gz
     26291377e892ba0e5b4972cdfd4a2ab3bf53af8dac1f4ea8fe0d1376b625c8cb 2.1)
+
   # Single rays against triangles is all the simulator asks of Embree, and the lowest instruction set is
   # quick enough for it; all of Embree takes four times as long to build.
   set(EMBREE_STATIC_LIB ON)

@@ -196,6 +196,11 @@ void add_texts(SeedFolder& seeds) {
   seeds.add("protocol", "json",
             chosen(1, R"({"name": "mine", "ground": [40, 44], "ignored": [0], "not_ground": [10],)"
                       R"( "low_ground": [{"id": 70, "height": -1.3}], "note": "seed"})"));
+  seeds.add("sensor", "even",
+            bytes_of("beams = 16\nelevation_top = 15.0\nelevation_bottom = -15.0\nheight = 0.6\n"));
+  seeds.add("sensor", "listed",
+            bytes_of("name = \"mine\"\nbeams = 3\nelevations = [2, 0, -10.5]\nheight = 1.5\n"
+                     "azimuth_begin = -60\nazimuth_end = 60\nmin_range = 0.5\nmax_range = 90\n"));
   const std::string counts = "[1,2,3,4]";
   std::string method = R"({"points":)" + counts + R"(,"area":)" + counts + R"(,"range":[)";
   for (int band = 0; band < 6; ++band) method += counts + (band < 5 ? "," : "");

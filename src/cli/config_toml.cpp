@@ -216,6 +216,15 @@ void assign_zones(const toml::node& node, std::string_view source, std::vector<Z
   }
 }
 
+std::string sensor_of(const toml::node& node, std::string_view source) {
+  const auto name = node.value_exact<std::string>();
+  if (!name) {
+    Place(source, node.source())
+        .refuse("sensor is a text, the name of a sensor or of its file, not a " + type_name(node));
+  }
+  return *name;
+}
+
 /// Is there a setting of this name, or a section?
 bool is_known(std::string_view key, const std::vector<Setting>& settings) {
   return std::ranges::any_of(settings, [&](const Setting& setting) {
@@ -242,7 +251,9 @@ void apply_table(const toml::table& table, const std::string& prefix, std::strin
     const std::string full = prefix + std::string(key.str());
     const Place place(source, node.source());
     const auto setting = std::ranges::find(settings, full, &Setting::key);
-    if (full == "zones" && zones != nullptr) {
+    if (full == "sensor") {
+      sensor_of(node, source);
+    } else if (full == "zones" && zones != nullptr) {
       assign_zones(node, source, *zones);
     } else if (setting != settings.end()) {
       assign(node, place, *setting);
@@ -254,14 +265,18 @@ void apply_table(const toml::table& table, const std::string& prefix, std::strin
   }
 }
 
-/// `zones` is null for methods that have none.
-void apply_text(std::string_view text, std::string_view source,
-                const std::vector<Setting>& settings, std::vector<Zone>* zones) {
+toml::table parsed(std::string_view text, std::string_view source) {
   try {
-    apply_table(toml::parse(text, source), "", source, settings, zones);
+    return toml::parse(text, source);
   } catch (const toml::parse_error& error) {
     Place(source, error.source()).refuse(std::string(error.description()));
   }
+}
+
+/// `zones` is null for methods that have none.
+void apply_text(std::string_view text, std::string_view source,
+                const std::vector<Setting>& settings, std::vector<Zone>* zones) {
+  apply_table(parsed(text, source), "", source, settings, zones);
 }
 
 }  // namespace
@@ -289,6 +304,13 @@ void apply_toml(std::string_view text, std::string_view source, MethodConfig& co
 
 void apply_toml(std::string_view text, std::string_view source, PatchworkConfig& config) {
   apply_text(text, source, settings_of(config), &config.zones);
+}
+
+std::optional<std::string> sensor_named_in(std::string_view text, std::string_view source) {
+  const toml::table table = parsed(text, source);
+  const toml::node* node = table.get("sensor");
+  if (node == nullptr) return std::nullopt;
+  return sensor_of(*node, source);
 }
 
 void set_sensor_height(float height, MethodConfig& config) {

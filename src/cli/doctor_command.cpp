@@ -67,7 +67,8 @@ doctor::Expected expected_of(MethodConfig config) {
 
 int examine_scans(const DoctorOptions& options) {
   DoctorReport report{.files = {}, .method = options.method.method, .diagnosis = {}};
-  const doctor::Expected expected = expected_of(options.method.resolve());
+  MountSettings mount;
+  const doctor::Expected expected = expected_of(options.method.resolve(mount));
   const std::vector<std::string> scans = chosen_scans(options.scans, options.max_scans);
 
   catch_interrupts();

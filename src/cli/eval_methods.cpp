@@ -15,6 +15,7 @@
 
 #include "cli/config_toml.hpp"
 #include "cli/method_options.hpp"
+#include "cli/sensor_option.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -89,6 +90,7 @@ void EvalMethods::add_to(CLI::App& command) {
       ->type_name("LIST");
   add_preset_option(command, preset)
       ->description("Patchwork's settings to start from, for the rows CZM + ... too");
+  add_sensor_option(command, sensor);
   command
       .add_option("--config", config_file,
                   "TOML file of Patchwork's settings, as 'flagstone config' prints")
@@ -117,29 +119,61 @@ void EvalMethods::add_to(CLI::App& command) {
       ->transform(CLI::IsMember(maps));
 }
 
-std::vector<eval::Method> EvalMethods::resolve() const {
-  MethodConfig base = PatchworkConfig::preset(preset);
-  MountSettings mount_settings;
-  bool sets_patchwork = false;
-  if (!config_file.empty()) apply_file(config_file, base, mount_settings);
-  std::vector<std::pair<std::string, std::string>> own_settings;
+std::vector<EvalMethods::OwnSetting> EvalMethods::own_settings() const {
+  std::vector<OwnSetting> all;
   for (const std::string& setting : settings) {
-    if (setting.starts_with("mount.")) {
-      apply_toml(setting, fmt::format("--set {}", setting), base, mount_settings);
-      continue;
-    }
+    if (setting.starts_with("mount.")) continue;
     auto [method, rest] = split_setting(setting);
-    if (method == "patchwork") {
-      sets_patchwork = true;
-      apply_toml(rest, fmt::format("--set {}", setting), base);
-    } else {
-      own_settings.emplace_back(std::move(method), std::move(rest));
-    }
+    refuse_sensor_in_setting(rest);
+    all.push_back({std::move(method), std::move(rest)});
   }
+  return all;
+}
 
+PatchworkConfig EvalMethods::overlaid(PatchworkConfig patchwork,
+                                      MountSettings& mount_settings) const {
+  MethodConfig config = std::move(patchwork);
+  mount_settings = {};
+  if (!config_file.empty()) apply_file(config_file, config, mount_settings);
+  for (const std::string& setting : settings) {
+    if (!setting.starts_with("mount.")) continue;
+    apply_toml(setting, fmt::format("--set {}", setting), config, mount_settings);
+  }
+  for (const auto& [method, setting] : own_settings()) {
+    if (method != "patchwork") continue;
+    apply_toml(setting, fmt::format("--set patchwork.{}", setting), config);
+  }
+  return std::get<PatchworkConfig>(config);
+}
+
+MethodConfig EvalMethods::settings_of(const std::string& method, const std::optional<Sensor>& from,
+                                      MountSettings& mount_settings) const {
+  const auto settings_at = [&](const Sensor* at) {
+    const bool from_patchwork = starts_from_patchwork(method);
+    const PatchworkConfig patchwork =
+        overlaid(at != nullptr && from_patchwork ? PatchworkConfig::for_sensor(*at)
+                                                 : PatchworkConfig::preset(preset),
+                 mount_settings);
+    MethodConfig config = at != nullptr && !from_patchwork ? default_config(method, *at)
+                                                           : default_config(method, patchwork);
+    for (const auto& [owner, setting] : own_settings()) {
+      if (owner != method || method == "patchwork") continue;
+      apply_toml(setting, fmt::format("--set {}.{}", method, setting), config);
+    }
+    mount.apply_to(config, mount_settings);
+    return config;
+  };
+  if (!from) return settings_at(nullptr);
+  return settings_at_own_height(*from, [&](const Sensor& at) { return settings_at(&at); });
+}
+
+std::vector<eval::Method> EvalMethods::resolve() const {
+  const std::optional<Sensor> from = chosen_sensor(sensor, config_file, preset);
   const std::vector<std::string> evaluated = expanded(names);
-  for (const auto& [method, setting] : own_settings) {
-    if (std::ranges::find(evaluated, method) == evaluated.end()) {
+  bool sets_patchwork = false;
+  for (const auto& [method, setting] : own_settings()) {
+    sets_patchwork = sets_patchwork || method == "patchwork";
+    if (method != "patchwork" && std::ranges::find(evaluated, method) == evaluated.end()) {
       throw std::invalid_argument(
           fmt::format("--set {}.{}: {} is not among --methods", method, setting, method));
     }
@@ -152,12 +186,8 @@ std::vector<eval::Method> EvalMethods::resolve() const {
   }
   std::vector<eval::Method> methods;
   for (const std::string& name : evaluated) {
-    MethodConfig config = default_config(name, std::get<PatchworkConfig>(base));
-    for (const auto& [method, setting] : own_settings) {
-      if (method == name) apply_toml(setting, fmt::format("--set {}.{}", name, setting), config);
-    }
-    MountSettings own_mount = mount_settings;
-    mount.apply_to(config, own_mount);
+    MountSettings own_mount;
+    MethodConfig config = settings_of(name, from, own_mount);
     own_mount.check();
     methods.push_back(eval::method_of(name, std::move(config), own_mount));
   }

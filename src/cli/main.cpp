@@ -19,6 +19,7 @@
 #include "cli/info_command.hpp"
 #include "cli/print_error.hpp"
 #include "cli/segment_command.hpp"
+#include "cli/sensors_command.hpp"
 #include "cli/simulate_command.hpp"
 #include "cli/sweep_command.hpp"
 #include "flagstone/version.hpp"
@@ -55,6 +56,7 @@ int run(int argc, char** argv) {
   flagstone::cli::add_demo_command(app, exit_code);
   flagstone::cli::add_info_command(app, exit_code);
   flagstone::cli::add_config_command(app, exit_code);
+  flagstone::cli::add_sensors_command(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cli/config_toml.hpp"
+#include "cli/sensor_option.hpp"
 #include "io/load_bytes.hpp"
 
 namespace flagstone::cli {
@@ -23,6 +24,7 @@ void MethodOptions::add_to(CLI::App& command, std::span<const std::string_view> 
       ->capture_default_str()
       ->type_name("NAME");
   add_preset_option(command, preset);
+  add_sensor_option(command, sensor);
   command
       .add_option("--config", config_file, "TOML file of settings, as 'flagstone config' prints")
       ->type_name("FILE");
@@ -44,15 +46,30 @@ MethodConfig MethodOptions::resolve(MountSettings& mount_settings) const {
         "czm+...",
         preset, method));
   }
-  MethodConfig config = default_config(method, PatchworkConfig::preset(preset));
+  const std::optional<Sensor> from = chosen_sensor();
+  const auto settings_at = [&](const Sensor& at) {
+    return overlaid(default_config(method, at), mount_settings);
+  };
+  MethodConfig config =
+      from ? settings_at_own_height(*from, settings_at)
+           : overlaid(default_config(method, PatchworkConfig::preset(preset)), mount_settings);
+  check(config);
+  mount_settings.check();
+  return config;
+}
+
+std::optional<Sensor> MethodOptions::chosen_sensor() const {
+  return cli::chosen_sensor(sensor, config_file, preset);
+}
+
+MethodConfig MethodOptions::overlaid(MethodConfig config, MountSettings& mount_settings) const {
   mount_settings = {};
   if (!config_file.empty()) apply_file(config_file, config, mount_settings);
   for (const std::string& setting : settings) {
+    refuse_sensor_in_setting(setting);
     apply_toml(setting, fmt::format("--set {}", setting), config, mount_settings);
   }
   mount.apply_to(config, mount_settings);
-  check(config);
-  mount_settings.check();
   return config;
 }
 

@@ -31,6 +31,7 @@
 #include "cli/simulated_sequence.hpp"
 #include "core/stopwatch.hpp"
 #include "flagstone/sensor.hpp"
+#include "io/sensor_file.hpp"
 #include "sim/conditions.hpp"
 #include "sim/drive.hpp"
 #include "sim/noise.hpp"
@@ -218,14 +219,16 @@ sim::Mounting mounting_of(const SimulateOptions& options, const Sensor& sensor) 
   return mounting;
 }
 
-Sensor sensor_named(const std::string& name) {
-  const auto found = std::ranges::find(Sensor::known(), name, &Sensor::name);
-  if (found == Sensor::known().end()) throw no_such("--sensor", name, Sensor::known());
-  return *found;
+Sensor sensor_found(const std::string& name_or_file) {
+  Sensor sensor;
+  if (const Status status = io::find_sensor(name_or_file, sensor); !status.ok()) {
+    throw std::invalid_argument(fmt::format("--sensor: {}", status.message()));
+  }
+  return sensor;
 }
 
 SequenceOrigin origin_of(const SimulateOptions& options) {
-  const Sensor sensor = sensor_named(options.sensor);
+  const Sensor sensor = sensor_found(options.sensor);
   const sim::NoiseLevel* level = sim::find_noise_level(options.noise);
   if (level == nullptr) throw no_such("--noise", options.noise, sim::noise_levels());
   sim::Noise noise = level->noise;
@@ -311,8 +314,10 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   command->add_option("--scene", options->scene, "What is simulated; the names stand above")
       ->required()
       ->type_name("NAME");
-  command->add_option("--sensor", options->sensor, "What takes the scans; the names stand above")
-      ->type_name("NAME")
+  command
+      ->add_option("--sensor", options->sensor,
+                   "What takes the scans; the names stand above, or a file of your own")
+      ->type_name("NAME|FILE.toml")
       ->capture_default_str();
   command
       ->add_option("--sensor-height", options->sensor_height,

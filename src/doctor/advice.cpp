@@ -31,6 +31,10 @@ bool differs(const Vector3f& a, const Vector3f& b) { return a != b; }
 
 }  // namespace
 
+double height_doubt(const CommonStance& stance) {
+  return least_height_difference + (stance.highest_ground - stance.lowest_ground) / 4;
+}
+
 Advice advise(const Summary& summary, const Expected& expected,
               const std::vector<const Sensor*>& sensors) {
   const CommonStance& stance = *summary.stance;
@@ -39,9 +43,8 @@ Advice advise(const Summary& summary, const Expected& expected,
   Mount& mount = advice.mount;
   mount.scale = static_cast<float>(summary.metres);
 
-  const bool is_tilted = stance.tilt >= least_tilt;
   for (std::size_t i = 0; i < 3; ++i) {
-    mount.up[i] = is_tilted ? rounded(stance.up[i], 1e-4) : stance.axis[i];
+    mount.up[i] = stance.is_tilted() ? rounded(stance.up[i], 1e-4) : stance.axis[i];
   }
 
   // Along the axis, metres above the cloud's origin.
@@ -55,10 +58,9 @@ Advice advise(const Summary& summary, const Expected& expected,
     mount.origin[i] = rounded(origin * double{stance.axis[i]}, 0.01);
   }
 
-  const double upright = is_tilted ? double{mount::dot(stance.up, stance.axis)} : 1;
+  const double upright = stance.is_tilted() ? double{mount::dot(stance.up, stance.axis)} : 1;
   const double height = (origin - stance.ground) * upright;
-  const bool as_expected =
-      std::abs(height - double{expected.sensor_height}) < least_height_difference;
+  const bool as_expected = std::abs(height - double{expected.sensor_height}) < height_doubt(stance);
   mount.sensor_height = as_expected ? expected.sensor_height : rounded(height, 0.01);
 
   const Mount usual;

@@ -9,15 +9,18 @@
 
 namespace flagstone::doctor {
 
-/// The axis is taken for up unless the ground says otherwise by more than this, degrees: a street
-/// is cambered, a hill is not a tilted mount.
-inline constexpr double least_tilt = 5;
+/// The expected height is kept unless the ground says otherwise by more than this, metres, and a
+/// quarter of what scans differ.
+inline constexpr double least_height_difference = 0.05;
 
-/// The expected height is kept unless the ground says otherwise by more than this, metres.
-inline constexpr double least_height_difference = 0.1;
+/// It has to be set right if it is wrong by so much more, metres: labels suffer.
+inline constexpr double harmful_height_difference = 0.1;
 
 /// A frame whose ground is higher than this below its origin, metres, is not the sensor's.
 inline constexpr double highest_ground = -0.15;
+
+/// How far off the expected height may be for what the scans know, metres.
+double height_doubt(const CommonStance& stance);
 
 /// Settings for scans that show their ground. `sensors`: those that match, the likeliest first.
 Advice advise(const Summary& summary, const Expected& expected,

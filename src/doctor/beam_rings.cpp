@@ -62,6 +62,7 @@ BeamRings cut_at(double start, double way, const std::vector<double>& azimuths) 
   const double far_back = std::ranges::max(since) / 2;
   BeamRings rings{.source = RingSource::order, .of_points = std::vector<int>(azimuths.size())};
   int ring = 0;
+  std::size_t begin = 0;  // of the last ring
   for (std::size_t i = 1; i < since.size(); ++i) {
     const double step = since[i] - since[i - 1];
     const bool is_close = std::abs(turned(azimuths[i - 1], azimuths[i])) <= steady_step;
@@ -69,7 +70,15 @@ BeamRings cut_at(double start, double way, const std::vector<double>& azimuths) 
     if (step > far_back && is_close) --ring;  // but a point out of order where rings meet
     ring = std::max(ring, 0);
     rings.of_points[i] = ring;
+    if (ring >= rings.count) begin = i;
     rings.count = std::max(rings.count, ring + 1);
+  }
+  // The very end of the last ring lies beyond the place where the next would begin.
+  const bool is_stub = *std::max_element(since.begin() + static_cast<std::ptrdiff_t>(begin),
+                                         since.end()) < 2 * slack;
+  if (is_stub && rings.count > 1) {
+    --rings.count;
+    for (int& number : rings.of_points) number = std::min(number, rings.count - 1);
   }
   return rings;
 }

@@ -32,20 +32,30 @@ void raise(std::vector<Vector3f>& places, double origin) {
   for (Vector3f& place : places) place[2] -= static_cast<float>(origin);
 }
 
-void look_from_sensor(std::vector<Vector3f> places, std::span<const int> ring_field,
-                      Examination& seen) {
-  const BeamRings rings = find_rings(places, ring_field);
+/// What stands around the sensor, which is `origin` metres along the axis from the cloud's origin.
+OwnVehicle own_vehicle(std::span<const Vector3f> places, double origin, const Examination& seen) {
+  const Mount& mount = seen.stance.decision.mount;
+  const double upright = double{mount::dot(mount.up, seen.stance.axis)};
+  std::vector<Vector3f> level = turned(places, mount.up, seen.extent.metres, {});
+  raise(level, origin * upright);
+  const double ground = (double{seen.stance.ground_of_tilt()} - origin) * upright;
+  return find_own_vehicle(level, ground, own_radius);
+}
+
+void look_from_sensor(const UsablePoints& usable, Examination& seen) {
+  std::vector<Vector3f> places = turned(usable.places, seen.stance.axis, seen.extent.metres, {});
+  const BeamRings rings = find_rings(places, usable.rings);
   seen.rings = rings.source;
   double origin = 0;
   if (rings.count > 0 && seen.stance.is_found()) {
-    seen.origin = find_beam_origin(places, rings, seen.ground());
+    seen.origin = find_beam_origin(places, rings, double{seen.stance.ground_of_axis()});
     if (seen.origin->is_elsewhere()) origin = seen.origin->height;
   }
   raise(places, origin);
-  const double height = seen.stance.is_found() ? origin - seen.ground() : 0;
-  seen.view = find_field_of_view(places, rings, std::max(1.0, 1.05 * height));
+  const double height = seen.stance.is_found() ? origin - double{seen.stance.ground_of_axis()} : 0;
+  seen.view = find_field_of_view(places, rings, std::max(1.0, 0.8 * height));
   seen.thinning = find_thinning(places);
-  if (seen.stance.is_found()) seen.vehicle = find_own_vehicle(places, -height, own_radius);
+  if (seen.stance.is_found()) seen.vehicle = own_vehicle(usable.places, origin, seen);
 }
 
 }  // namespace
@@ -63,8 +73,7 @@ Examination examine(const io::Cloud& cloud) {
     return seen;
   }
   seen.stance = find_stance(usable.places, seen.extent.metres);
-  look_from_sensor(turned(usable.places, seen.stance.axis, seen.extent.metres, {}), usable.rings,
-                   seen);
+  look_from_sensor(usable, seen);
   return seen;
 }
 

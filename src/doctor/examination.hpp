@@ -34,9 +34,6 @@ struct Examination {
   std::optional<BeamOrigin> origin{};  ///< where rings are known
   FieldOfView view{};
   OwnVehicle vehicle{};
-
-  /// Height of the ground below the cloud's origin, along the stance's axis, metres.
-  [[nodiscard]] double ground() const noexcept { return double{stance.ground()}; }
 };
 
 /// Looks at one scan. Any bit pattern is allowed in its coordinates.

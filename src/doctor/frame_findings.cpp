@@ -100,7 +100,7 @@ Finding tilt(const CommonStance& stance, const Advice& advice) {
   const std::string name(axis_name(stance.axis));
   finding.sentence =
       fmt::format("The ground is {:.1f} degrees from level{}.", stance.tilt, angles(stance));
-  if (stance.tilt < least_tilt) return finding;
+  if (!stance.is_tilted()) return finding;
   finding.severity = Severity::fix;
   finding.remedy = fmt::format(
       "Set mount.tilt = \"given\" and mount.up = {}, unless the vehicle stood level before a "
@@ -159,7 +159,9 @@ Finding sensor_height(const Summary& summary, const Expected& expected, const Ad
                                    seen, expected.sensor_height, scattered);
     return finding;
   }
-  finding.severity = Severity::fix;
+  const double difference = std::abs(height - double{expected.sensor_height});
+  finding.severity = difference > height_doubt(stance) + harmful_height_difference ? Severity::fix
+                                                                                   : Severity::note;
   finding.sentence =
       fmt::format("The ground lies {:.2f} m below the sensor, but {:.2f} m is set.{}", height,
                   expected.sensor_height, scattered);

@@ -27,7 +27,7 @@ bool azimuths_match(const FieldOfView& view, const Sensor& sensor) {
 /// brings nothing back, so that the highest beams may be missing; the ground does.
 std::optional<double> elevation_difference(const FieldOfView& view, const Sensor& sensor) {
   const double slack = sensor.draws_rosette() ? 8 : 2;  // a rosette is thin at its rim
-  constexpr double open_sky = 15;
+  const double open_sky = sensor.draws_rosette() ? 25 : 15;
   const double bottom = std::abs(view.bottom - sensor.elevations.back());
   const double above_top = view.top - sensor.elevations.front();
   if (bottom > slack || above_top > slack || above_top < -open_sky) return {};

@@ -22,18 +22,28 @@ constexpr std::array<Vector3f, 6> axes{
 /// Other axes than z must be this much more sure.
 constexpr float bonus_of_z = 1.3f;
 
-/// The estimate with `axis` about up, seen from `height` along it.
-Stance stance_for(std::span<const Vector3f> places, double metres, const Vector3f& axis,
-                  float height) {
+MountDecision estimate_for(std::span<const Vector3f> places, double metres, const Vector3f& axis,
+                           float height, TiltSource tilt) {
   MountSettings settings;
-  settings.tilt = TiltSource::estimate;
+  settings.tilt = tilt;
   settings.mount.up = axis;
   settings.mount.scale = static_cast<float>(metres);
   for (std::size_t i = 0; i < 3; ++i) settings.mount.origin[i] = height * axis[i];
   MountEstimator estimator(settings);
+  return estimator.estimate({places.data()->data(), places.size()});
+}
+
+/// The estimate with `axis` about up, seen from `height` along it.
+Stance stance_for(std::span<const Vector3f> places, double metres, const Vector3f& axis,
+                  float height) {
   return {.axis = axis,
-          .decision = estimator.estimate({places.data()->data(), places.size()}),
+          .decision = estimate_for(places, metres, axis, height, TiltSource::estimate),
           .seen_from = height};
+}
+
+Stance with_level(std::span<const Vector3f> places, double metres, Stance stance) {
+  stance.level = estimate_for(places, metres, stance.axis, stance.seen_from, TiltSource::given);
+  return stance;
 }
 
 /// Of the points that are not at the ground's height, the share above it. What stands on ground is
@@ -89,8 +99,12 @@ void take_if_better(const Stance& candidate, std::span<const Vector3f> places, d
 
 }  // namespace
 
-float Stance::ground() const noexcept {
+float Stance::ground_of_tilt() const noexcept {
   return seen_from - decision.mount.sensor_height / dot(decision.mount.up, axis);
+}
+
+float Stance::ground_of_axis() const noexcept {
+  return level.accepted() ? seen_from - level.mount.sensor_height : ground_of_tilt();
 }
 
 double Stance::tilt() const noexcept {
@@ -104,14 +118,14 @@ Stance find_stance(std::span<const Vector3f> places, double metres) {
   for (const Vector3f& axis : std::span(axes).subspan(1)) {
     take_if_better(stance_for(places, metres, axis, 0), places, metres, best);
   }
-  if (worth(places, metres, best) > 0) return best;
+  if (worth(places, metres, best) > 0) return with_level(places, metres, best);
   constexpr float usual_height = 1.8f;
   for (const Vector3f& axis : axes) {
     const std::optional<float> level = strongest_level(places, metres, axis);
     if (!level) continue;
     take_if_better(stance_for(places, metres, axis, *level + usual_height), places, metres, best);
   }
-  if (worth(places, metres, best) > 0) return best;
+  if (worth(places, metres, best) > 0) return with_level(places, metres, best);
   // A plane that most things lie below is a ceiling or the other side of the ground.
   best = usual;
   if (best.is_found()) best.decision.verdict = MountVerdict::not_lowest;

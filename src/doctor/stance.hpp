@@ -22,9 +22,15 @@ struct Stance {
   MountDecision decision{};
   float seen_from = 0;
 
+  /// The same if the axis is up. From afar and on one side a tilt and a slope look alike, and the
+  /// height differs.
+  MountDecision level{};
+
   [[nodiscard]] bool is_found() const noexcept { return decision.accepted(); }
-  /// Where the ground is below the cloud's origin: along the axis, metres, negative below it.
-  [[nodiscard]] float ground() const noexcept;
+  /// Where the ground is at the cloud's origin: along the axis, metres, negative below it. By the
+  /// tilt that was found, or as if the axis is up.
+  [[nodiscard]] float ground_of_tilt() const noexcept;
+  [[nodiscard]] float ground_of_axis() const noexcept;
   /// Degrees between the axis and up.
   [[nodiscard]] double tilt() const noexcept;
 };

@@ -79,7 +79,9 @@ CommonStance common_stance(Scans& scans) {
   common.up = mount::unit(up);
   const double cosine = std::clamp(double{mount::dot(common.up, common.axis)}, -1.0, 1.0);
   common.tilt = std::acos(cosine) * 180 / std::numbers::pi;
-  const auto ground = [](const Examination& scan) { return scan.ground(); };
+  const auto ground = [&](const Examination& scan) {
+    return double{common.is_tilted() ? scan.stance.ground_of_tilt() : scan.stance.ground_of_axis()};
+  };
   common.ground = median(scans, ground);
   const auto [low, high] = std::ranges::minmax_element(
       scans, {}, [&](const Examination* scan) { return ground(*scan); });

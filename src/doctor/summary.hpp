@@ -10,6 +10,10 @@
 
 namespace flagstone::doctor {
 
+/// The axis is taken for up unless the ground says otherwise by more than this, degrees: a street
+/// is cambered, a hill is not a tilted mount.
+inline constexpr double least_tilt = 5;
+
 /// How the frame of several scans stands to their ground, as most of them say.
 struct CommonStance {
   std::size_t scans = 0;     ///< those that say so
@@ -19,6 +23,9 @@ struct CommonStance {
   double ground = 0;         ///< along the axis from the cloud's origin, metres: the median
   double lowest_ground = 0;  ///< of all scans
   double highest_ground = 0;
+
+  /// Is up another direction than the axis?
+  [[nodiscard]] bool is_tilted() const noexcept { return tilt >= least_tilt; }
 };
 
 /// What several scans of one sensor show together: medians, and shares of all points.

@@ -69,7 +69,8 @@ MethodRunner::MethodRunner(std::string_view name, const MethodConfig& config,
     method = make_segmenter(name, config);
   }
   // Commands give method and mount the same height.
-  levelled_.emplace(std::move(method), mount.mount.sensor_height, mount);
+  levelled_ =
+      std::make_unique<LevelledSegmenter>(std::move(method), mount.mount.sensor_height, mount);
 }
 
 bool MethodRunner::find_rings(const io::Cloud& cloud) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string_view>
 
 #include "flagstone/levelled_segmenter.hpp"
@@ -41,7 +41,7 @@ class MethodRunner {
   bool find_rings(const io::Cloud& cloud);
 
   OnRings* on_rings_ = nullptr;  // the method, if it can be told the rings
-  std::optional<LevelledSegmenter> levelled_;
+  std::unique_ptr<LevelledSegmenter> levelled_;
 };
 
 }  // namespace flagstone::eval

@@ -48,7 +48,7 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
   std::ranges::fill(cells_, std::uint8_t{0});
   const Turn turn = turn_to_z(plane.up);
   const auto index_of = [&](float v) {
-    const float place = v * cells_a_metre_ + static_cast<float>(width / 2);
+    const float place = v * cells_a_metre_ + centre;
     return std::min(static_cast<std::size_t>(std::max(place, 0.0f)), width - 1);
   };
   double squares = 0;
@@ -86,8 +86,8 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
     for (std::size_t column = 0; column < width; ++column) {
       const std::uint8_t cell = cells_[row * width + column];
       if (cell == 0) continue;
-      const float x = static_cast<float>(column) + 0.5f - static_cast<float>(width / 2);
-      const float y = static_cast<float>(row) + 0.5f - static_cast<float>(width / 2);
+      const float x = static_cast<float>(column) + 0.5f - centre;
+      const float y = static_cast<float>(row) + 0.5f - centre;
       const std::size_t direction = direction_of(x, y);
       ++seen[direction];
       if ((cell & ground) != 0) {

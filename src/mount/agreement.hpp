@@ -35,6 +35,7 @@ class AgreementCount {
 
  private:
   static constexpr std::size_t width = 32;  // cells along a side
+  static constexpr float centre = 16;       // half of them
 
   float cells_a_metre_;
   std::vector<std::uint8_t> cells_;  // which kinds of points each has

@@ -99,8 +99,7 @@ float gate_at(float gate, const NearPoint& p) noexcept {
 
 }  // namespace
 
-PlaneSearch::PlaneSearch(const MountLimits& limits, bool looks_for_tilt)
-    : limits_(limits), looks_for_tilt_(looks_for_tilt) {
+PlaneSearch::PlaneSearch(const MountLimits& limits, bool looks_for_tilt) : limits_(limits) {
   const auto tangent =
       looks_for_tilt ? std::tan(double{limits.most_tilt} * std::numbers::pi / 180) : 0.0;
   const int steps = static_cast<int>(std::ceil(tangent / double{direction_step}));

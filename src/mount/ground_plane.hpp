@@ -45,7 +45,6 @@ class PlaneSearch {
                             const GroundPlane& plane) const noexcept;
 
   MountLimits limits_;
-  bool looks_for_tilt_;
   std::vector<Vector3f> directions_;
   std::vector<NearPoint> few_;   // of the points, for the first look at every direction
   std::vector<float> levels_;    // weights by height

@@ -18,7 +18,7 @@ constexpr float weight_range = 5;
 /// Scans are read in so many interleaved passes, so that any number of them covers all of a scan,
 /// and no further once this many points were looked at.
 constexpr std::size_t passes = 8;
-constexpr std::size_t enough = 48 * 1024;
+constexpr std::size_t enough = 49152;
 
 }  // namespace
 
@@ -38,7 +38,7 @@ std::span<const NearPoint> NearPoints::find(CloudView cloud, const Mount& mount,
   std::size_t found = 0;
   std::size_t seen = 0;
   const auto cube_of = [&](float v) {
-    const float place = v * cubes_a_metre_ + static_cast<float>(cubes / 2);
+    const float place = v * cubes_a_metre_ + centre;
     return std::min(static_cast<std::size_t>(std::max(place, 0.0f)), cubes - 1);
   };
   for (std::size_t pass = 0; pass < passes && seen < enough; ++pass) {

@@ -25,6 +25,7 @@ class NearPoints {
  public:
   /// Cubes along a side; the cube that the reach fits in has 64 of them.
   static constexpr std::size_t cubes = 64;
+  static constexpr float centre = 32;  ///< half of them
   static constexpr std::size_t most = 16384;
 
   /// Takes all its memory.

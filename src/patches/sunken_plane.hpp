@@ -21,10 +21,8 @@ inline constexpr double sunken_margin = 0.15;
 /// Fewer points are no ground.
 inline constexpr double fewest_sunken_points = 12;
 
-/// Is there ground in the last plane? `deep` is the number of all points below, `least_normal_z`
-/// how upright the ground must be.
-[[nodiscard]] bool is_sunken_ground(const Plane& plane, double deep,
-                                    double least_normal_z) noexcept;
+/// Is there ground in the last plane? `deep` is the number of all points below.
+[[nodiscard]] bool is_sunken_ground(const Plane& plane, double deep) noexcept;
 
 /// How far a point lies above a plane, metres.
 [[nodiscard]] inline double height_above(const Plane& plane, const Vector3& point) noexcept {

@@ -103,8 +103,7 @@ HWY_EXPORT(copy_runs);
 
 /// Of the points of a bin that are noise, makes those ground that lie in a plane of their own;
 /// returns how many. In double precision: few bins have such points.
-std::uint32_t label_sunken(const patches::BinBatch& batch, std::size_t bin, double least_normal_z,
-                           std::uint8_t* labels) {
+std::uint32_t label_sunken(const patches::BinBatch& batch, std::size_t bin, std::uint8_t* labels) {
   const auto each_deep = [&](const auto& work) {
     for (std::size_t i = 0; i < batch.size(bin); ++i) {
       if (labels[i] != static_cast<std::uint8_t>(Label::noise)) continue;
@@ -123,7 +122,7 @@ std::uint32_t label_sunken(const patches::BinBatch& batch, std::size_t bin, doub
     if (moments.count < patches::fewest_sunken_points) return 0;
     plane = plane_of(moments);
   }
-  if (!patches::is_sunken_ground(plane, deep, least_normal_z)) return 0;
+  if (!patches::is_sunken_ground(plane, deep)) return 0;
   std::uint32_t found = 0;
   each_deep([&](std::size_t i, const Vector3& p) {
     if (std::abs(patches::height_above(plane, p)) >= patches::sunken_margin) return;
@@ -136,12 +135,12 @@ std::uint32_t label_sunken(const patches::BinBatch& batch, std::size_t bin, doub
 }  // namespace
 
 LabelCounts BinLabels::write(const patches::BinBatch& batch, std::size_t i,
-                             const patches::GroundSet& set, std::optional<double> least_normal_z,
+                             const patches::GroundSet& set, bool find_sunken,
                              const patches::BinGroups& groups, std::span<Label> labels) noexcept {
   std::uint8_t* packed = packed_.data();
   LabelCounts counts = HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, packed);
-  if (least_normal_z && counts.noise >= patches::fewest_sunken_points) {
-    counts.sunken = label_sunken(batch, i, *least_normal_z, packed);
+  if (find_sunken && counts.noise >= patches::fewest_sunken_points) {
+    counts.sunken = label_sunken(batch, i, packed);
     counts.ground += counts.sunken;
     counts.noise -= counts.sunken;
   }

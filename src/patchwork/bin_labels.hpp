@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "core/buffer.hpp"
@@ -29,10 +28,9 @@ class BinLabels {
   void reserve(std::size_t points) { packed_.reserve(points + 128); }
 
   /// Labels the points of bin `i` of the batch: ground if in the set, noise below it, nonground
-  /// above. `least_normal_z` says how upright a plane of points below the set must be for these to
-  /// be ground too; where they are looked for.
+  /// above. With `find_sunken`, points below it that lie in a plane of their own are ground too.
   LabelCounts write(const patches::BinBatch& batch, std::size_t i, const patches::GroundSet& set,
-                    std::optional<double> least_normal_z, const patches::BinGroups& groups,
+                    bool find_sunken, const patches::BinGroups& groups,
                     std::span<Label> labels) noexcept;
 
   /// Gives all points of a bin one label.

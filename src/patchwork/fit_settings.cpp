@@ -3,7 +3,6 @@
 #include "patchwork/fit_settings.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace flagstone::patchwork {
 
@@ -24,11 +23,6 @@ std::vector<double> seed_floors(const PatchworkConfig& config) {
     floors.push_back(std::isinf(margin) ? margin : margin * config.sensor_height);
   }
   return floors;
-}
-
-std::optional<double> sunken_normal_z(const PatchworkConfig& config) {
-  if (std::isinf(config.support_margin)) return std::nullopt;
-  return std::sin(config.uprightness.angle * std::numbers::pi / 180);
 }
 
 }  // namespace flagstone::patchwork

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "flagstone/patchwork_config.hpp"
@@ -15,9 +14,5 @@ patches::FitSettings fit_settings(const PatchworkConfig& config) noexcept;
 
 /// M_h * h_s of each zone: no seed of its bins lies below, metres.
 std::vector<double> seed_floors(const PatchworkConfig& config);
-
-/// How upright a plane below a ground patch must be to be ground, z of its normal: as the patch
-/// itself. Nothing where the configuration looks for none.
-std::optional<double> sunken_normal_z(const PatchworkConfig& config);
 
 }  // namespace flagstone::patchwork

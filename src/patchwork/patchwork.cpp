@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -91,7 +91,6 @@ struct Patchwork::Pipeline {
         zones(config),
         likelihood(config, zones.rings()),
         seed_floors(patchwork::seed_floors(config)),
-        sunken_normal_z(patchwork::sunken_normal_z(config)),
         crew(checked(threads)) {
     for (std::size_t i = 0; i < crew.size(); ++i) fitters.emplace_back(config);
   }
@@ -197,8 +196,9 @@ struct Patchwork::Pipeline {
     for (std::size_t i = 0; i < bins.size(); ++i) {
       Patch& patch = patches[bins[i].patch];
       if (!patch.is_ground()) continue;
-      const LabelCounts counts = fitter.bin_labels.write(
-          fitter.batch, i, set_to_label(fitter.fitted.sets[i]), sunken_normal_z, groups, labels);
+      const LabelCounts counts =
+          fitter.bin_labels.write(fitter.batch, i, set_to_label(fitter.fitted.sets[i]),
+                                  std::isfinite(config.support_margin), groups, labels);
       patch.ground_count = counts.ground;
       patch.sunken_count = counts.sunken;
       fitter.totals[static_cast<std::size_t>(Label::ground)] += counts.ground;
@@ -235,8 +235,6 @@ struct Patchwork::Pipeline {
   ConcentricZones zones;
   GroundLikelihood likelihood;
   std::vector<double> seed_floors;  ///< of each zone, metres
-  /// How upright ground below a patch must be; nothing if none is looked for.
-  std::optional<double> sunken_normal_z;
   ScanPoints scan;
   BinGroups groups;
   Buffer<FittedBin> fitted_bins;

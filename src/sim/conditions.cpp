@@ -8,7 +8,7 @@
 namespace flagstone::sim {
 namespace {
 
-constexpr double wet_road = 0.6;
+constexpr double wet_road = 0.4;
 
 constexpr std::array levels{
     NoiseLevel{

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include "patches/sunken_plane.hpp"
 
@@ -17,10 +16,8 @@ constexpr float square_size = 4;
 
 }  // namespace
 
-SunkenGround::SunkenGround(const SurfaceConfig& config, const SquareCells& cells)
-    : cells_(&cells),
-      least_normal_z_(std::sin(config.acceptance.upright_angle * std::numbers::pi / 180)),
-      width_(static_cast<std::uint32_t>(2 * cells.extent() / square_size)) {
+SunkenGround::SunkenGround(const SquareCells& cells)
+    : cells_(&cells), width_(static_cast<std::uint32_t>(2 * cells.extent() / square_size)) {
   const std::size_t count = std::size_t{width_} * width_;
   squares_.reserve(count);
   touched_.reserve(count);
@@ -93,8 +90,7 @@ std::size_t SunkenGround::find(const patches::ScanPoints& scan, std::span<Label>
   if (any) {
     for (const std::uint32_t number : touched) {
       Square& square = squares_.data()[number];
-      square.searched =
-          square.searched && patches::is_sunken_ground(square.plane, square.deep, least_normal_z_);
+      square.searched = square.searched && patches::is_sunken_ground(square.plane, square.deep);
     }
     each_noise(scan, labels, [&](std::size_t i, const Vector3& point, std::uint32_t number) {
       const Square& square = squares_.data()[number];

@@ -10,7 +10,6 @@
 #include "core/moments.hpp"
 #include "core/plane.hpp"
 #include "flagstone/label.hpp"
-#include "flagstone/surface_config.hpp"
 #include "patches/scan_points.hpp"
 #include "surface/square_cells.hpp"
 
@@ -22,7 +21,7 @@ namespace flagstone::surface {
 class SunkenGround {
  public:
   /// `cells` must outlive it.
-  SunkenGround(const SurfaceConfig& config, const SquareCells& cells);
+  explicit SunkenGround(const SquareCells& cells);
 
   /// Of the points of `scan` that `labels` calls noise those in a plane of their own become ground,
   /// those of a square of 4 m, see patches/sunken_plane.hpp. Returns how many.
@@ -43,7 +42,6 @@ class SunkenGround {
                   const Work& work) noexcept;
 
   const SquareCells* cells_;
-  double least_normal_z_;
   std::uint32_t width_;  ///< squares along a side
   Buffer<Square> squares_;
   Buffer<std::uint32_t> touched_;  ///< numbers of the squares with noise

@@ -135,7 +135,7 @@ struct SurfaceSegmenter::Pipeline {
         coarse(pyramid.grids().front(), config.sensor_height),
         pull_push(pyramid.grids().front().width),
         point_heights(config, cells),
-        sunken_ground(config, cells),
+        sunken_ground(cells),
         groups(patches::Listing::points),
         crew(checked(threads)) {
     for (const surface::Grid& grid : pyramid.grids()) widest = std::max(widest, grid.width);

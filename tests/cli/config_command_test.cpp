@@ -21,9 +21,10 @@ PatchworkConfig printed_config(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"config", "--method", "patchwork"});
   const Outcome outcome = run(arguments);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  PatchworkConfig config;
-  apply_toml(outcome.out, "config", config);
-  return config;
+  MethodConfig config = PatchworkConfig{};
+  MountSettings mount;
+  apply_toml(outcome.out, "config", config, mount);
+  return std::get<PatchworkConfig>(config);
 }
 
 TEST(ConfigCommand, PrintsTheSettingsOfSurfaceUnlessAnotherMethodIsNamed) {

@@ -44,10 +44,11 @@ rc::Gen<std::vector<float>> any_numbers() {
 /// A configuration of any values; in range or not makes no difference to how it is written.
 PatchworkConfig any_config() {
   PatchworkConfig c;
-  for (float* value : {&c.sensor_height, &c.min_range, &c.noise_depth, &c.noise_slope,
-                       &c.seed_height, &c.distance_margin, &c.noise_margin, &c.uprightness.angle,
-                       &c.elevation.base, &c.elevation.growth, &c.elevation.range,
-                       &c.elevation.scale, &c.flatness.gain, &c.flatness.scale}) {
+  for (float* value :
+       {&c.sensor_height, &c.min_range, &c.noise_depth, &c.noise_slope, &c.seed_height,
+        &c.distance_margin, &c.noise_margin, &c.support_margin, &c.uprightness.angle,
+        &c.elevation.base, &c.elevation.growth, &c.elevation.range, &c.elevation.scale,
+        &c.flatness.gain, &c.flatness.scale}) {
     *value = *any_number();
   }
   for (int* value : {&c.min_points, &c.seed_count, &c.iterations}) {

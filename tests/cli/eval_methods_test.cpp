@@ -202,5 +202,28 @@ TEST(EvalMethods, LabelsNeedANameAndAFolderThatIsThere) {
               HasSubstr("two methods are called gpf"));
 }
 
+TEST(EvalMethods, ASensorIsWhatTheSettingsOfAllAreDerivedFrom) {
+  Sensor sensor = Sensor::named("vlp-16");
+  sensor.height = 1.5;
+  const auto methods = EvalMethods{.names = {"all"},
+                                   .sensor = "vlp-16",
+                                   .settings = {"patchwork.iterations=5", "gpf.segments=7"},
+                                   .mount = {.sensor_height = 1.5f}}
+                           .resolve();
+  PatchworkConfig expected = PatchworkConfig::for_sensor(sensor);
+  expected.iterations = 5;
+
+  EXPECT_TRUE(is_same(patchwork_of(named(methods, "patchwork")), expected));
+  EXPECT_EQ(patchwork_of(named(methods, "czm+u")).min_range, expected.min_range);
+  EXPECT_EQ(std::get<GpfConfig>(named(methods, "gpf").config.value()).segments, 7);
+  EXPECT_EQ(std::get<GpfConfig>(named(methods, "gpf").config.value()).sensor_height, 1.5f);
+  EXPECT_EQ(std::get<SurfaceConfig>(named(methods, "surface").config.value()).max_range, 100);
+}
+
+TEST(EvalMethods, ASensorStandsBesideNoPreset) {
+  EXPECT_THAT(refusal({.names = {"patchwork"}, .preset = "paper", .sensor = "vlp-16"}),
+              HasSubstr("--sensor beside --preset paper"));
+}
+
 }  // namespace
 }  // namespace flagstone::cli

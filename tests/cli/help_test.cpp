@@ -16,7 +16,7 @@ using testing::StartsWith;
 
 TEST(Help, OfEveryCommandStartsWithAnExample) {
   for (const std::string command :
-       {"segment", "simulate", "eval", "sweep", "bench", "demo", "info", "config"}) {
+       {"segment", "simulate", "eval", "sweep", "bench", "demo", "info", "config", "sensors"}) {
     const Outcome outcome = run({command, "--help"});
 
     EXPECT_EQ(outcome.exit_code, 0);
@@ -33,7 +33,7 @@ TEST(Help, OfTheWholeStartsWithAnExampleAndNamesTheCommands) {
   ASSERT_GE(lines_of(outcome.out).size(), 3U);
   EXPECT_THAT(lines_of(outcome.out)[2], StartsWith("Example:  flagstone segment"));
   for (const char* command : {"  segment ", "  simulate ", "  eval ", "  sweep ", "  bench ",
-                              "  demo ", "  info ", "  config "}) {
+                              "  demo ", "  info ", "  config ", "  sensors "}) {
     EXPECT_THAT(outcome.out, testing::HasSubstr(command));
   }
 }

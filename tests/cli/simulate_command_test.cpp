@@ -143,6 +143,23 @@ TEST(SimulateCommand, SaysWhatEveryPointOfASensorInTheRainIsAnEchoOf) {
   EXPECT_EQ(scene["files"]["echoes"], "echoes/NNNNNN.echo.npy");
 }
 
+TEST(SimulateCommand, TakesASensorFromAFile) {
+  const io::TemporaryFolder folder;
+  io::put_file(folder / "mine.toml",
+               "beams = 4\nelevation_top = -5.0\nelevation_bottom = -20.0\nfirings = 100\n"
+               "height = 1.0\n");
+
+  const Outcome outcome = simulate(folder / "out", "steps",
+                                   {"--frames", "1", "--noise", "clean", "--keep-no-returns",
+                                    "--sensor", (folder / "mine.toml").string()});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  auto files = files_below(folder / "out" / "sequences" / "00");
+  EXPECT_EQ(files["velodyne/000000.bin"].size(), 400U * 16);
+  const auto scene = nlohmann::json::parse(files["scene.json"]);
+  EXPECT_EQ(scene["sensor"]["elevations"], nlohmann::json::array({-5, -10, -15, -20}));
+}
+
 TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
   const io::TemporaryFolder folder;
   const fs::path resumed = folder / "resumed" / "sequences" / "00";

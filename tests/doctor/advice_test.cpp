@@ -36,8 +36,8 @@ TEST(Advice, IsTheHeightOfTheGroundWhereAnotherIsSet) {
 }
 
 TEST(Advice, KeepsTheHeightThatIsSetWhereTheGroundIsThere) {
-  EXPECT_EQ(advice_for(cloud_of(street_scan()), {.sensor_height = 1.70f}).mount.sensor_height,
-            1.70f);
+  EXPECT_EQ(advice_for(cloud_of(street_scan()), {.sensor_height = 1.74f}).mount.sensor_height,
+            1.74f);
 }
 
 TEST(Advice, IsWhereTheBeamsComeFromWhereTheFrameLiesOnTheGround) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <ostream>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ struct Fault {
   Expected expected{};                 ///< the settings the scan is compared with
   std::set<std::string> comes_with{};  ///< other findings that cannot be told from it
 };
+
+/// Its name, where a test fails.
+inline void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 /// Every fault that there is a finding for.
 const std::vector<Fault>& faults();

@@ -6,10 +6,12 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <utility>
 
 #include "core/random.hpp"
+#include "sim/semantic_class.hpp"
 #include "sim/simulate_street.hpp"
 
 namespace flagstone::doctor {
@@ -21,18 +23,35 @@ io::Cloud cloud_of_floats(const std::vector<float>& values, std::size_t floats_p
   return cloud;
 }
 
+const sim::SimulatedScan& street() {
+  static const sim::SimulatedScan scan = sim::simulate_street(7);
+  return scan;
+}
+
 }  // namespace
 
 const std::vector<Point>& street_scan() {
   static const std::vector<Point> points = [] {
     std::vector<Point> made;
-    const std::vector<float> xyzi = sim::simulate_street(7).xyzi;
+    const std::vector<float>& xyzi = street().xyzi;
     for (std::size_t i = 0; i < xyzi.size(); i += 4) {
       made.push_back({xyzi[i], xyzi[i + 1], xyzi[i + 2]});
     }
     return made;
   }();
   return points;
+}
+
+const std::vector<Truth>& street_truth() {
+  static const std::vector<Truth> truth = [] {
+    std::vector<Truth> made;
+    for (const std::uint32_t semantic : street().classes) {
+      const bool is_ground = sim::is_ground(static_cast<sim::SemanticClass>(semantic));
+      made.push_back(is_ground ? Truth::ground : Truth::not_ground);
+    }
+    return made;
+  }();
+  return truth;
 }
 
 io::Cloud cloud_of(const std::vector<Point>& points) {

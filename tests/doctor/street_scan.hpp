@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/truth.hpp"
 #include "flagstone/cloud_view.hpp"
 #include "io/cloud.hpp"
 
@@ -13,6 +14,9 @@ namespace flagstone::doctor {
 
 /// A scan of a simulated street by an HDL-64E 1.73 m above it: nothing is wrong with it.
 const std::vector<Point>& street_scan();
+
+/// Which of its points are ground.
+const std::vector<Truth>& street_truth();
 
 /// Points as a cloud of x, y and z.
 io::Cloud cloud_of(const std::vector<Point>& points);

@@ -199,6 +199,36 @@ Verdict judge(const Plane& plane, double r_n, std::size_t ring, const PatchworkC
   return Verdict::too_high;
 }
 
+// Ground below a patch, which the paper does not know
+// ---------------------------------------------
+
+/// Of the points so far below a patch that they are noise, those that lie in a plane of their own
+/// are ground, if they are enough, spread both ways, flat and upright.
+Indices sunken_ground(CloudView cloud, const Indices& deep) {
+  const auto near = [&](const Plane& plane, double margin) {
+    Indices set;
+    for (const std::size_t k : deep) {
+      if (std::abs(height_above(plane, cloud, k)) < margin) set.push_back(k);
+    }
+    return set;
+  };
+  constexpr std::size_t fewest = 12;
+  Indices set = deep;
+  if (set.size() < fewest) return {};
+  for (const double margin : {0.3, 0.15}) {
+    set = near(plane_of(cloud, set), margin);
+    if (set.size() < fewest) return {};
+  }
+  const Plane plane = plane_of(cloud, set);
+  const double share = static_cast<double>(set.size()) / static_cast<double>(deep.size());
+  const Vector3d deviations = plane.eigenvalues.cwiseSqrt();
+  const bool of_two_beams = deviations[0] >= 0.3 && deviations[1] >= 0.1;
+  const bool of_one_beam = deviations[0] >= 0.5;
+  if (share < 0.6 || plane.normal.z() < 0.64 || deviations[2] >= 0.05) return {};
+  if (!of_two_beams && !of_one_beam) return {};
+  return near(plane, 0.15);
+}
+
 /// Sections III-C and III-D for one bin.
 void segment_bin(CloudView cloud, const Place& place, std::size_t ring_overall,
                  const PatchworkConfig& config, Bin& bin, std::vector<Label>& labels) {
@@ -235,9 +265,14 @@ void segment_bin(CloudView cloud, const Place& place, std::size_t ring_overall,
   bin.verdict = judge(judged, (place.inner + place.outer) / 2, ring_overall, config);
   if (bin.verdict != Verdict::ground && bin.verdict != Verdict::ground_flat) return;
   for (const std::size_t k : set) labels[k] = Label::ground;
+  Indices deep;
   for (const std::size_t k : bin.points) {
-    if (height_above(last, cloud, k) < -config.noise_margin) labels[k] = Label::noise;
+    const double depth = -height_above(last, cloud, k);
+    if (depth > config.noise_margin || depth > config.support_margin) deep.push_back(k);
   }
+  for (const std::size_t k : deep) labels[k] = Label::noise;
+  if (std::isinf(config.support_margin)) return;
+  for (const std::size_t k : sunken_ground(cloud, deep)) labels[k] = Label::ground;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 // Every byte of a patch is one of its fields': there is no padding that could differ or hide a
 // difference.
 static_assert(sizeof(Patch) == 3 * sizeof(std::uint16_t) + sizeof(Verdict) +
-                                   2 * sizeof(std::uint32_t) + 15 * sizeof(float));
+                                   3 * sizeof(std::uint32_t) + 15 * sizeof(float));
 
 bool has_same_bytes(const Patch& a, const Patch& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 

@@ -74,6 +74,29 @@ TEST_F(ZonedPicture, FillsABinByItsVerdict) {
   EXPECT_EQ(at(picture, 30, 78.75), panel_color);
 }
 
+TEST_F(ZonedPicture, OfANarrowFieldOfViewHasLinesAndBinsWithinItAlone) {
+  config_.field_of_view = {.begin = -60, .width = 120};
+  options_.tint_patches = true;
+  LabelledScan scan;
+  scan.result.mutable_patches() = {
+      {.zone = 1, .ring = 0, .sector = 15, .verdict = Verdict::ground}};  // 52.5 to 60 degrees
+
+  const Picture picture = draw(scan);
+
+  EXPECT_EQ(at(picture, 30, 56), teal);
+  EXPECT_EQ(at(picture, 30, 50), panel_color);
+  for (const double inside : {-55.0, 5.0, 20.0}) {
+    EXPECT_GT(at(picture, 20, inside).red, 60) << inside;
+  }
+  EXPECT_GT(at(picture, 30, -60).red, 30);  // edges of the field of view
+  EXPECT_GT(at(picture, 30, 60).red, 30);
+  for (const double outside : {65.0, 180.0, -65.0}) {
+    for (const double radius : {4.0, 10.0, 15.0, 20.0, 30.0}) {
+      EXPECT_EQ(at(picture, radius, outside), panel_color) << radius << " at " << outside;
+    }
+  }
+}
+
 TEST_F(ZonedPicture, FillsBinsOnlyOnRequest) {
   LabelledScan scan;
   scan.result.mutable_patches() = {{.zone = 0, .ring = 1, .sector = 0, .verdict = Verdict::ground}};

@@ -104,6 +104,7 @@ TEST_P(EveryScene, SensorStandsClearOfEverythingAndSeesGroundAheadAndBehind) {
     const Frame& pose = world.drive.poses()[static_cast<std::size_t>(frame)];
     // The ground is further away; the ceiling of a car park is not.
     EXPECT_TRUE(stands_clear(world.scene.caster(), pose, 1.2, 0.4)) << "frame " << frame;
+    if (frame % 4 != 0) continue;
     const SimulatedScan scan = world.drive.scan(world.scene, Noise{}, frame);
     std::size_t ahead = 0;
     std::size_t behind = 0;
@@ -135,13 +136,14 @@ TEST_P(EveryScene, StopsLieFrameSpacingApartAtTheSensorsHeight) {
 }
 
 TEST_P(EveryScene, OtherSeedsDrawOtherWorlds) {
-  const Landscape one = kind_named(GetParam()).make(1);
-  const Landscape again = kind_named(GetParam()).make(1);
-  const Landscape other = kind_named(GetParam()).make(2);
-  const std::vector<Vector3> things = one.furnish(one.ground).vertices();
+  const auto things = [](std::uint64_t seed) {
+    const Landscape land = kind_named(GetParam()).make(seed);
+    return land.furnish(land.ground).vertices();
+  };
+  const std::vector<Vector3> one = things(1);
 
-  EXPECT_EQ(things, again.furnish(again.ground).vertices());
-  EXPECT_NE(things, other.furnish(other.ground).vertices());
+  EXPECT_EQ(one, things(1));
+  EXPECT_NE(one, things(2));
 }
 
 std::vector<std::string> scene_names() {

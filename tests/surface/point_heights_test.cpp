@@ -140,7 +140,7 @@ TEST_P(PointHeightsOn, LowerThanTheMarginIsGround) {
 
   EXPECT_EQ(label_of({10, 0, -2 + margin - 0.001f}), Label::ground);
   EXPECT_EQ(label_of({10, 0, -2 + margin + 0.001f}), Label::nonground);
-  EXPECT_EQ(label_of({10, 0, -2 - 0.5f}), Label::ground);
+  EXPECT_EQ(label_of({10, 0, -2 - 0.3f}), Label::ground);
 }
 
 TEST_P(PointHeightsOn, WhereSomethingStandsTheMarginIsSmaller) {
@@ -208,10 +208,10 @@ TEST_P(PointHeightsOn, WhatStoodInOneScanIsForgottenInTheNext) {
 }
 
 TEST_P(PointHeightsOn, FarBelowTheSurfaceIsNoiseAndTheFartherAwayTheDeeper) {
-  EXPECT_EQ(label_of({10, 0, -2 - 1.59f}), Label::ground);
-  EXPECT_EQ(label_of({10, 0, -2 - 1.61f}), Label::noise);
-  EXPECT_EQ(label_of({50, 0, -2 - 3.99f}), Label::ground);
-  EXPECT_EQ(label_of({50, 0, -2 - 4.01f}), Label::noise);
+  EXPECT_EQ(label_of({10, 0, -2 - 0.34f}), Label::ground);
+  EXPECT_EQ(label_of({10, 0, -2 - 0.36f}), Label::noise);
+  EXPECT_EQ(label_of({50, 0, -2 - 1.14f}), Label::ground);
+  EXPECT_EQ(label_of({50, 0, -2 - 1.16f}), Label::noise);
 }
 
 TEST_P(PointHeightsOn, BelowAnyGroundIsNoiseEvenIfTheSurfaceIsThere) {

@@ -151,12 +151,13 @@ class Furnisher {
     constexpr double before = 0.7;          // the crossing
     const bool right_of_own = sx * sy > 0;  // who comes from x < 0 keeps to y < 0
     if (right_of_own) {
-      const double x = shape_.crossing_begin(shape_.side) + shape_.crossing_width + before;
+      const double x =
+          shape_.crossing_begin(shape_.side) + CrossroadsShape::crossing_width + before;
       const double arm = random_.chance(0.5) ? lane_of(shape_.own) : 0;
       add_traffic_light(
           mesh_, upright(sx * x, sy * (shape_.own.half_width + 0.5), sx > 0 ? 0 : half_turn), -arm);
     } else {
-      const double y = shape_.crossing_begin(shape_.own) + shape_.crossing_width + before;
+      const double y = shape_.crossing_begin(shape_.own) + CrossroadsShape::crossing_width + before;
       add_traffic_light(
           mesh_, upright(sx * (shape_.side.half_width + 0.5), sy * y, sy * half_turn / 2), 0);
     }
@@ -180,7 +181,7 @@ void send_crossing_traffic(Traffic& traffic, const CrossroadsShape& shape, Rando
   for (const double from : {-1.0, 1.0}) {
     const double x = -from * lane_of(shape.side);
     const double yaw = -from * half_turn / 2;
-    const double stop_line = shape.crossing_begin(shape.own) + shape.crossing_width + 1;
+    const double stop_line = shape.crossing_begin(shape.own) + CrossroadsShape::crossing_width + 1;
     const bool waits = random.chance(0.5);
     double y = waits ? stop_line : -60;
     while (y < 65) {

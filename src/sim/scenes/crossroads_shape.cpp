@@ -67,8 +67,8 @@ std::vector<double> lines(const CrossroadsShape& shape, const CrossroadsShape::R
   add_lines(outward, edge + shape.corner, half, 1);
   outward.push_back(edge + shape.sidewalk);
   const double crossing = shape.crossing_begin(road);
-  for (const double end : {crossing - ramp, crossing, crossing + shape.crossing_width,
-                           crossing + shape.crossing_width + ramp}) {
+  for (const double end : {crossing - ramp, crossing, crossing + CrossroadsShape::crossing_width,
+                           crossing + CrossroadsShape::crossing_width + ramp}) {
     outward.push_back(end);
   }
   const auto add_island = [&](Interval reach) {
@@ -79,7 +79,8 @@ std::vector<double> lines(const CrossroadsShape& shape, const CrossroadsShape::R
   };
   add_island(bed);
   if (along.island.high > 0) add_island(along.island);
-  if (road.island.high > 0) add_island({-shape.island_half_width, shape.island_half_width});
+  if (road.island.high > 0)
+    add_island({-CrossroadsShape::island_half_width, CrossroadsShape::island_half_width});
   std::vector<double> both;
   for (const double at : outward) {
     both.push_back(at);
@@ -165,12 +166,12 @@ CrossroadsShape draw_crossroads(Random& random) {
   const double wide_enough = 5.2;  // for a lane and half of an island
   const auto add_island = [&](CrossroadsShape::Road& road, const CrossroadsShape::Road& other) {
     if (road.half_width < wide_enough) return;
-    const double begin = shape.crossing_begin(other) + shape.crossing_width + 0.8;
+    const double begin = shape.crossing_begin(other) + CrossroadsShape::crossing_width + 0.8;
     road.island = {begin, begin + random.uniform(6, 16)};
   };
   add_island(shape.own, shape.side);
   add_island(shape.side, shape.own);
-  const double bed_x = shape.side.half_width + shape.corner + shape.crossing_width + 2;
+  const double bed_x = shape.side.half_width + shape.corner + CrossroadsShape::crossing_width + 2;
   const double bed_y = shape.own.half_width + random.uniform(1, 1.4);
   shape.bed_x = {bed_x, bed_x + random.uniform(4, 9)};
   shape.bed_y = {bed_y, bed_y + random.uniform(1, 1.6)};

@@ -96,7 +96,7 @@ Ground make_car_park(const CarPark& park) {
                   .offset = [](double) { return 0.0; },
                   .height = [&](double x, double t) { return park.height(x, t); },
                   .surface = [&](double x, double t) { return park.surface(x, t); }};
-  const double margin = 0.3;  // below the outer walls
+  const double margin = 1;  // beyond the walls: a line that leans with the vehicle goes on there
   add_lines(plan.x, -half_length - margin, half_length + margin, 0.5);
   for (double line = -55; line <= 55; line += bay_width) {
     plan.x.push_back(line - line_width / 2);

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "flagstone/make_segmenter.hpp"
+#include "flagstone/sensor.hpp"
+
+namespace flagstone::cli {
+
+/// Adds --sensor to a command: what settings are derived from.
+CLI::Option* add_sensor_option(CLI::App& command, std::string& sensor);
+
+/// The sensor that settings are derived from: the one of --sensor, or the one that the key `sensor`
+/// of the --config file names, files beside that file. Either may be empty. Throws
+/// std::invalid_argument with one line where there is no such sensor, a file of it is bad, both
+/// name one, or --preset is not default.
+std::optional<Sensor> chosen_sensor(const std::string& option, const std::string& config_file,
+                                    const std::string& preset);
+
+/// Throws std::invalid_argument where --set names a sensor.
+void refuse_sensor_in_setting(const std::string& setting);
+
+/// Settings for a sensor at the height that they end up with: `settings_at` makes them for a sensor
+/// and lays over them whatever the user sets; where that sets another height above the ground,
+/// they are made once more for it.
+MethodConfig settings_at_own_height(Sensor sensor,
+                                    const std::function<MethodConfig(const Sensor&)>& settings_at);
+
+}  // namespace flagstone::cli

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "cli/config_toml.hpp"
+#include "cli/method_options.hpp"
+#include "doctor/advice.hpp"
+#include "doctor/examination.hpp"
+#include "doctor/faults.hpp"
+#include "doctor/street_scan.hpp"
+#include "eval/confusion.hpp"
+#include "flagstone/levelled_segmenter.hpp"
+#include "flagstone/make_segmenter.hpp"
+#include "io/file_contents.hpp"
+#include "io/temporary_folder.hpp"
+
+namespace flagstone::cli {
+namespace {
+
+using doctor::Fault;
+using doctor::street_scan;
+
+/// F1 of the street's scan, percent, as `points` have it, by these options.
+double f1_of(const std::vector<Point>& points, const MethodOptions& options) {
+  MountSettings mount;
+  const MethodConfig config = options.resolve(mount);
+  const float height = sensor_height_of(config, mount.mount.sensor_height);
+  LevelledSegmenter segmenter(make_segmenter(options.method, config), height, mount);
+  Segmentation result;
+  EXPECT_TRUE(segmenter.segment(CloudView(std::span<const Point>(points)), result).ok());
+  return 100 * eval::compare(result.labels(), doctor::street_truth()).f1();
+}
+
+/// Faults that settings can repair and that leave the points in their order.
+std::vector<Fault> repairable() {
+  std::vector<Fault> found;
+  for (const Fault& fault : doctor::faults()) {
+    const bool has_settings = fault.finding == "units" || fault.finding == "axes" ||
+                              fault.finding == "tilt" || fault.finding == "origin" ||
+                              fault.finding == "sensor_height";
+    if (has_settings && fault.comes_with.empty()) found.push_back(fault);
+  }
+  return found;
+}
+
+class DoctorRepair : public testing::TestWithParam<Fault> {};
+
+TEST_P(DoctorRepair, BringsF1BackToThatOfTheScanWithoutTheFault) {
+  const io::TemporaryFolder folder;
+  const std::vector<Point> points = GetParam().apply(street_scan());
+  const std::array scans{doctor::examine(doctor::cloud_of(points))};
+  const doctor::Diagnosis diagnosis =
+      doctor::diagnose(doctor::summarise(scans), GetParam().expected);
+  ASSERT_TRUE(diagnosis.advice.has_value());
+  const std::string file = (folder / "doctor.toml").string();
+  io::put_file(file, doctor::to_toml(*diagnosis.advice));
+
+  for (const std::string method : {"surface", "patchwork"}) {
+    MethodOptions options;
+    options.method = method;
+    const double fine = f1_of(street_scan(), options);
+    options.config_file = file;
+    const double repaired = f1_of(points, options);
+
+    EXPECT_GT(repaired, fine - 0.5) << method;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DoctorRepair, testing::ValuesIn(repairable()),
+                         [](const auto& fault) { return fault.param.name; });
+
+}  // namespace
+}  // namespace flagstone::cli
