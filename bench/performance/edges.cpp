@@ -200,7 +200,7 @@ void add_scan(const HauntedScan& haunted, std::span<const EdgePlace> places,
 void survey(std::string_view scene_name, unsigned drives, std::vector<Method>& methods) {
   Segmentation result;
   for (std::uint64_t seed = 1; seed <= drives; ++seed) {
-    const sim::Drive drive(*sim::find_scene_kind(scene_name), sim::hdl_64e(), seed);
+    const sim::Drive drive(*sim::find_scene_kind(scene_name), Sensor::named("hdl-64e"), seed);
     const sim::Scene scene = drive.scene();
     const std::size_t added = drive.steps().empty() ? 0 : added_ghosts;
     for (int frame = 0; frame < sim::frames_per_drive; ++frame) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "core/patchwork_settings.hpp"
@@ -20,6 +21,14 @@ std::vector<Setting> settings_of(CascadedConfig& config);
 /// Those of whatever method `config` is of; Patchwork's zones are not among them.
 inline std::vector<Setting> settings_of(MethodConfig& config) {
   return std::visit([](auto& settings) { return settings_of(settings); }, config);
+}
+
+/// The sensor's height in the settings of a method, metres; `otherwise` where it has none.
+inline float sensor_height_of(MethodConfig config, float otherwise) {
+  for (const Setting& setting : settings_of(config)) {
+    if (setting.key == "sensor_height") return *std::get<float*>(setting.value);
+  }
+  return otherwise;
 }
 
 }  // namespace flagstone

@@ -319,11 +319,4 @@ void set_sensor_height(float height, MethodConfig& config) {
   }
 }
 
-float sensor_height_of(MethodConfig config, float otherwise) {
-  for (const Setting& setting : settings_of(config)) {
-    if (setting.key == "sensor_height") return *std::get<float*>(setting.value);
-  }
-  return otherwise;
-}
-
 }  // namespace flagstone::cli

@@ -33,7 +33,4 @@ std::optional<std::string> sensor_named_in(std::string_view text, std::string_vi
 /// Sets the sensor's height, metres, in the settings of methods that have one.
 void set_sensor_height(float height, MethodConfig& config);
 
-/// The sensor's height in the settings of a method, metres; `otherwise` where it has none.
-float sensor_height_of(MethodConfig config, float otherwise);
-
 }  // namespace flagstone::cli

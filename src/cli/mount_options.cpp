@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "baselines/settings.hpp"
 #include "cli/config_toml.hpp"
 
 namespace flagstone::cli {

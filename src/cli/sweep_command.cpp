@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/config_toml.hpp"
+#include "baselines/settings.hpp"
 #include "cli/evaluation.hpp"
 #include "cli/method_options.hpp"
 #include "cli/result_files.hpp"

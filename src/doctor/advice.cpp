@@ -35,9 +35,8 @@ double height_doubt(const CommonStance& stance) {
   return least_height_difference + (stance.highest_ground - stance.lowest_ground) / 4;
 }
 
-Advice advise(const Summary& summary, const Expected& expected,
+Advice advise(const Summary& summary, const CommonStance& stance, const Expected& expected,
               const std::vector<const Sensor*>& sensors) {
-  const CommonStance& stance = *summary.stance;
   Advice advice;
   if (!sensors.empty()) advice.sensor = sensors.front()->name;
   Mount& mount = advice.mount;

@@ -22,8 +22,9 @@ inline constexpr double highest_ground = -0.15;
 /// How far off the expected height may be for what the scans know, metres.
 double height_doubt(const CommonStance& stance);
 
-/// Settings for scans that show their ground. `sensors`: those that match, the likeliest first.
-Advice advise(const Summary& summary, const Expected& expected,
+/// Settings for scans that show their ground, as `stance`, the summary's, says. `sensors`: those
+/// that match, the likeliest first.
+Advice advise(const Summary& summary, const CommonStance& stance, const Expected& expected,
               const std::vector<const Sensor*>& sensors);
 
 /// The advice as settings that a configuration file may hold, commented.

@@ -73,9 +73,9 @@ BeamOrigin find_beam_origin(std::span<const Vector3f> places, const BeamRings& r
   const auto points = telling_points(places, rings);
   BeamOrigin found{.spread = 1e30, .spread_at_origin = spread_from(points, 0)};
   const auto look = [&](double from, double to, double step) {
-    const int steps = static_cast<int>((to - from) / step + 0.5);
-    for (int i = 0; i <= steps; ++i) {
-      const double height = from + i * step;
+    const long steps = std::lround((to - from) / step);
+    for (long i = 0; i <= steps; ++i) {
+      const double height = from + static_cast<double>(i) * step;
       const double spread = spread_from(points, height);
       if (spread < found.spread) {
         found.height = height;

@@ -35,7 +35,7 @@ void raise(std::vector<Vector3f>& places, double origin) {
 /// What stands around the sensor, which is `origin` metres along the axis from the cloud's origin.
 OwnVehicle own_vehicle(std::span<const Vector3f> places, double origin, const Examination& seen) {
   const Mount& mount = seen.stance.decision.mount;
-  const double upright = double{mount::dot(mount.up, seen.stance.axis)};
+  const double upright = mount::dot(mount.up, seen.stance.axis);
   std::vector<Vector3f> level = turned(places, mount.up, seen.extent.metres, {});
   raise(level, origin * upright);
   const double ground = (double{seen.stance.ground_of_tilt()} - origin) * upright;

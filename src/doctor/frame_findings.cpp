@@ -97,7 +97,6 @@ Finding tilt(const CommonStance& stance, const Advice& advice) {
                              {"up_x", stance.up[0]},
                              {"up_y", stance.up[1]},
                              {"up_z", stance.up[2]}}};
-  const std::string name(axis_name(stance.axis));
   finding.sentence =
       fmt::format("The ground is {:.1f} degrees from level{}.", stance.tilt, angles(stance));
   if (!stance.is_tilted()) return finding;
@@ -109,10 +108,10 @@ Finding tilt(const CommonStance& stance, const Advice& advice) {
   return finding;
 }
 
-Finding origin(const Summary& summary, const Advice& advice) {
-  const double ground = summary.stance->ground;
+Finding origin(const Summary& summary, const CommonStance& stance, const Advice& advice) {
+  const double ground = stance.ground;
   Finding finding{.id = "origin", .values = {{"ground", ground}}};
-  const std::string_view name = axis_name(summary.stance->axis);
+  const std::string_view name = axis_name(stance.axis);
   const std::string set = fmt::format("Set mount.origin = {} and sensor_height = {:.2f}",
                                       numbers(advice.mount.origin, 2), advice.mount.sensor_height);
   if (summary.beam_origin) {
@@ -137,8 +136,7 @@ Finding origin(const Summary& summary, const Advice& advice) {
   return finding;
 }
 
-Finding sensor_height(const Summary& summary, const Expected& expected, const Advice& advice) {
-  const CommonStance& stance = *summary.stance;
+Finding sensor_height(const CommonStance& stance, const Expected& expected, const Advice& advice) {
   const double height = advice.mount.sensor_height;
   const double scatter = stance.highest_ground - stance.lowest_ground;
   const double upright = std::abs(mount::dot(advice.mount.up, stance.axis));
@@ -175,11 +173,12 @@ void add_frame_findings(const Summary& summary, const Expected& expected,
                         const std::optional<Advice>& advice, std::vector<Finding>& findings) {
   findings.push_back(units(summary));
   findings.push_back(ground(summary));
-  if (!advice) return;
-  findings.push_back(axes(*summary.stance));
-  findings.push_back(tilt(*summary.stance, *advice));
-  findings.push_back(origin(summary, *advice));
-  findings.push_back(sensor_height(summary, expected, *advice));
+  if (!advice || !summary.stance) return;
+  const CommonStance& stance = *summary.stance;
+  findings.push_back(axes(stance));
+  findings.push_back(tilt(stance, *advice));
+  findings.push_back(origin(summary, stance, *advice));
+  findings.push_back(sensor_height(stance, expected, *advice));
 }
 
 }  // namespace flagstone::doctor

@@ -46,8 +46,9 @@ std::vector<const Sensor*> matching_sensors(const Summary& summary) {
       matches.emplace_back(*difference, &sensor);
     }
   }
-  std::ranges::stable_sort(matches, {}, &decltype(matches)::value_type::first);
+  std::ranges::sort(matches, {}, &decltype(matches)::value_type::first);
   std::vector<const Sensor*> sensors;
+  sensors.reserve(matches.size());
   for (const auto& [difference, sensor] : matches) sensors.push_back(sensor);
   return sensors;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace flagstone::doctor {
 template <class T>
 T percentile(std::vector<T>& values, double percent) {
   const auto last = static_cast<double>(values.size() - 1);
-  const auto rank = static_cast<std::ptrdiff_t>(last * percent / 100 + 0.5);
+  const auto rank = static_cast<std::ptrdiff_t>(std::lround(last * percent / 100));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[static_cast<std::size_t>(rank)];
 }

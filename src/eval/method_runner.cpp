@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "baselines/settings.hpp"
+
 namespace flagstone::eval {
 namespace {
 
@@ -68,9 +70,8 @@ MethodRunner::MethodRunner(std::string_view name, const MethodConfig& config,
   } else {
     method = make_segmenter(name, config);
   }
-  // Commands give method and mount the same height.
-  levelled_ =
-      std::make_unique<LevelledSegmenter>(std::move(method), mount.mount.sensor_height, mount);
+  const float method_height = sensor_height_of(config, mount.mount.sensor_height);
+  levelled_ = std::make_unique<LevelledSegmenter>(std::move(method), method_height, mount);
 }
 
 bool MethodRunner::find_rings(const io::Cloud& cloud) {

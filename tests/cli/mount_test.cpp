@@ -103,7 +103,7 @@ TEST_F(MountOfScans, EstimatedHeightGivesTheLabelsOfASensorWhereTheMethodExpects
     return count;
   };
   EXPECT_LT(different("estimated"), 20U);
-  EXPECT_GT(different("wrong"), 200U);
+  EXPECT_GT(different("wrong"), 100U);
 }
 
 TEST_F(MountOfScans, EstimatedOnceTheBytesDoNotDependOnThreads) {
