@@ -17,7 +17,8 @@ endfunction()
 
 # Where CMAKE_UNITY_BUILD is on, several files of a target are compiled as one, in half the time and less.
 # flagstone_compile_alone(FILES...) names those that cannot be, since a name in their unnamed namespace is
-# also another file's. Files compiled once an instruction set include themselves and are found here.
+# also another file's, and those that are generated, which clang-tidy looks for before they are there. Files compiled
+# once an instruction set include themselves and are found here.
 function(flagstone_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
