@@ -97,7 +97,12 @@ function(flagstone_test name)
   target_precompile_headers(${name} REUSE_FROM test_headers)
   if(FLAGSTONE_SANITIZER)
     add_test(NAME ${FLAGSTONE_SANITIZER}.${name} COMMAND ${name} --gtest_brief=1)
-    set_tests_properties(${FLAGSTONE_SANITIZER}.${name} PROPERTIES LABELS sanitizer TIMEOUT 600)
+    # Tests ask for more memory than there is, and want to be refused.
+    set_tests_properties(
+      ${FLAGSTONE_SANITIZER}.${name}
+      PROPERTIES LABELS sanitizer
+                 TIMEOUT 600
+                 ENVIRONMENT "ASAN_OPTIONS=allocator_may_return_null=1;TSAN_OPTIONS=allocator_may_return_null=1")
     return()
   endif()
   gtest_discover_tests(
