@@ -6,8 +6,8 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test sanitize format format-check tidy growth latency primitives sharpness edges bench-compare \
-        surface-study surface-figures contact-sheet install clean
+.PHONY: help build demo test sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
+        edges soak bench-compare surface-study surface-figures contact-sheet install clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
@@ -24,6 +24,9 @@ test: ## install what is missing, build and run every test, short fuzz runs incl
 
 sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@scripts/setup build test && scripts/test sanitize
+
+sanitize-thread: ## run the tests under ThreadSanitizer
+	@scripts/setup build test && scripts/test sanitize-thread
 
 format: ## format the C++ sources
 	@scripts/setup format && scripts/format -i
@@ -49,6 +52,9 @@ sharpness: ## how sharp the surface shows kerbs, ditches and drops of known shap
 edges: ## what methods make of the ground on both sides of kerbs, ditches and drops, and of ghosts below
 	@scripts/setup build benchmark && scripts/benchmark edges
 
+soak: ## 100,000 different scans by one segmenter: does it hold its memory? draws docs/images/soak.png
+	@scripts/setup build benchmark plot && scripts/benchmark soak
+
 bench-compare: build ## is METHOD in the working tree slower than in REVISION, on SCANS?
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(SCANS)
 
@@ -65,4 +71,4 @@ install: build ## install the library and the command under PREFIX (/usr/local)
 	@cmake --install build --prefix $(PREFIX)
 
 clean: ## remove the build trees
-	@rm -rf build build-fuzz build-sanitize build-compare
+	@rm -rf build build-fuzz build-thread build-sanitize build-sanitize-thread build-compare

@@ -161,13 +161,53 @@ void add_segment(SeedFolder& seeds) {
   }
   const Bytes odd =
       numbers<float>({5, 5, -1.7F, 1e20F, 0, 0, 0, 0, 0, 3e38F, 6, -1.7F, 6, 2, -9999});
-  for (std::uint8_t settings = 0; settings < 20; ++settings) {
+  for (std::uint8_t settings = 0; settings < 25; ++settings) {
     const auto choice = std::byte{settings};
     seeds.add("segment", "ground" + std::to_string(settings),
               joined({Bytes{choice, choice, std::byte{1}}, places}));
     seeds.add("segment", "odd" + std::to_string(settings),
               joined({Bytes{choice, choice, std::byte{0}}, odd}));
   }
+}
+
+/// A text behind the byte that says what it is.
+Bytes chosen(std::uint8_t choice, std::string_view text) {
+  return joined({Bytes{std::byte{choice}}, bytes_of(text)});
+}
+
+void add_texts(SeedFolder& seeds) {
+  for (std::uint8_t method = 0; method < 11; ++method) {
+    seeds.add("config", "height" + std::to_string(method),
+              chosen(method, "sensor_height = 1.5\nmax_range = 40\nnoise_depth = inf\n"));
+  }
+  for (std::uint8_t method = 0; method < 11; ++method) {
+    seeds.add("config", "zones" + std::to_string(method),
+              chosen(method,
+                     "seed_count = 5\n[elevation]\nenabled = false\n[flatness]\nthresholds = "
+                     "[0.001, 0.01]\n[[zones]]\nring_radii = [5, 10]\nsectors = 8\n"
+                     "height_margin = -inf\n"));
+    seeds.add("config", "surface" + std::to_string(method),
+              chosen(method, "[refinement]\nlevels = 2\ngate = 0.5\n[point]\nmargin = 0.1\n"));
+  }
+  seeds.add("protocol", "toml",
+            chosen(0,
+                   "name = \"mine\"\nground = [40, 44]\nignored = [0, 1]\nnot_ground = [10]\n"
+                   "low_ground = [{id = 70, height = -1.3}]\n"));
+  seeds.add("protocol", "json",
+            chosen(1, R"({"name": "mine", "ground": [40, 44], "ignored": [0], "not_ground": [10],)"
+                      R"( "low_ground": [{"id": 70, "height": -1.3}], "note": "seed"})"));
+  seeds.add("sensor", "even",
+            bytes_of("beams = 16\nelevation_top = 15.0\nelevation_bottom = -15.0\nheight = 0.6\n"));
+  seeds.add("sensor", "listed",
+            bytes_of("name = \"mine\"\nbeams = 3\nelevations = [2, 0, -10.5]\nheight = 1.5\n"
+                     "azimuth_begin = -60\nazimuth_end = 60\nmin_range = 0.5\nmax_range = 90\n"));
+  const std::string counts = "[1,2,3,4]";
+  std::string method = R"({"points":)" + counts + R"(,"area":)" + counts + R"(,"range":[)";
+  for (int band = 0; band < 6; ++band) method += counts + (band < 5 ? "," : "");
+  method += R"(],"ms":1.5})";
+  seeds.add("journal", "scan",
+            chosen(1, R"({"scan":"a","read":1.0,"score":2.0,"methods":[)" + method + "]}\n"));
+  seeds.add("journal", "whole", chosen(129, "{\"flagstone-journal\":\"fuzzed\"}\n"));
 }
 
 }  // namespace
@@ -185,5 +225,6 @@ int main(int argc, char** argv) {
   add_raw(seeds);
   add_labels(seeds);
   add_segment(seeds);
+  add_texts(seeds);
   return seeds.failed() ? 1 : 0;
 }

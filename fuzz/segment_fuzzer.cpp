@@ -14,6 +14,9 @@
 
 #include "cloud_properties.hpp"
 #include "core/simd_target.hpp"
+#include "flagstone/levelled_segmenter.hpp"
+#include "flagstone/make_segmenter.hpp"
+#include "flagstone/mount.hpp"
 #include "flagstone/patchwork.hpp"
 #include "flagstone/surface_segmenter.hpp"
 
@@ -82,8 +85,12 @@ SurfaceConfig surface_config(std::size_t choice) {
 }
 constexpr std::size_t surface_count = 8;
 
-/// A method with one choice of settings, in one thread and in three. Kept, as programs keep them:
-/// what came before must not matter.
+/// What the others are compared with, by their own settings.
+constexpr std::array<std::string_view, 5> baselines = {"ransac", "gpf", "line_fit", "cascaded",
+                                                       "r_gpf"};
+
+/// A method with one choice of settings, in one thread and, where it has any, in three. Kept, as
+/// programs keep them: what came before must not matter.
 struct Segmenters {
   std::unique_ptr<Segmenter> alone;
   std::unique_ptr<Segmenter> crew;
@@ -94,13 +101,16 @@ Segmenters made_segmenters(std::size_t choice) {
     const PatchworkConfig config = patchwork_config(choice);
     return {std::make_unique<Patchwork>(config), std::make_unique<Patchwork>(config, 3)};
   }
+  if (choice >= patchwork_count + surface_count) {
+    return {make_segmenter(baselines.at(choice - patchwork_count - surface_count)), nullptr};
+  }
   const SurfaceConfig config = surface_config(choice - patchwork_count);
   return {std::make_unique<SurfaceSegmenter>(config),
           std::make_unique<SurfaceSegmenter>(config, 3)};
 }
 
 Segmenters& chosen_segmenters(std::size_t byte) {
-  static std::array<Segmenters, patchwork_count + surface_count> made;
+  static std::array<Segmenters, patchwork_count + surface_count + baselines.size()> made;
   const std::size_t choice = byte % made.size();
   Segmenters& segmenters = made.at(choice);
   if (!segmenters.alone) segmenters = made_segmenters(choice);
@@ -252,6 +262,32 @@ void segment(Segmenter& segmenter, CloudView cloud, Segmentation& result) {
 }  // namespace
 }  // namespace flagstone
 
+namespace flagstone {
+namespace {
+
+/// A method whose mount is found out from the scan: any verdict, but a mount that is in range.
+void segment_estimating(std::size_t choice, CloudView cloud) {
+  static std::array<std::unique_ptr<LevelledSegmenter>, 3> made;
+  std::unique_ptr<LevelledSegmenter>& levelled = made.at(choice % made.size());
+  if (!levelled) {
+    MountSettings settings;
+    settings.height = choice % 2 == 0 ? HeightSource::estimate : HeightSource::track;
+    if (choice % made.size() != 0) settings.tilt = TiltSource::estimate;
+    levelled = std::make_unique<LevelledSegmenter>(std::make_unique<Patchwork>(), 1.723f, settings);
+  }
+  static Segmentation result;
+  levelled->reset();
+  segment(*levelled, cloud, result);
+  check_counts(result, cloud.size());
+  const Mount& mount = levelled->mount();
+  const float length = std::hypot(mount.up[0], mount.up[1], mount.up[2]);
+  fuzz::require(std::abs(length - 1) < 1e-3f, "up has length one");
+  fuzz::require(std::isfinite(mount.sensor_height), "the height is a number");
+}
+
+}  // namespace
+}  // namespace flagstone
+
 // The first byte chooses the method and its settings, the second the layout in memory, the third
 // how the rest becomes points. Labels, patches, heights and surface must be the same on the best
 // instruction set, in plain C++ and with three threads.
@@ -262,6 +298,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t copies = data[2] % 16;
   const Memory memory(copies == 0 ? points_of_floats(input) : points_of_shorts(input, copies),
                       data[1]);
+  segment_estimating(data[1], memory.view());
   Segmenters& segmenters = chosen_segmenters(data[0]);
   static Segmentation best;
   static Segmentation other;
@@ -270,8 +307,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   check_counts(best, memory.view().size());
   check_surface(best, memory.view());
 
-  segment(*segmenters.crew, memory.view(), other);
-  require_same(best, other, "threads change nothing");
+  if (segmenters.crew) {
+    segment(*segmenters.crew, memory.view(), other);
+    require_same(best, other, "threads change nothing");
+  }
 
   use_simd_target("scalar");
   segment(*segmenters.alone, memory.view(), other);

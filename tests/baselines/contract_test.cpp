@@ -134,6 +134,16 @@ TEST_P(Contract, TheLayoutOfTheInputDoesNotMatter) {
   EXPECT_EQ(labels_of(CloudView(blob.data(), cloud.size(), {17, 5, 9, 13})), labels);
 }
 
+TEST_P(Contract, ACloudThatIsReadBackwardsIsLabelledInItsOwnOrder) {
+  const std::vector<Point> cloud = corrupted_cloud(5000, 8);
+  std::vector<Point> reversed(cloud.rbegin(), cloud.rend());
+  constexpr std::ptrdiff_t step = sizeof(Point);
+
+  const CloudView backwards(&reversed.back(), reversed.size(), {-step, 0, 4, 8});
+
+  EXPECT_EQ(labels_of(backwards), labels_of(cloud));
+}
+
 TEST_P(Contract, NothingIsReadOutsideTheUsersBuffer) {
   // Exactly as long as its points: AddressSanitizer sees a read beyond.
   for (std::size_t points = 1; points < 70; ++points) {
@@ -211,6 +221,33 @@ TEST_P(Contract, ANullCloudThatClaimsPointsIsRefused) {
 
   EXPECT_EQ(status.code(), StatusCode::invalid_argument);
   EXPECT_TRUE(result.labels().empty());
+}
+
+TEST_P(Contract, ACloudOfMorePointsThanCanBeCountedIsRefused) {
+  const std::vector<float> memory(3);
+
+  const Status status = segmenter->segment(CloudView(memory.data(), std::size_t{1} << 32U), result);
+
+  EXPECT_EQ(status.code(), StatusCode::invalid_argument);
+  EXPECT_TRUE(result.labels().empty());
+}
+
+TEST_P(Contract, ASinglePointHasALabel) {
+  EXPECT_THAT(labels_of(std::vector<Point>{{8, 1, -1.7f}}), testing::SizeIs(1));
+}
+
+TEST_P(Contract, DenormalCoordinatesHarmNothingElse) {
+  const std::vector<Point> cloud = made_up_cloud(64000, 2);
+  std::vector<Point> spoilt = cloud;
+  constexpr float denormal = std::numeric_limits<float>::denorm_min();
+  for (int i = 1; i <= 30; ++i) {
+    spoilt.push_back({denormal, -denormal, static_cast<float>(i) * denormal});
+  }
+
+  const std::vector<Label> labels = labels_of(spoilt);
+
+  EXPECT_EQ(labels.size(), spoilt.size());
+  EXPECT_GT(std::ranges::count(labels, Label::ground), 0);
 }
 
 TEST_P(Contract, AllPointsEqualAreLabelledAlike) {

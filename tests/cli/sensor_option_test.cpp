@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "baselines/settings.hpp"
 #include "cli/command_process.hpp"
 #include "cli/config_toml.hpp"
 #include "cli/files.hpp"

@@ -57,6 +57,7 @@ TEST(Examination, CountsTheBeamsOfPointsThatAreListedRingByRing) {
 TEST(Examination, CountsTheRingsOfAFieldInAnyOrder) {
   const std::vector<Point> points = shuffled(street_scan());
   std::vector<float> rings;
+  rings.reserve(points.size());
   for (const Point& p : points) rings.push_back(elevation(p) > -8.5 ? 7.0f : 3.0f);
 
   const Examination seen = examine(cloud_of(points, rings));

@@ -91,6 +91,7 @@ std::vector<Point> voxel_means(const std::vector<Point>& points, float side) {
     sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z, sum.count + 1};
   }
   std::vector<Point> means;
+  means.reserve(voxels.size());
   for (const auto& [voxel, sum] : voxels) {
     means.push_back({static_cast<float>(sum.x / sum.count), static_cast<float>(sum.y / sum.count),
                      static_cast<float>(sum.z / sum.count)});

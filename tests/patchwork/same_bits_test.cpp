@@ -18,7 +18,6 @@
 #include "made_up_cloud.hpp"
 #include "patchwork/outcome.hpp"
 #include "real_scans.hpp"
-#include "sim/simulate_street.hpp"
 
 namespace flagstone {
 namespace {
@@ -108,12 +107,6 @@ TEST_P(SameBits, OnRealScans) {
       expect_same(setting, cloud.view(), scan.name);
     }
   }
-}
-
-TEST_P(SameBits, OnSimulatedScans) {
-  const sim::SimulatedScan scan = sim::simulate_street(4, 2);
-  const CloudView cloud(scan.xyzi.data(), scan.size(), 4);
-  for (const Setting& setting : presets()) expect_same(setting, cloud, "simulated");
 }
 
 TEST_P(SameBits, OnMadeUpClouds) {

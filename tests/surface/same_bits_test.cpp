@@ -18,7 +18,6 @@
 #include "io/read_cloud.hpp"
 #include "made_up_cloud.hpp"
 #include "real_scans.hpp"
-#include "sim/simulate_street.hpp"
 #include "surface/outcome.hpp"
 
 namespace flagstone {
@@ -110,11 +109,6 @@ TEST_P(SurfaceSameBits, OnRealScans) {
         changed("h_s as is", [&](SurfaceConfig& c) { c.sensor_height = scan.sensor_height; });
     expect_same(setting, cloud.view(), scan.name);
   }
-}
-
-TEST_P(SurfaceSameBits, OnSimulatedScans) {
-  const sim::SimulatedScan scan = sim::simulate_street(4, 2);
-  expect_same(by_default, CloudView(scan.xyzi.data(), scan.size(), 4), "simulated");
 }
 
 TEST_P(SurfaceSameBits, WithUnusualSettings) {

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "cli/config_toml.hpp"
+#include "cloud_properties.hpp"
+#include "flagstone/make_segmenter.hpp"
+#include "made_up_cloud.hpp"
+#include "text_properties.hpp"
+
+namespace flagstone {
+namespace {
+
+/// Whether the method takes these settings; if not, its reason is one line.
+bool is_allowed(const MethodConfig& config) {
+  try {
+    check(config);
+  } catch (const std::invalid_argument& error) {
+    fuzz::check_line(error.what());
+    return false;
+  }
+  return true;
+}
+
+/// What is written of settings reads back to them.
+void check_round_trip(std::string_view method, const MethodConfig& config) {
+  const std::string text = cli::to_toml(config);
+  MethodConfig again = default_config(method);
+  cli::apply_toml(text, "written", again);
+  fuzz::require(cli::to_toml(again) == text, "settings read back as they were");
+}
+
+void segment(std::string_view method, const MethodConfig& config) {
+  static const std::vector<Point> cloud = tests::made_up_cloud(300, 1);
+  static Segmentation result;
+  const std::unique_ptr<Segmenter> segmenter = make_segmenter(method, config);
+  const CloudView view = tests::view_of(cloud);
+  fuzz::require(segmenter->segment(view, result).ok(), "whatever is allowed segments");
+  fuzz::require(result.labels().size() == cloud.size(), "every point has a label");
+}
+
+}  // namespace
+}  // namespace flagstone
+
+// The first byte names the method, the rest is the text of its settings: refused in one line, or
+// the method works with them.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace flagstone;
+  if (size == 0) return 0;
+  const std::string_view method = method_names()[data[0] % method_names().size()];
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  MethodConfig config = default_config(method);
+  try {
+    cli::apply_toml(text, "fuzz.toml", config);
+  } catch (const std::invalid_argument& error) {
+    fuzz::check_line(error.what());
+    return 0;
+  }
+  if (!is_allowed(config)) return 0;
+  check_round_trip(method, config);
+  segment(method, config);
+  return 0;
+}

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string_view>
+
+#include "cloud_properties.hpp"
+#include "flagstone/patchwork_config.hpp"
+#include "flagstone/sensor.hpp"
+#include "flagstone/surface_config.hpp"
+#include "io/sensor_file.hpp"
+#include "text_properties.hpp"
+
+// Any text as the file of a sensor: refused in one line, or the methods' settings can be derived
+// from it, or one line says why not.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace flagstone;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  Sensor sensor;
+  const Status status = io::parse_sensor(text, "fuzz.toml", sensor);
+  if (!status.ok()) {
+    fuzz::check_line(status.message());
+    return 0;
+  }
+  try {
+    PatchworkConfig::for_sensor(sensor).check();
+    SurfaceConfig::for_sensor(sensor).check();
+  } catch (const std::invalid_argument& error) {
+    fuzz::check_line(error.what());
+  }
+  return 0;
+}
