@@ -99,7 +99,7 @@ MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
   decision.tilt = degrees_between(expected.up, {0, 0, 1});
   decision.verdict = MountVerdict::too_few_points;
   if (cloud.data() == nullptr) return decision;
-  const std::span<const NearPoint> points = near.find(cloud, expected, level);
+  const std::span<const NearPoint> points = near.find(cloud, expected, level, settings.limits.reach);
   decision.points = static_cast<std::uint32_t>(points.size());
   if (points.size() < fewest_points) return decision;
 
