@@ -13,7 +13,8 @@ namespace {
 /// Ground may rise by this much ahead, degrees.
 constexpr double steepest_slope = 20;
 
-/// Range at which a point weighs a quarter of what one at the vehicle does, as a share of the reach.
+/// Range at which a point weighs a quarter of what one at the vehicle does, as a share of the
+/// reach.
 constexpr float weight_range = 5.0f / 16;
 
 /// A surface fills its cubes; ghosts of what mirrors, and dust, leave a few points in each. A cube
@@ -39,8 +40,8 @@ NearPoints::NearPoints(const MountLimits& limits, bool looks_for_tilt)
   steepest_ = static_cast<float>(std::sin(highest * std::numbers::pi / 180));
 }
 
-std::span<const NearPoint> NearPoints::find(CloudView cloud, const Mount& mount,
-                                            const Turn& level, float reach) noexcept {
+std::span<const NearPoint> NearPoints::find(CloudView cloud, const Mount& mount, const Turn& level,
+                                            float reach) noexcept {
   std::ranges::fill(slots_, none);
   const float farthest_square = reach * reach;
   const float cubes_a_metre = static_cast<float>(cubes) / (2 * reach);
