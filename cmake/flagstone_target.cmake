@@ -17,17 +17,18 @@ endfunction()
 
 # Where CMAKE_UNITY_BUILD is on, several files of a target are compiled as one, in half the time and less.
 # flagstone_compile_alone(FILES...) names those that cannot be, since a name in their unnamed namespace is
-# also another file's. Files compiled once an instruction set include themselves and are found here.
+# also another file's, and those that are generated, which clang-tidy looks for before they are there. Files compiled
+# once an instruction set include themselves, and operators new seen where they are called are warned of: both are found here.
 function(flagstone_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-function(flagstone_compile_alone_where_dispatched)
+function(flagstone_compile_alone_where_needed)
   foreach(source IN LISTS ARGN)
     get_filename_component(path ${source} ABSOLUTE)
     if(EXISTS ${path})
-      file(STRINGS ${path} dispatched REGEX "foreach_target\\.h" LIMIT_COUNT 1)
-      if(dispatched)
+      file(STRINGS ${path} reason REGEX "foreach_target\\.h|^void\\* operator new" LIMIT_COUNT 1)
+      if(reason)
         flagstone_compile_alone(${source})
       endif()
     endif()
@@ -38,7 +39,7 @@ endfunction()
 # headers are included as "NAME/header.hpp".
 function(flagstone_library name)
   add_library(flagstone_${name} STATIC ${ARGN})
-  flagstone_compile_alone_where_dispatched(${ARGN})
+  flagstone_compile_alone_where_needed(${ARGN})
   target_include_directories(flagstone_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
   set_target_properties(flagstone_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   flagstone_compile_options(flagstone_${name})
@@ -87,7 +88,7 @@ endfunction()
 function(flagstone_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LINK")
   add_executable(${name} ${arg_SOURCES})
-  flagstone_compile_alone_where_dispatched(${arg_SOURCES})
+  flagstone_compile_alone_where_needed(${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LINK} GTest::gtest_main GTest::gmock)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/tests)
   flagstone_compile_options(${name})
@@ -96,7 +97,12 @@ function(flagstone_test name)
   target_precompile_headers(${name} REUSE_FROM test_headers)
   if(FLAGSTONE_SANITIZER)
     add_test(NAME ${FLAGSTONE_SANITIZER}.${name} COMMAND ${name} --gtest_brief=1)
-    set_tests_properties(${FLAGSTONE_SANITIZER}.${name} PROPERTIES LABELS sanitizer TIMEOUT 600)
+    # Tests ask for more memory than there is, and want to be refused.
+    set_tests_properties(
+      ${FLAGSTONE_SANITIZER}.${name}
+      PROPERTIES LABELS sanitizer
+                 TIMEOUT 600
+                 ENVIRONMENT "ASAN_OPTIONS=allocator_may_return_null=1;TSAN_OPTIONS=allocator_may_return_null=1")
     return()
   endif()
   gtest_discover_tests(

@@ -282,7 +282,7 @@ void segment_estimating(std::size_t choice, CloudView cloud) {
   const Mount& mount = levelled->mount();
   const float length = std::hypot(mount.up[0], mount.up[1], mount.up[2]);
   fuzz::require(std::abs(length - 1) < 1e-3f, "up has length one");
-  fuzz::require(std::isfinite(mount.height), "the height is a number");
+  fuzz::require(std::isfinite(mount.sensor_height), "the height is a number");
 }
 
 }  // namespace

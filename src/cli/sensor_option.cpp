@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "baselines/settings.hpp"
 #include "cli/config_toml.hpp"
 #include "io/load_bytes.hpp"
 #include "io/sensor_file.hpp"

@@ -24,7 +24,7 @@ std::string_view axis_name(const Vector3f& axis) {
   return "z";
 }
 
-std::string numbers(const Vector3f& v, int digits) {
+std::string components(const Vector3f& v, int digits) {
   return fmt::format("[{1:.{0}f}, {2:.{0}f}, {3:.{0}f}]", digits, v[0], v[1], v[2]);
 }
 
@@ -78,7 +78,7 @@ Finding axes(const CommonStance& stance) {
   finding.sentence = name == "-z" ? "z is down: the clouds are upside down."
                                   : fmt::format("Up is {}, not z.", name);
   finding.remedy =
-      fmt::format("Set mount.tilt = \"given\" and mount.up = {}.", numbers(stance.axis, 1));
+      fmt::format("Set mount.tilt = \"given\" and mount.up = {}.", components(stance.axis, 1));
   return finding;
 }
 
@@ -104,7 +104,7 @@ Finding tilt(const CommonStance& stance, const Advice& advice) {
   finding.remedy = fmt::format(
       "Set mount.tilt = \"given\" and mount.up = {}, unless the vehicle stood level before a "
       "slope.",
-      numbers(advice.mount.up, 4));
+      components(advice.mount.up, 4));
   return finding;
 }
 
@@ -113,7 +113,7 @@ Finding origin(const Summary& summary, const CommonStance& stance, const Advice&
   Finding finding{.id = "origin", .values = {{"ground", ground}}};
   const std::string_view name = axis_name(stance.axis);
   const std::string set = fmt::format("Set mount.origin = {} and sensor_height = {:.2f}",
-                                      numbers(advice.mount.origin, 2), advice.mount.sensor_height);
+                                      components(advice.mount.origin, 2), advice.mount.sensor_height);
   if (summary.beam_origin) {
     finding.severity = Severity::fix;
     finding.values.emplace_back("beams", *summary.beam_origin);

@@ -50,7 +50,7 @@ TEST(AllocationCount, TheFirstScanAllocatesAndTheSecondDoesNot) {
   const std::vector<Point> cloud = tests::made_up_cloud(5000, 1);
   const std::vector<CloudView> views = {tests::view_of(cloud)};
   for (const TimedConfig& config : {TimedConfig(PatchworkConfig{}), TimedConfig(SurfaceConfig{})}) {
-    TimedSegment segment(views, config, 1, simd_target());
+    TimedSegment segment(views, config, MountSettings{}, 1, simd_target());
 
     segment.visit(0);
     const std::size_t first = segment.allocations();

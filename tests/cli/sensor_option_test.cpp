@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "baselines/settings.hpp"
 #include "cli/command_process.hpp"
 #include "cli/config_toml.hpp"
 #include "cli/files.hpp"

@@ -86,7 +86,16 @@ TEST(Buffer, TakesOverAnothersContentsByAssignment) {
   EXPECT_EQ(to.data()[9], 7);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they abort instead
+// Sanitizers abort instead. GCC tells of them by a macro, clang by a question.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define MEMORY_IS_WATCHED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define MEMORY_IS_WATCHED
+#endif
+#endif
+
+#ifndef MEMORY_IS_WATCHED
 TEST(Buffer, IsEmptyAndUsableAfterMemoryWasRefused) {
   Buffer<double> buffer;
   buffer.reserve(10);
