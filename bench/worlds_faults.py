@@ -30,14 +30,15 @@ WITHOUT_NOISE_RULES = (
     "--set patchwork.noise_depth=inf --set patchwork.noise_margin=inf"
     " --set surface.noise_depth=1000 --set surface.point.noise_depth=1000"
 )
-ESTIMATED = "--sensor-height estimate --tilt estimate"
 
 
 class Fault(typing.NamedTuple):
     """A fault, and the options of `flagstone eval` without and with the protection; None where it is always on."""
 
     name: str
-    spoil: typing.Callable | None  # (points (N, 4), random) -> the same; None for a simulated sequence of its own
+    spoil: (
+        typing.Callable | None
+    )  # (points (N, 4), random) -> the same; None for a simulated sequence of its own
     before: str | None
     after: str
     protection: str
@@ -73,6 +74,10 @@ def lost(value):
     return spoil
 
 
+def told(height):
+    return " ".join(f"--set {method}.sensor_height={height:g}" for method in METHODS)
+
+
 KNOWN = f"--sensor-height {HEIGHT}"
 FAULTS = [
     Fault("none", unchanged, KNOWN, KNOWN, ""),
@@ -81,8 +86,16 @@ FAULTS = [
     Fault("one return in five is NaN", lost(math.nan), None, KNOWN, "label `invalid`"),
     Fault("pitched by 20°", pitched, KNOWN, f"{KNOWN} --tilt estimate", "tilt estimated"),
     Fault("rolled by 20°", rolled, KNOWN, f"{KNOWN} --tilt estimate", "tilt estimated"),
-    Fault("height set 0.5 m too large", unchanged, f"--sensor-height {HEIGHT + 0.5:g}", "--sensor-height estimate", "height estimated"),
-    Fault("height set 0.5 m too small", unchanged, f"--sensor-height {HEIGHT - 0.5:g}", "--sensor-height estimate", "height estimated"),
+    *(
+        Fault(
+            f"height set 0.5 m too {word}",
+            unchanged,
+            told(height),
+            f"{told(height)} --sensor-height estimate",
+            "height estimated",
+        )
+        for word, height in (("large", HEIGHT + 0.5), ("small", HEIGHT - 0.5))
+    ),
 ]
 
 

@@ -30,7 +30,14 @@ def draw(results, path):
             for i, values in enumerate(f1):
                 for j, value in enumerate(values):
                     dark = value < 76
-                    part.text(j, i, f"{value:.1f}", ha="center", va="center", fontsize=7.5,
-                              color="white" if dark else "black")
+                    part.text(
+                        j,
+                        i,
+                        f"{value:.1f}",
+                        ha="center",
+                        va="center",
+                        fontsize=7.5,
+                        color="white" if dark else "black",
+                    )
     figure.colorbar(image, ax=axes, shrink=0.5, label="F1, percent, protocol patchwork++", extend="min")
     figure.savefig(path, dpi=90)

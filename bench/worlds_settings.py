@@ -30,9 +30,7 @@ def measure_settings(runs):
             command = f"flagstone eval $WORK/worlds/{sensor} --protocol patchwork++ {options}"
             result = runs.evaluate_command(f"{command} --methods {','.join(METHODS)}")
             commands.append(result["command"])
-            sensors[sensor][name] = {
-                method["name"]: by_scene(method) for method in result["methods"]
-            }
+            sensors[sensor][name] = {method["name"]: by_scene(method) for method in result["methods"]}
     return {"sensors": sensors, "commands": commands}
 
 
@@ -50,7 +48,15 @@ def presets_table(results, method):
             preset = results["sensors"][sensor]["preset"][method][scene]
             cells.append(f"{percent(plain, 1)} → {shown(percent(preset, 1), preset < LEAST)}")
         rows.append([f"`{scene}`", *cells])
-    rows.append(["mean", *(f"{means(results, s, 'plain', method)} → {means(results, s, 'preset', method)}" for s in SENSORS)])
+    rows.append(
+        [
+            "mean",
+            *(
+                f"{means(results, s, 'plain', method)} → {means(results, s, 'preset', method)}"
+                for s in SENSORS
+            ),
+        ]
+    )
     return table(["scene", *SENSORS], rows)
 
 
@@ -85,7 +91,12 @@ def shortfalls(results):
                 if preset >= LEAST and estimated >= preset - MOST_LOST:
                     continue
                 rows.append(
-                    [f"`{method}`", f"`{scene}`", sensor, *(percent(f1, 1) for f1 in (plain, preset, estimated))]
+                    [
+                        f"`{method}`",
+                        f"`{scene}`",
+                        sensor,
+                        *(percent(f1, 1) for f1 in (plain, preset, estimated)),
+                    ]
                 )
     return table(["method", "scene", "sensor", "plain", "preset", "estimated"], rows, left=3)
 
