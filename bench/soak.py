@@ -42,7 +42,7 @@ def draw(results):
         scans = [row["scans"] for row in measured["memory"]]
         held = [row["bytes"] / MEBI for row in measured["memory"]]
         axes.plot(scans, held, label=method, color=COLORS[method])
-        axes.annotate(f"{held[-1]:.1f}", (scans[-1], held[-1]), xytext=(4, -3), textcoords="offset points")
+        axes.annotate(f"{held[-1]:.1f}", (scans[-1], held[-1]), xytext=(-30, 5), textcoords="offset points")
     most = max(row["bytes"] for measured in results["methods"].values() for row in measured["memory"])
     axes.set(xlabel="scans", ylabel="resident memory, MiB", ylim=(0, 1.2 * most / MEBI), xlim=(0, None))
     axes.legend(loc="center right")

@@ -54,6 +54,8 @@ Json parse(std::string_view text, bool is_toml) {
                        error.source().begin.column, error.description()));
   } catch (const Json::parse_error& error) {
     refuse(fmt::format("byte {}: not JSON", error.byte));
+  } catch (const Json::out_of_range&) {
+    refuse("holds a number beyond what a double can be; allowed: class ids and heights in metres");
   }
 }
 

@@ -77,6 +77,7 @@ TEST_F(ProtocolFile, WhatIsWrongIsSaidInOneLineWithTheKey) {
   EXPECT_THAT(complaint("a.json", R"({"ground": 3})"), HasSubstr("ground"));
   EXPECT_THAT(complaint("a.json", R"({"ground": [-1]})"), HasSubstr("0 to 65535"));
   EXPECT_THAT(complaint("a.json", R"({"ground": [1, 70000]})"), HasSubstr("70000"));
+  EXPECT_THAT(complaint("a.json", R"({"ground": [1e999]})"), HasSubstr("beyond"));
   EXPECT_THAT(complaint("a.json", R"({"ground": [1], "ignored": [1]})"), HasSubstr("class 1"));
   EXPECT_THAT(complaint("a.json", R"({"ground": [1], "low_ground": [{"id": 2}]})"),
               HasSubstr("height"));
