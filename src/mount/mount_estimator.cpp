@@ -136,9 +136,10 @@ MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
   const OwnFloatingPoint same_everywhere;
   if (cloud.data() == nullptr) cloud = {};
   const float reach = settings.limits.reach;
-  const MountDecision near_by = look(cloud, reach, lean_cost_afar);
-  if (ground_range > far_share * reach) return look(cloud, farther * reach, lean_cost_afar);
-  return looks_for_tilt ? look(cloud, reach, 0) : near_by;
+  const auto begins_afar = [&] { return ground_range > far_share * reach; };
+  MountDecision near_by = look(cloud, reach, lean_cost_afar);
+  if (looks_for_tilt && !begins_afar()) near_by = look(cloud, reach, 0);
+  return begins_afar() ? look(cloud, farther * reach, lean_cost_afar) : near_by;
 }
 
 MountEstimator::MountEstimator(const MountSettings& settings)
