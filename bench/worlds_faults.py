@@ -9,7 +9,6 @@ ghost that is called ground is an error.
 import importlib.util
 import math
 import pathlib
-import shutil
 import statistics
 import subprocess
 import sys
@@ -130,10 +129,12 @@ def write_spoilt(source, target, spoil):
         sequence = target / "sequences" / file.parts[-3]
         for kind in ("velodyne", "labels"):
             (sequence / kind).mkdir(parents=True, exist_ok=True)
-        points = np.fromfile(file, "<f4").reshape(-1, 4)
-        spoil(points, random).astype("<f4").tofile(sequence / "velodyne" / file.name)
+        points = spoil(np.fromfile(file, "<f4").reshape(-1, 4), random)
+        points.astype("<f4").tofile(sequence / "velodyne" / file.name)
         labels = file.parent.parent / "labels" / f"{file.stem}.label"
-        shutil.copy(labels, sequence / "labels" / labels.name)
+        classes = np.fromfile(labels, "<u4")
+        classes[~(points[:, :3] != 0).any(axis=1) | np.isnan(points[:, 0])] = 0  # what is lost is nothing
+        classes.tofile(sequence / "labels" / labels.name)
 
 
 def mean_f1(method):

@@ -29,7 +29,7 @@ def draw(results, path):
             part.set_yticks(range(len(SCENES)), [scene.replace("_", " ") for scene in SCENES])
             for i, values in enumerate(f1):
                 for j, value in enumerate(values):
-                    dark = value < 76
+                    dark = value < 76 or value > 96.5
                     part.text(
                         j,
                         i,

@@ -46,7 +46,7 @@ constexpr std::size_t usual_size = 120000;  ///< points of an HDL-64E's scan, ab
 /// A segmenter and its result, as a user keeps them.
 struct Worker {
   explicit Worker(const Config& config, unsigned threads = 1)
-      : segmenter(bench::make_timed(config, threads, nullptr)) {}
+      : segmenter(bench::make_timed(config, {}, threads, nullptr)) {}
 
   void operator()(CloudView cloud) {
     const Status status = segmenter->segment(cloud, result);

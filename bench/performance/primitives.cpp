@@ -102,7 +102,7 @@ class Steps {
   void write_labels() {
     for (const BinBatch& batch : batches) {
       for (std::size_t i = 0; i < batch.count(); ++i) {
-        benchmark::DoNotOptimize(bin_labels.write(batch, i, ground, groups, labels));
+        benchmark::DoNotOptimize(bin_labels.write(batch, i, ground, true, groups, labels));
       }
     }
   }

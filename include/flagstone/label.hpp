@@ -13,7 +13,7 @@ enum class Label : std::uint8_t {
   nonground = 0,  ///< stands on the ground, hangs above it, or lies in a patch that is not ground
   ground = 1,     ///< belongs to the ground surface
   noise = 2,      ///< below any ground there can be at that place (multipath, reflections)
-  out_of_range = 3,  ///< too far or too near for the method, or over 10 km up or down
+  out_of_range = 3,  ///< too far, too near or out of view for the method, or over 10 km up or down
   invalid = 4,       ///< a coordinate is not finite, or all three are zero ("no echo")
 };
 

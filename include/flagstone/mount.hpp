@@ -56,7 +56,8 @@ struct MountLimits {
   /// Points nearer than this are the own vehicle, metres, 0 to 100.
   float own_vehicle = 2.7f;
   /// Points farther than this say nothing about the ground below the vehicle, metres; 2 to 100, and
-  /// at least 1.5 times `own_vehicle`.
+  /// at least 1.5 times `own_vehicle`. Where the ground begins so far away that it is badly told
+  /// within it, 2.5 times as far is looked.
   float reach = 16;
 };
 
@@ -119,13 +120,14 @@ struct MountDecision {
   float confidence = 0;  ///< 0 to 1: the product of what each number below lets believe
   float tilt = 0;        ///< degrees between `mount.up` and the cloud's z axis
 
-  std::uint32_t points = 0;  ///< places of 0.5 m with a point where ground can be
-  std::uint32_t cells = 0;   ///< cells of 1 m with ground in them
-  float free = 0;            ///< share of them with nothing standing on it, 0 to 1
-  float below = 0;           ///< what lies below the ground, as a share of both, 0 to 1
-  float spread = 0;          ///< root mean square distance of ground from its plane, metres
-  int directions = 0;        ///< of sixteen around the sensor, how many show ground
-  int seen = 0;              ///< and how many show anything
+  std::uint32_t points =
+      0;                    ///< places of 0.5 m (1.25 m from afar) with a point where ground can be
+  std::uint32_t cells = 0;  ///< cells of 1 m (2.5 m from afar) with ground in them
+  float free = 0;           ///< share of them with nothing standing on it, 0 to 1
+  float below = 0;          ///< what lies below the ground, as a share of both, 0 to 1
+  float spread = 0;         ///< root mean square distance of ground from its plane, metres
+  int directions = 0;       ///< of sixteen around the sensor, how many show ground
+  int seen = 0;             ///< and how many show anything
 
   [[nodiscard]] bool accepted() const noexcept { return verdict == MountVerdict::accepted; }
 };

@@ -60,7 +60,9 @@ std::unique_ptr<Segmenter> make(const CascadedConfig& config) {
 
 std::span<const std::string_view> method_names() noexcept { return names; }
 
-MethodConfig default_config(std::string_view name) { return default_config(name, PatchworkConfig()); }
+MethodConfig default_config(std::string_view name) {
+  return default_config(name, PatchworkConfig());
+}
 
 MethodConfig default_config(std::string_view name, const PatchworkConfig& patchwork) {
   if (name == "ransac") return RansacConfig{};

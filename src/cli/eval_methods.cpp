@@ -124,7 +124,7 @@ std::vector<EvalMethods::OwnSetting> EvalMethods::own_settings() const {
   for (const std::string& setting : settings) {
     if (setting.starts_with("mount.")) continue;
     auto [method, rest] = split_setting(setting);
-    refuse_sensor_in_setting(rest);
+    refuse_sensor_in_setting(rest, fmt::format("--set {}", setting));
     all.push_back({std::move(method), std::move(rest)});
   }
   return all;

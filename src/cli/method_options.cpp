@@ -66,8 +66,9 @@ MethodConfig MethodOptions::overlaid(MethodConfig config, MountSettings& mount_s
   mount_settings = {};
   if (!config_file.empty()) apply_file(config_file, config, mount_settings);
   for (const std::string& setting : settings) {
-    refuse_sensor_in_setting(setting);
-    apply_toml(setting, fmt::format("--set {}", setting), config, mount_settings);
+    const std::string source = fmt::format("--set {}", setting);
+    refuse_sensor_in_setting(setting, source);
+    apply_toml(setting, source, config, mount_settings);
   }
   mount.apply_to(config, mount_settings);
   return config;

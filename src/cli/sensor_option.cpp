@@ -59,10 +59,10 @@ std::optional<Sensor> chosen_sensor(const std::string& option, const std::string
   return sensor;
 }
 
-void refuse_sensor_in_setting(const std::string& setting) {
-  if (!sensor_named_in(setting, fmt::format("--set {}", setting))) return;
-  throw std::invalid_argument(fmt::format(
-      "--set {}: a sensor is named by --sensor, or at the top of a --config file", setting));
+void refuse_sensor_in_setting(const std::string& setting, const std::string& source) {
+  if (!sensor_named_in(setting, source)) return;
+  throw std::invalid_argument(
+      fmt::format("{}: a sensor is named by --sensor, or at the top of a --config file", source));
 }
 
 MethodConfig settings_at_own_height(Sensor sensor,

@@ -22,8 +22,8 @@ CLI::Option* add_sensor_option(CLI::App& command, std::string& sensor);
 std::optional<Sensor> chosen_sensor(const std::string& option, const std::string& config_file,
                                     const std::string& preset);
 
-/// Throws std::invalid_argument where --set names a sensor.
-void refuse_sensor_in_setting(const std::string& setting);
+/// Throws std::invalid_argument where a setting names a sensor. `source`: the option it stands in.
+void refuse_sensor_in_setting(const std::string& setting, const std::string& source);
 
 /// Settings for a sensor at the height that they end up with: `settings_at` makes them for a sensor
 /// and lays over them whatever the user sets; where that sets another height above the ground,

@@ -17,9 +17,9 @@ std::vector<double> beams_of_rosette(const Sensor& sensor) {
   const double height = sensor.elevations.front() - sensor.elevations.back();
   const double width = sensor.azimuth_end - sensor.azimuth_begin;
   const double count = std::clamp(std::round(std::sqrt(sensor.firings * height / width)), 2.0, 1e3);
-  std::vector<double> elevations;
-  for (double i = 0; i < count; ++i) {
-    elevations.push_back(sensor.elevations.front() - height * i / (count - 1));
+  std::vector<double> elevations(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < elevations.size(); ++i) {
+    elevations[i] = sensor.elevations.front() - height * static_cast<double>(i) / (count - 1);
   }
   return elevations;
 }

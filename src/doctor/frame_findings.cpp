@@ -112,8 +112,9 @@ Finding origin(const Summary& summary, const CommonStance& stance, const Advice&
   const double ground = stance.ground;
   Finding finding{.id = "origin", .values = {{"ground", ground}}};
   const std::string_view name = axis_name(stance.axis);
-  const std::string set = fmt::format("Set mount.origin = {} and sensor_height = {:.2f}",
-                                      components(advice.mount.origin, 2), advice.mount.sensor_height);
+  const std::string set =
+      fmt::format("Set mount.origin = {} and sensor_height = {:.2f}",
+                  components(advice.mount.origin, 2), advice.mount.sensor_height);
   if (summary.beam_origin) {
     finding.severity = Severity::fix;
     finding.values.emplace_back("beams", *summary.beam_origin);

@@ -23,9 +23,9 @@ namespace flagstone::io {
 namespace {
 
 constexpr std::array<std::string_view, 14> keys = {
-    "name",        "title",   "beams",     "elevations",  "elevation_top", "elevation_bottom",
-    "firings",     "rosette", "min_range", "azimuth_end", "azimuth_begin", "max_range",
-    "range_sigma", "height"};
+    "name",       "title",     "beams",       "elevation_top", "elevation_bottom",
+    "elevations", "firings",   "rosette",     "azimuth_begin", "azimuth_end",
+    "min_range",  "max_range", "range_sigma", "height"};
 
 constexpr double most_beams = 1024;
 
@@ -210,7 +210,7 @@ Status parse_sensor(std::string_view text, std::string_view source, Sensor& out)
 Status read_sensor(const std::filesystem::path& path, Sensor& out) {
   return within_memory([&] {
     std::vector<std::byte> bytes;
-    const Status status = load_bytes(path, bytes);
+    Status status = load_bytes(path, bytes);
     if (!status.ok()) return status;
     return parse_sensor({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string(),
                         out);

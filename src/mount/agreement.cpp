@@ -41,20 +41,22 @@ float share(float value, float none, float all) noexcept {
 
 }  // namespace
 
-AgreementCount::AgreementCount(const MountLimits& limits)
-    : cells_a_metre_(static_cast<float>(width) / (2 * limits.reach)), cells_(width * width) {}
+AgreementCount::AgreementCount() : cells_(width * width) {}
 
-Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlane& plane) noexcept {
+Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlane& plane,
+                             float reach) noexcept {
+  const float cells_a_metre = static_cast<float>(width) / (2 * reach);
   std::ranges::fill(cells_, std::uint8_t{0});
   const Turn turn = turn_to_z(plane.up);
   const auto index_of = [&](float v) {
-    const float place = v * cells_a_metre_ + centre;
+    const float place = v * cells_a_metre + centre;
     return std::min(static_cast<std::size_t>(std::max(place, 0.0f)), width - 1);
   };
   double squares = 0;
   double below_weight = 0;
   double sum_x = 0;
   double sum_y = 0;
+  double sum_range = 0;
   double weight = 0;
   for (const NearPoint& p : points) {
     const Vector3f place = turn.apply({p.x, p.y, p.z});
@@ -69,6 +71,7 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
       }
       sum_x += double{p.weight} * p.x;
       sum_y += double{p.weight} * p.y;
+      sum_range += double{p.weight} * std::sqrt(p.x * p.x + p.y * p.y);
       weight += double{p.weight};
     } else if (z > standing_from && z < standing_to) {
       cell |= standing;
@@ -105,6 +108,7 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
   agreement.spread = below_weight > 0 ? static_cast<float>(std::sqrt(squares / below_weight)) : 0;
   agreement.x = weight > 0 ? static_cast<float>(sum_x / weight) : 0;
   agreement.y = weight > 0 ? static_cast<float>(sum_y / weight) : 0;
+  agreement.range = weight > 0 ? static_cast<float>(sum_range / weight) : 0;
   const auto is_told = [](int cells) { return cells > 1; };
   agreement.directions = static_cast<int>(std::ranges::count_if(shows, is_told));
   agreement.seen = static_cast<int>(std::ranges::count_if(seen, is_told));

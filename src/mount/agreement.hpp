@@ -22,22 +22,24 @@ struct Agreement {
   int directions = 0;
   int seen = 0;
   float x = 0,
-        y = 0;  ///< where the ground is seen, on the average, metres in the frame of the points
+        y = 0;      ///< where the ground is seen, on the average, metres in the frame of the points
+  float range = 0;  ///< and how far away, metres
 };
 
 /// Counts, in cells seen from above, where there is ground, where something stands on it, and where
 /// something lies below.
 class AgreementCount {
  public:
-  explicit AgreementCount(const MountLimits& limits);
+  AgreementCount();
 
-  [[nodiscard]] Agreement of(std::span<const NearPoint> points, const GroundPlane& plane) noexcept;
+  /// Points no farther than `reach`, metres.
+  [[nodiscard]] Agreement of(std::span<const NearPoint> points, const GroundPlane& plane,
+                             float reach) noexcept;
 
  private:
   static constexpr std::size_t width = 32;  // cells along a side
   static constexpr float centre = 16;       // half of them
 
-  float cells_a_metre_;
   std::vector<std::uint8_t> cells_;  // which kinds of points each has
 };
 

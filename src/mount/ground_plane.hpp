@@ -30,15 +30,16 @@ class PlaneSearch {
  public:
   PlaneSearch(const MountLimits& limits, bool looks_for_tilt);
 
-  /// Nothing if there is no level at all.
-  std::optional<GroundPlane> find(std::span<const NearPoint> points) noexcept;
+  /// The more a lean costs, 0 to 100, the more must speak for one; see `belief_in`. Nothing if
+  /// there is no level at all.
+  std::optional<GroundPlane> find(std::span<const NearPoint> points, float lean_cost) noexcept;
 
  private:
   struct Candidate {
     GroundPlane plane;
     float score = 0;
   };
-  void rank_directions(std::span<const NearPoint> points) noexcept;
+  void rank_directions(std::span<const NearPoint> points, float lean_cost) noexcept;
   [[nodiscard]] Candidate level_along(std::span<const NearPoint> points,
                                       const Vector3f& up) noexcept;
   [[nodiscard]] float score(std::span<const NearPoint> points,

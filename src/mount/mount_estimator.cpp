@@ -34,6 +34,14 @@ constexpr std::size_t fewest_points = 40;
 constexpr int all_round = 8;
 constexpr int narrow = 4;
 
+/// Ground seen on the average farther away than this share of the reach tells little of how it lies
+/// below the sensor: then it is asked for again within so many times the reach.
+constexpr float far_share = 0.52f;
+constexpr float farther = 2.5f;
+
+/// From afar a lean is easily made up of walls and rows of cars, so that more must speak for one.
+constexpr float lean_cost_afar = 45;
+
 MountSettings checked(const MountSettings& settings) {
   settings.check();
   return settings;
@@ -49,10 +57,10 @@ struct MountEstimator::Workings {
         expected(mount::expected_mount(settings)),
         level(turn_to_z(expected.up)),
         near(settings.limits, looks_for_tilt),
-        search(settings.limits, looks_for_tilt),
-        agreement(settings.limits) {}
+        search(settings.limits, looks_for_tilt) {}
 
   MountDecision estimate(CloudView cloud) noexcept;
+  MountDecision look(CloudView cloud, float reach, float lean_cost) noexcept;
   void take_plane(const GroundPlane& plane, const Agreement& agreed,
                   MountDecision& decision) const noexcept;
   [[nodiscard]] std::optional<MountVerdict> beyond_limits(const Mount& mount) const noexcept;
@@ -64,6 +72,7 @@ struct MountEstimator::Workings {
   NearPoints near;
   PlaneSearch search;
   AgreementCount agreement;
+  float ground_range = 0;  // of the last look, metres: its reach if it found no ground
 };
 
 void MountEstimator::Workings::take_plane(const GroundPlane& plane, const Agreement& agreed,
@@ -92,21 +101,22 @@ std::optional<MountVerdict> MountEstimator::Workings::beyond_limits(
   return {};
 }
 
-MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
-  const OwnFloatingPoint same_everywhere;
+MountDecision MountEstimator::Workings::look(CloudView cloud, float reach,
+                                             float lean_cost) noexcept {
   MountDecision decision;
   decision.mount = expected;
   decision.tilt = degrees_between(expected.up, {0, 0, 1});
   decision.verdict = MountVerdict::too_few_points;
-  if (cloud.data() == nullptr) return decision;
-  const std::span<const NearPoint> points = near.find(cloud, expected, level);
+  ground_range = reach;
+  const std::span<const NearPoint> points = near.find(cloud, expected, level, reach);
   decision.points = static_cast<std::uint32_t>(points.size());
   if (points.size() < fewest_points) return decision;
 
   decision.verdict = MountVerdict::no_level;
-  const std::optional<GroundPlane> plane = search.find(points);
+  const std::optional<GroundPlane> plane = search.find(points, lean_cost);
   if (!plane) return decision;
-  const Agreement agreed = agreement.of(points, *plane);
+  const Agreement agreed = agreement.of(points, *plane, reach);
+  ground_range = agreed.range;
   take_plane(*plane, agreed, decision);
   decision.cells = agreed.cells;
   decision.free = agreed.free;
@@ -120,6 +130,16 @@ MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
     decision.confidence = 0;
   }
   return decision;
+}
+
+MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
+  const OwnFloatingPoint same_everywhere;
+  if (cloud.data() == nullptr) cloud = {};
+  const float reach = settings.limits.reach;
+  const auto begins_afar = [&] { return ground_range > far_share * reach; };
+  MountDecision near_by = look(cloud, reach, lean_cost_afar);
+  if (looks_for_tilt && !begins_afar()) near_by = look(cloud, reach, 0);
+  return begins_afar() ? look(cloud, farther * reach, lean_cost_afar) : near_by;
 }
 
 MountEstimator::MountEstimator(const MountSettings& settings)

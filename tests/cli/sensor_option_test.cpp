@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "baselines/settings.hpp"
@@ -12,6 +14,7 @@
 #include "cli/files.hpp"
 #include "cli/same_config.hpp"
 #include "flagstone/make_segmenter.hpp"
+#include "flagstone/mount.hpp"
 #include "flagstone/sensor.hpp"
 #include "io/file_contents.hpp"
 #include "io/temporary_folder.hpp"
@@ -33,9 +36,10 @@ Outcome config_of_patchwork(std::vector<std::string> arguments) {
 PatchworkConfig printed_config(const std::vector<std::string>& arguments) {
   const Outcome outcome = config_of_patchwork(arguments);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  PatchworkConfig config;
-  apply_toml(outcome.out, "config", config);
-  return config;
+  MethodConfig config = PatchworkConfig{};
+  MountSettings mount;
+  apply_toml(outcome.out, "config", config, mount);
+  return std::get<PatchworkConfig>(config);
 }
 
 PatchworkConfig derived(const char* name, double height) {
@@ -124,7 +128,8 @@ TEST_F(SensorOption, ServesEveryMethod) {
     const Outcome outcome = run({"config", "--method", std::string(method), "--sensor", "vlp-16"});
 
     ASSERT_EQ(outcome.exit_code, 0) << method << ": " << outcome.err;
-    apply_toml(outcome.out, "config", config);
+    MountSettings mount;
+    apply_toml(outcome.out, "config", config, mount);
     EXPECT_EQ(to_toml(config), to_toml(default_config(method, Sensor::named("vlp-16")))) << method;
     EXPECT_EQ(sensor_height_of(config, 0.6f), 0.6f) << method;
   }

@@ -102,7 +102,7 @@ TEST(SensorFile, OneBeamIsASensor) {
 
 TEST(SensorFile, ErrorsSayWhereWhichFieldAndWhatIsAllowed) {
   EXPECT_THAT(refusal_of(robot + "beems = 3\n"),
-              AllOf(StartsWith("robot.toml: line 5, column 8: \"beems\" is no field of a sensor"),
+              AllOf(StartsWith("robot.toml: line 5, column 9: 'beems' is no field of a sensor"),
                     HasSubstr("elevations")));
   EXPECT_THAT(refusal_of(robot + "max_range = \"far\"\n"),
               StartsWith("robot.toml: line 5, column 13: max_range is not a number"));

@@ -111,6 +111,32 @@ TEST(MountEstimator, ANarrowFieldOfViewIsEnough) {
   expect_told({.sensor = "livox-avia", .mounting = {.height = 1.5}}, 0.05f, 1);
 }
 
+TEST(MountEstimator, GroundThatBeginsFarAheadBesideParkedCarsIsTold) {
+  Yard yard{.sensor = "at128", .mounting = {.height = 2.6}};  // sees none nearer than 11.4 m
+  for (int i = 0; i < 7; ++i) {
+    yard.boxes.push_back({.low = {5.2 * i, 3.4, 0.25}, .high = {5.2 * i + 4.3, 5.2, 1.45}});
+  }
+
+  expect_told(yard, 0.15f, 1.5f);
+}
+
+TEST(MountEstimator, SparseGhostsOfACeilingMirroredInTheFloorAreNotTheFloor) {
+  YardScan scan;
+  for (float x = -10; x < 10; x += 0.1f) {
+    for (float y = -10; y < 10; y += 0.1f) scan.points.push_back({x, y, -0.9f});
+  }
+  for (float x = -10; x < 10; x += 0.5f) {  // one for every 25 points of the floor
+    for (float y = -10; y < 10; y += 0.5f) scan.points.push_back({x, y, -3.1f});
+  }
+
+  for (const TiltSource tilt : {TiltSource::off, TiltSource::estimate}) {
+    const MountDecision decision = estimated(scan, tilt);
+
+    EXPECT_TRUE(decision.accepted()) << to_sentence(decision);
+    EXPECT_NEAR(decision.mount.sensor_height, 0.9f, 0.02f);
+  }
+}
+
 /// Pitch and roll, degrees.
 class TiltedMount : public testing::TestWithParam<std::array<double, 2>> {};
 
