@@ -96,7 +96,7 @@ function(flagstone_test name)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_precompile_headers(${name} REUSE_FROM test_headers)
   if(FLAGSTONE_SANITIZER)
-    add_test(NAME ${FLAGSTONE_SANITIZER}.${name} COMMAND ${name} --gtest_brief=1)
+    add_test(NAME ${FLAGSTONE_SANITIZER}.${name} COMMAND ${name} --gtest_brief=1 --gtest_filter=${FLAGSTONE_SANITIZED_FILTER})
     # Tests ask for more memory than there is, and want to be refused.
     set_tests_properties(
       ${FLAGSTONE_SANITIZER}.${name}
