@@ -68,10 +68,11 @@ Points with_a_roof(const Points& points) {
 }
 
 /// Without what is near enough to tell the ground from.
-Points far_away(const Points& points) {
+/// Only what stands higher than the sensor.
+Points above_the_sensor(const Points& points) {
   Points result;
   for (const Point& p : points) {
-    if (std::hypot(p.x, p.y) > 25) result.push_back(p);
+    if (p.z > 0) result.push_back(p);
   }
   return result;
 }
@@ -128,7 +129,7 @@ std::vector<Fault> make_faults() {
        {"beams"}},
       {"HeightTooLow", "sensor_height", fix, each(std::identity()), {.sensor_height = 1.2f}},
       {"HeightTooHigh", "sensor_height", fix, each(std::identity()), {.sensor_height = 2.2f}},
-      {"NoGround", "ground", fix, far_away},
+      {"NoGround", "ground", fix, above_the_sensor},
       {"OwnRoof", "own_vehicle", note, with_a_roof},
       {"NoRings", "beams", note, without_rings},
       {"BeyondTheMethodsRange", "range", note, each(std::identity()), {.max_range = 40.0f}},
