@@ -7,7 +7,7 @@ export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
 .PHONY: help build demo test sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
-        edges soak bench-compare surface-study surface-figures contact-sheet install clean
+        edges soak bench-compare surface-study surface-figures worlds-study contact-sheet install clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
@@ -57,6 +57,9 @@ soak: ## 100,000 different scans by one segmenter: does it hold its memory? draw
 
 bench-compare: build ## is METHOD in the working tree slower than in REVISION, on SCANS?
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(SCANS)
+
+worlds-study: build ## measures both methods in every simulated world, writes docs/robustness.md; WORK: a folder with 8 GB to spare
+	@scripts/setup plot && "$$(scripts/plotting-python)" bench/worlds_study.py run --work $(or $(WORK),out/worlds)
 
 surface-study: build ## measures the method surface, writes the tables of docs/surface.md; WORK: a folder with 4 GB to spare
 	@scripts/setup plot && "$$(scripts/plotting-python)" bench/surface_study.py run --work $(or $(WORK),out/study)

@@ -29,7 +29,7 @@ struct PatchAcceptance {
   /// them; metres, 0 to 100, or infinity for no limit.
   float step = 0.5f;
   /// How much more for each metre to the nearest of them, up to 15 m; metres a metre, 0 to 10.
-  float step_growth = 0.08f;
+  float step_growth = 0.15f;
 };
 
 /// How the surface follows the points closer than the patches do.

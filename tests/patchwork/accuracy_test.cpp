@@ -18,9 +18,9 @@
 namespace flagstone {
 namespace {
 
-/// Mean F1 over the full-density KITTI scans, percent.
-double mean_f1(const std::vector<tests::RealScan>& scans, const std::string& preset,
-               const eval::Protocol& protocol) {
+/// Mean F1 over the full-density KITTI scans, percent. `name`: what the settings are called.
+double mean_f1(const std::vector<tests::RealScan>& scans, const std::string& name,
+               PatchworkConfig config, const eval::Protocol& protocol) {
   double sum = 0;
   std::size_t count = 0;
   for (const tests::RealScan& scan : scans) {
@@ -29,7 +29,6 @@ double mean_f1(const std::vector<tests::RealScan>& scans, const std::string& pre
     std::vector<std::uint32_t> classes;
     EXPECT_TRUE(io::read_cloud(scan.points, {}, cloud).ok());
     EXPECT_TRUE(io::read_reference(scan.labels, cloud.size(), classes).ok());
-    PatchworkConfig config = PatchworkConfig::preset(preset);
     config.sensor_height = scan.sensor_height;
     Patchwork patchwork(config);
     Segmentation result;
@@ -38,9 +37,14 @@ double mean_f1(const std::vector<tests::RealScan>& scans, const std::string& pre
     ++count;
   }
   const double mean = 100 * sum / static_cast<double>(count);
-  std::printf("preset %s, protocol %s: mean F1 %.2f %% over %zu KITTI scans\n", preset.c_str(),
+  std::printf("%s, protocol %s: mean F1 %.2f %% over %zu KITTI scans\n", name.c_str(),
               protocol.name.c_str(), mean, count);
   return mean;
+}
+
+double mean_f1(const std::vector<tests::RealScan>& scans, const std::string& preset,
+               const eval::Protocol& protocol) {
+  return mean_f1(scans, "preset " + preset, PatchworkConfig::preset(preset), protocol);
 }
 
 TEST(Accuracy, DefaultPresetOnKitti) {
@@ -49,6 +53,19 @@ TEST(Accuracy, DefaultPresetOnKitti) {
 
   EXPECT_GE(mean_f1(scans, "default", eval::patchwork_protocol()), 94.5);
   EXPECT_GE(mean_f1(scans, "default", eval::patchwork_plusplus_protocol()), 97.7);
+}
+
+TEST(Accuracy, WhatIsDerivedFromTheHdl64eIsAsGoodAsTheDefaultPresetOnKitti) {
+  const auto scans = tests::real_scans("kitti");
+  FLAGSTONE_REQUIRE_SCANS(scans);
+  const PatchworkConfig derived = PatchworkConfig::for_sensor("hdl-64e");
+
+  for (const eval::Protocol& protocol :
+       {eval::patchwork_protocol(), eval::patchwork_plusplus_protocol()}) {
+    EXPECT_GE(mean_f1(scans, "derived from hdl-64e", derived, protocol),
+              mean_f1(scans, "default", protocol) - 0.25)
+        << protocol.name;
+  }
 }
 
 TEST(Accuracy, ReferencePresetIsWithinHalfAPointOfTheAuthorsPackageOnKitti) {
