@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "cli/config_toml.hpp"
 #include "cloud_properties.hpp"
+#include "config/config_toml.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "made_up_cloud.hpp"
 #include "text_properties.hpp"
@@ -30,10 +30,10 @@ bool is_allowed(const MethodConfig& config) {
 
 /// What is written of settings reads back to them.
 void check_round_trip(std::string_view method, const MethodConfig& config) {
-  const std::string text = cli::to_toml(config);
+  const std::string text = config::to_toml(config);
   MethodConfig again = default_config(method);
-  cli::apply_toml(text, "written", again);
-  fuzz::require(cli::to_toml(again) == text, "settings read back as they were");
+  config::apply_toml(text, "written", again);
+  fuzz::require(config::to_toml(again) == text, "settings read back as they were");
 }
 
 void segment(std::string_view method, const MethodConfig& config) {
@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   MethodConfig config = default_config(method);
   try {
-    cli::apply_toml(text, "fuzz.toml", config);
+    config::apply_toml(text, "fuzz.toml", config);
   } catch (const std::invalid_argument& error) {
     fuzz::check_line(error.what());
     return 0;

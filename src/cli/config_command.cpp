@@ -11,9 +11,9 @@
 #include <string>
 #include <variant>
 
-#include "cli/config_toml.hpp"
 #include "cli/method_options.hpp"
 #include "cli/sensors_command.hpp"
+#include "config/config_toml.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -45,7 +45,8 @@ void add_config_command(CLI::App& app, int& exit_code) {
   command->callback([options, &exit_code] {
     MountSettings mount;
     const MethodConfig config = options->resolve(mount);
-    fmt::print("{}\n{}{}", header_of(*options, config), to_toml(config), to_toml(mount));
+    fmt::print("{}\n{}{}", header_of(*options, config), config::to_toml(config),
+               config::to_toml(mount));
     exit_code = 0;
   });
 }

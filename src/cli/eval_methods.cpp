@@ -13,9 +13,11 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/config_toml.hpp"
 #include "cli/method_options.hpp"
 #include "cli/sensor_option.hpp"
+#include "config/config_file.hpp"
+#include "config/config_toml.hpp"
+#include "config/sensor_settings.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -134,14 +136,14 @@ PatchworkConfig EvalMethods::overlaid(PatchworkConfig patchwork,
                                       MountSettings& mount_settings) const {
   MethodConfig config = std::move(patchwork);
   mount_settings = {};
-  if (!config_file.empty()) apply_file(config_file, config, mount_settings);
+  if (!config_file.empty()) config::apply_file(config_file, config, mount_settings);
   for (const std::string& setting : settings) {
     if (!setting.starts_with("mount.")) continue;
-    apply_toml(setting, fmt::format("--set {}", setting), config, mount_settings);
+    config::apply_toml(setting, fmt::format("--set {}", setting), config, mount_settings);
   }
   for (const auto& [method, setting] : own_settings()) {
     if (method != "patchwork") continue;
-    apply_toml(setting, fmt::format("--set patchwork.{}", setting), config);
+    config::apply_toml(setting, fmt::format("--set patchwork.{}", setting), config);
   }
   return std::get<PatchworkConfig>(config);
 }
@@ -158,13 +160,13 @@ MethodConfig EvalMethods::settings_of(const std::string& method, const std::opti
                                                            : default_config(method, patchwork);
     for (const auto& [owner, setting] : own_settings()) {
       if (owner != method || method == "patchwork") continue;
-      apply_toml(setting, fmt::format("--set {}.{}", method, setting), config);
+      config::apply_toml(setting, fmt::format("--set {}.{}", method, setting), config);
     }
     mount.apply_to(config, mount_settings);
     return config;
   };
   if (!from) return settings_at(nullptr);
-  return settings_at_own_height(*from, [&](const Sensor& at) { return settings_at(&at); });
+  return config::settings_at_own_height(*from, [&](const Sensor& at) { return settings_at(&at); });
 }
 
 std::vector<eval::Method> EvalMethods::resolve() const {

@@ -16,11 +16,11 @@
 #include <system_error>
 #include <utility>
 
-#include "cli/config_toml.hpp"
 #include "cli/crew.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
+#include "config/config_toml.hpp"
 #include "eval/journal.hpp"
 #include "eval/protocol_file.hpp"
 #include "eval/scan_evaluator.hpp"
@@ -140,10 +140,11 @@ std::string Evaluation::fingerprint() const {
                   fmt::join(protocol_.ground, " "), fmt::join(protocol_.ignored, " "));
   for (const auto& low : protocol_.low_ground) text += fmt::format(" {}<{}", low.id, low.height);
   for (const eval::Method& method : methods_) {
-    text += fmt::format("\n{} {}", method.name,
-                        method.config ? to_toml(*method.config) + to_toml(method.mount)
-                                      : fmt::format("{} {}", method.labels.string(),
-                                                    static_cast<int>(method.label_map)));
+    text += fmt::format(
+        "\n{} {}", method.name,
+        method.config
+            ? config::to_toml(*method.config) + config::to_toml(method.mount)
+            : fmt::format("{} {}", method.labels.string(), static_cast<int>(method.label_map)));
   }
   text += fmt::format("\ncolumns {}", options_.columns);
   for (const std::string& dataset : options_.datasets) {  // scans of two may share their names

@@ -12,9 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "cli/config_toml.hpp"
 #include "cli/sensor_option.hpp"
-#include "io/load_bytes.hpp"
+#include "config/config_file.hpp"
+#include "config/config_toml.hpp"
+#include "config/sensor_settings.hpp"
 
 namespace flagstone::cli {
 
@@ -51,7 +52,7 @@ MethodConfig MethodOptions::resolve(MountSettings& mount_settings) const {
     return overlaid(default_config(method, at), mount_settings);
   };
   MethodConfig config =
-      from ? settings_at_own_height(*from, settings_at)
+      from ? config::settings_at_own_height(*from, settings_at)
            : overlaid(default_config(method, PatchworkConfig::preset(preset)), mount_settings);
   check(config);
   mount_settings.check();
@@ -64,11 +65,11 @@ std::optional<Sensor> MethodOptions::chosen_sensor() const {
 
 MethodConfig MethodOptions::overlaid(MethodConfig config, MountSettings& mount_settings) const {
   mount_settings = {};
-  if (!config_file.empty()) apply_file(config_file, config, mount_settings);
+  if (!config_file.empty()) config::apply_file(config_file, config, mount_settings);
   for (const std::string& setting : settings) {
     const std::string source = fmt::format("--set {}", setting);
     refuse_sensor_in_setting(setting, source);
-    apply_toml(setting, source, config, mount_settings);
+    config::apply_toml(setting, source, config, mount_settings);
   }
   mount.apply_to(config, mount_settings);
   return config;
@@ -80,14 +81,6 @@ CLI::Option* add_preset_option(CLI::App& command, std::string& preset) {
       .add_option("--preset", preset, "With patchwork and czm+...: settings to start from")
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())))
       ->capture_default_str();
-}
-
-void apply_file(const std::string& file, MethodConfig& config, MountSettings& mount_settings) {
-  std::vector<std::byte> bytes;
-  const Status status = io::load_bytes(file, bytes);
-  if (!status.ok()) throw std::invalid_argument(status.message());
-  apply_toml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file, config,
-             mount_settings);
 }
 
 }  // namespace flagstone::cli

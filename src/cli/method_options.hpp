@@ -48,8 +48,4 @@ struct MethodOptions {
 /// Adds --preset to a command: which of Patchwork's presets to start from.
 CLI::Option* add_preset_option(CLI::App& command, std::string& preset);
 
-/// Overwrites the settings that a TOML file names. Throws std::invalid_argument with one line that
-/// says what is wrong.
-void apply_file(const std::string& file, MethodConfig& config, MountSettings& mount_settings);
-
 }  // namespace flagstone::cli

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "baselines/settings.hpp"
-#include "cli/config_toml.hpp"
+#include "config/config_toml.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -87,7 +87,7 @@ void MountOptions::add_to(CLI::App& command) {
 }
 
 void MountOptions::apply_to(MethodConfig& config, MountSettings& settings) const {
-  if (sensor_height) set_sensor_height(*sensor_height, config);
+  if (sensor_height) config::set_sensor_height(*sensor_height, config);
   settings.mount.sensor_height =
       sensor_height_of(config, sensor_height.value_or(settings.mount.sensor_height));
   if (height) settings.height = *height;

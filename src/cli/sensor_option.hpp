@@ -3,11 +3,9 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <functional>
 #include <optional>
 #include <string>
 
-#include "flagstone/make_segmenter.hpp"
 #include "flagstone/sensor.hpp"
 
 namespace flagstone::cli {
@@ -24,11 +22,5 @@ std::optional<Sensor> chosen_sensor(const std::string& option, const std::string
 
 /// Throws std::invalid_argument where a setting names a sensor. `source`: the option it stands in.
 void refuse_sensor_in_setting(const std::string& setting, const std::string& source);
-
-/// Settings for a sensor at the height that they end up with: `settings_at` makes them for a sensor
-/// and lays over them whatever the user sets; where that sets another height above the ground,
-/// they are made once more for it.
-MethodConfig settings_at_own_height(Sensor sensor,
-                                    const std::function<MethodConfig(const Sensor&)>& settings_at);
 
 }  // namespace flagstone::cli

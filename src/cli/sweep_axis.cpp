@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "cli/config_toml.hpp"
+#include "config/config_toml.hpp"
 #include "io/message.hpp"
 
 namespace flagstone::cli {
@@ -65,7 +65,8 @@ void apply_axis(const std::string& key, const std::string& value, MethodConfig& 
   if (key == "bins") {
     make_uniform_grid(value, config);
   } else {
-    apply_toml(fmt::format("{} = {}", key, value), fmt::format("--over {}={}", key, value), config);
+    config::apply_toml(fmt::format("{} = {}", key, value), fmt::format("--over {}={}", key, value),
+                       config);
   }
 }
 

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "cli/command_process.hpp"
-#include "cli/config_toml.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
-#include "cli/same_config.hpp"
+#include "config/config_toml.hpp"
+#include "config/same_config.hpp"
 #include "io/file_contents.hpp"
 #include "io/temporary_folder.hpp"
 
@@ -23,7 +23,7 @@ PatchworkConfig printed_config(std::vector<std::string> arguments) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   MethodConfig config = PatchworkConfig{};
   MountSettings mount;
-  apply_toml(outcome.out, "config", config, mount);
+  config::apply_toml(outcome.out, "config", config, mount);
   return std::get<PatchworkConfig>(config);
 }
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "baselines/settings.hpp"
-#include "cli/config_toml.hpp"
 #include "cli/method_options.hpp"
+#include "config/config_toml.hpp"
 #include "doctor/advice.hpp"
 #include "doctor/examination.hpp"
 #include "doctor/faults.hpp"

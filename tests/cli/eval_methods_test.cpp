@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "baselines/settings.hpp"
-#include "cli/same_config.hpp"
+#include "config/same_config.hpp"
 #include "io/file_contents.hpp"
 #include "io/temporary_folder.hpp"
 

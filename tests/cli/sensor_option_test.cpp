@@ -10,9 +10,9 @@
 
 #include "baselines/settings.hpp"
 #include "cli/command_process.hpp"
-#include "cli/config_toml.hpp"
 #include "cli/files.hpp"
-#include "cli/same_config.hpp"
+#include "config/config_toml.hpp"
+#include "config/same_config.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/mount.hpp"
 #include "flagstone/sensor.hpp"
@@ -38,7 +38,7 @@ PatchworkConfig printed_config(const std::vector<std::string>& arguments) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   MethodConfig config = PatchworkConfig{};
   MountSettings mount;
-  apply_toml(outcome.out, "config", config, mount);
+  config::apply_toml(outcome.out, "config", config, mount);
   return std::get<PatchworkConfig>(config);
 }
 
@@ -129,8 +129,10 @@ TEST_F(SensorOption, ServesEveryMethod) {
 
     ASSERT_EQ(outcome.exit_code, 0) << method << ": " << outcome.err;
     MountSettings mount;
-    apply_toml(outcome.out, "config", config, mount);
-    EXPECT_EQ(to_toml(config), to_toml(default_config(method, Sensor::named("vlp-16")))) << method;
+    config::apply_toml(outcome.out, "config", config, mount);
+    EXPECT_EQ(config::to_toml(config),
+              config::to_toml(default_config(method, Sensor::named("vlp-16"))))
+        << method;
     EXPECT_EQ(sensor_height_of(config, 0.6f), 0.6f) << method;
   }
 }

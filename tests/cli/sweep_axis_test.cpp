@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "cli/same_config.hpp"
+#include "config/same_config.hpp"
 
 namespace flagstone::cli {
 namespace {

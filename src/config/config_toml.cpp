@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/config_toml.hpp"
+#include "config/config_toml.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,7 +22,7 @@
 #include "io/message.hpp"
 #include "mount/mount_settings.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::config {
 namespace {
 
 /// The shortest text that reads back to the same float, and to a float in TOML.
@@ -107,10 +107,11 @@ std::string zones_text(const std::vector<Zone>& zones) {
 class Place {
  public:
   Place(std::string_view source, const toml::source_region& region) {
-    text_ = fmt::format("{}: line {}, column {}", source, region.begin.line, region.begin.column);
+    if (source.empty()) return;
+    text_ = fmt::format("{}: line {}, column {}: ", source, region.begin.line, region.begin.column);
   }
   [[noreturn]] void refuse(const std::string& reason) const {
-    throw std::invalid_argument(io::printable(text_ + ": " + reason));  // keys may hold anything
+    throw std::invalid_argument(io::printable(text_ + reason));  // keys may hold anything
   }
 
  private:
@@ -259,6 +260,8 @@ void apply_table(const toml::table& table, const std::string& prefix, std::strin
       assign(node, place, *setting);
     } else if (is_known(full, settings) && node.is_table()) {
       apply_table(*node.as_table(), full + ".", source, settings, zones);
+    } else if (is_known(full, settings)) {
+      place.refuse(full + " is a table of settings, not a " + type_name(node));
     } else {
       place.refuse(no_setting(full, settings));
     }
@@ -319,4 +322,4 @@ void set_sensor_height(float height, MethodConfig& config) {
   }
 }
 
-}  // namespace flagstone::cli
+}  // namespace flagstone::config

@@ -7,7 +7,7 @@
 
 #include "flagstone/patchwork_config.hpp"
 
-namespace flagstone::cli {
+namespace flagstone {
 
 inline bool is_same(const Zone& a, const Zone& b) {
   return a.ring_radii == b.ring_radii && a.sectors == b.sectors &&
@@ -32,4 +32,4 @@ inline bool is_same(const PatchworkConfig& a, const PatchworkConfig& b) {
                             [](const Zone& x, const Zone& y) { return is_same(x, y); });
 }
 
-}  // namespace flagstone::cli
+}  // namespace flagstone

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/config_toml.hpp"
+#include "config/config_toml.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/same_config.hpp"
+#include "config/same_config.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::config {
 namespace {
 
 using testing::AllOf;
@@ -205,4 +205,4 @@ RC_GTEST_PROP(ConfigToml, AnyTextIsReadOrRefusedOnOneLine, ()) {
 }
 
 }  // namespace
-}  // namespace flagstone::cli
+}  // namespace flagstone::config

@@ -1,0 +1,42 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Ground segmentation for 3D LiDAR.
+
+A scan goes in; every point comes back labelled ground or not, with its height above the ground below it, every patch
+of ground comes back with its plane, and the ground itself as one continuous surface:
+
+    import flagstone
+
+    result = flagstone.Surface(sensor_height=1.73).segment(points)  # (N, >=3) float32: x, y, z, ...
+    result.ground  # (N,) bool
+    result.heights  # (N,) float32, metres
+
+Coordinates are metres in the sensor's frame: x forward, y left, z up.
+"""
+
+from flagstone import io
+from flagstone._core import __version__
+from flagstone.codes import Label, Verdict
+from flagstone.ground_surface import GroundAt, GroundSurface, Grid
+from flagstone.segmentation import Mount, Segmentation
+from flagstone.segmenters import Patchwork, Segmenter, Surface, make_segmenter, method_names
+from flagstone.sensors import Sensor, sensors
+
+__all__ = [
+    "Grid",
+    "GroundAt",
+    "GroundSurface",
+    "Label",
+    "Mount",
+    "Patchwork",
+    "Segmentation",
+    "Segmenter",
+    "Sensor",
+    "Surface",
+    "Verdict",
+    "__version__",
+    "io",
+    "make_segmenter",
+    "method_names",
+    "sensors",
+]

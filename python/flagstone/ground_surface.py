@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""The ground of a scan as one continuous surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from flagstone import _core
+
+
+class GroundAt(NamedTuple):
+    """What the ground is like at places of shape S, which x and y broadcast to."""
+
+    height: npt.NDArray[np.float32]
+    """S: z of the ground, metres, in the sensor's frame; NaN where it is not known."""
+    normal: npt.NDArray[np.float32]
+    """(\\*S, 3): unit length, z > 0; NaN where it is not known."""
+    slope: npt.NDArray[np.float32]
+    """S: angle between normal and z axis, radians, 0 to pi/2; NaN where it is not known."""
+    confidence: npt.NDArray[np.float32]
+    """S: 0 (not known) to 1 (measured right here)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """A square grid of heights around the sensor.
+
+    Cell (row, column) has its centre at x = (column + 0.5 - W / 2) * cell, y = (row + 0.5 - W / 2) * cell.
+    """
+
+    cell: float
+    """Side of a cell, metres."""
+    heights: npt.NDArray[np.float32]
+    """(W, W): z of the ground in the middle of each cell, metres; NaN where it is not known. A read-only view."""
+    confidences: npt.NDArray[np.float32]
+    """(W, W): 0 (not known) to 1 (measured). A read-only view."""
+
+    @property
+    def extent(self) -> float:
+        """It covers |x| <= extent and |y| <= extent, metres."""
+        return self.heights.shape[0] * self.cell / 2
+
+
+class GroundSurface:
+    """z = height(x, y) in the sensor's frame, made by methods that join patches to one surface (`surface`).
+
+    It is a nest of square grids around the sensor, finer towards it, bilinear between the middles of cells. Of methods
+    that make none it is empty: False, and its height is NaN everywhere.
+    """
+
+    def __init__(self, result: _core.Result) -> None:
+        self._result = result
+
+    def __bool__(self) -> bool:
+        """Whether there is a surface."""
+        return self.extent > 0
+
+    def __repr__(self) -> str:
+        cells = ", ".join(f"{grid.cell:g}" for grid in self.grids)
+        return f"GroundSurface(extent={self.extent:g} m, cells of {cells} m)" if self else "GroundSurface(none)"
+
+    @property
+    def extent(self) -> float:
+        """It covers |x| <= extent and |y| <= extent, metres; 0 if there is none."""
+        return self._result.extent()
+
+    @property
+    def grids(self) -> tuple[Grid, ...]:
+        """The grids, coarsest and largest first."""
+        return tuple(Grid(cell, heights, confidences) for cell, heights, confidences in self._result.grids())
+
+    def height(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32]:
+        """z of the ground at places, metres; NaN where it is not known.
+
+        Args:
+            x: Metres forward, any shape.
+            y: Metres to the left, any shape that broadcasts with x's.
+
+        Returns:
+            Heights in the shape that x and y broadcast to.
+        """
+        places_x, places_y, shape = _places(x, y)
+        return self._result.height_at(places_x, places_y).reshape(shape)
+
+    def resolution(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32]:
+        """Side of the cells at places, metres; NaN outside. Arguments and shape are those of `height`."""
+        places_x, places_y, shape = _places(x, y)
+        return self._result.resolution_at(places_x, places_y).reshape(shape)
+
+    def at(self, x: npt.ArrayLike, y: npt.ArrayLike) -> GroundAt:
+        """Height, normal, slope and confidence at places. Arguments are those of `height`."""
+        places_x, places_y, shape = _places(x, y)
+        table = self._result.ground_at(places_x, places_y)
+        return GroundAt(
+            height=table[:, 0].reshape(shape),
+            normal=table[:, 1:4].reshape((*shape, 3)),
+            slope=table[:, 4].reshape(shape),
+            confidence=table[:, 5].reshape(shape),
+        )
+
+
+def _places(
+    x: npt.ArrayLike, y: npt.ArrayLike
+) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32], tuple[int, ...]]:
+    wide_x, wide_y = np.broadcast_arrays(np.asarray(x, np.float32), np.asarray(y, np.float32))
+    return np.ascontiguousarray(wide_x).ravel(), np.ascontiguousarray(wide_y).ravel(), wide_x.shape

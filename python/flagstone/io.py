@@ -1,0 +1,195 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Files of points and of labels: the readers and writers of the command.
+
+Which formats there are, and what each may hold, says docs/formats.md.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Literal
+
+import numpy as np
+import numpy.lib.recfunctions
+import numpy.typing as npt
+
+from flagstone import _core
+from flagstone._points import PointsLike
+
+Path = str | os.PathLike[str]
+
+_NPY_OF = {"float32": "<f4", "float64": "<f8"} | {
+    f"{sign}int{8 * size}": f"<{sign or 'i'}{size}" for sign in ("", "u") for size in (1, 2, 4, 8)
+}
+_NAMES_OF_COLUMNS = ("x", "y", "z", "intensity", "ring")  # as files without names have them
+
+
+def read(path: Path, *, columns: int | None = None) -> npt.NDArray[np.void]:
+    """Reads a scan with every field its file has.
+
+    Args:
+        path: .bin, .pcd.bin, .pcd, .ply or .npy; the name says the format.
+        columns: Floats a point of raw files (.bin), 3 to 1,024; without it 5 for .pcd.bin, else 4.
+
+    Returns:
+        (N,) structured array with the fields x, y, z and whatever else there is, in the file's order. It can be handed
+        to `segment` as it is.
+
+    Raises:
+        FileNotFoundError: There is no such file.
+        OSError: The system would not read it.
+        ValueError: Its contents are not what its format allows, or its ending is not known; one line with file, byte
+            and reason.
+        MemoryError: It is larger than the memory.
+    """
+    return _structured(*_core.read_cloud(os.fspath(path), 0 if columns is None else columns))
+
+
+def parse(data: bytes | bytearray | memoryview, format: str, *, columns: int = 4) -> npt.NDArray[np.void]:
+    """The same for a file's bytes in memory.
+
+    Args:
+        data: The bytes of the file.
+        format: "raw", "pcd", "ply" or "npy"; `format_of` says which from a name.
+        columns: Floats a point of raw files.
+
+    Returns:
+        As `read`.
+
+    Raises:
+        ValueError: As `read`, without the file's name.
+    """
+    return _structured(*_core.parse_cloud(np.frombuffer(data, np.uint8), format, columns))
+
+
+def write(
+    path: Path,
+    points: PointsLike,
+    *,
+    labels: npt.ArrayLike | None = None,
+    heights: npt.ArrayLike | None = None,
+) -> None:
+    """Writes a scan; the file is there whole or not at all.
+
+    Args:
+        path: .bin, .pcd, .ply or .npy; the name says the format.
+        points: (N,) structured array with fields x, y and z, or (N, >=3) numbers, whose columns become x, y, z,
+            intensity, ring, c5, c6, ...
+        labels: (N,) codes; become a field `label`, uint8.
+        heights: (N,) metres; become a field `height`, float32.
+
+    Raises:
+        OSError: The system would not write it.
+        TypeError: A field is of a type that no format holds.
+        ValueError: The format cannot hold a field, or lengths differ.
+    """
+    rows = _rows(points)
+    if labels is not None:
+        rows = _with_field(rows, "label", labels, np.uint8)
+    if heights is not None:
+        rows = _with_field(rows, "height", heights, np.float32)
+    packed = np.ascontiguousarray(numpy.lib.recfunctions.repack_fields(rows))
+    _core.write_cloud(os.fspath(path), packed.view(np.uint8).reshape(-1), _fields_of(packed.dtype))
+
+
+def read_labels(path: Path, points: int) -> npt.NDArray[np.uint32]:
+    """Reads one class a point: labels of this program, or a data set's truth.
+
+    Args:
+        path: .label (SemanticKITTI: uint32, the class in the low 16 bits), .bin (nuScenes-lidarseg: uint8) or .npy.
+        points: How many points the scan has that they belong to.
+
+    Returns:
+        (points,) classes, without the instances of .label files.
+
+    Raises:
+        FileNotFoundError: There is no such file.
+        ValueError: It holds another number of labels, or is no such file.
+    """
+    return _core.read_classes(os.fspath(path), points)
+
+
+def write_labels(
+    path: Path, labels: npt.ArrayLike, *, label_map: Literal["flagstone", "semantic_kitti"] = "flagstone"
+) -> None:
+    """Writes one label a point; the file is there whole or not at all.
+
+    Args:
+        path: .label (SemanticKITTI's layout: uint32) or .npy (uint8); the name says the format.
+        labels: (N,) codes, 0 to 4.
+        label_map: What number stands for a label: "flagstone", its own code; "semantic_kitti", 40 (road) for ground
+            and 0 (unlabelled) for all else.
+
+    Raises:
+        OSError: The system would not write it.
+        ValueError: The ending is another, or a code is none.
+    """
+    name = os.fspath(path)
+    if not name.lower().endswith((".label", ".npy")):
+        raise ValueError(f"{name}: labels are written as .label or .npy")
+    if label_map not in ("flagstone", "semantic_kitti"):
+        raise ValueError(f"label_map = {label_map!r} is not known; there are flagstone and semantic_kitti")
+    codes = np.asarray(labels)
+    if codes.ndim != 1 or codes.dtype.kind not in "ui" or (codes.size and not 0 <= codes.min() <= codes.max() <= 4):
+        raise ValueError(f"{name}: labels are whole numbers from 0 to 4 in one row; came {codes.dtype} {codes.shape}")
+    compact = np.ascontiguousarray(codes, np.uint8)
+    _core.write_labels(name, compact, label_map == "semantic_kitti", name.lower().endswith(".npy"))
+
+
+def format_of(path: Path) -> str | None:
+    """The format that a name stands for, "raw", "pcd", "ply" or "npy"; None for other endings."""
+    return _core.format_of(os.fspath(path))
+
+
+def is_scan_name(path: Path) -> bool:
+    """Whether a file met in a folder is taken for a scan: by its ending, not hidden, not one of labels or heights."""
+    return _core.is_scan_name(os.fspath(path))
+
+
+def _structured(
+    rows: npt.NDArray[np.uint8], fields: list[tuple[str, str, int, int]], stride: int
+) -> npt.NDArray[np.void]:
+    named = [field for field in fields if field[0] != "_"]  # padding
+    dtype = np.dtype(
+        {
+            "names": [name for name, _, _, _ in named],
+            "formats": [(_NPY_OF[kind], (count,)) if count > 1 else _NPY_OF[kind] for _, kind, count, _ in named],
+            "offsets": [offset for _, _, _, offset in named],
+            "itemsize": stride,
+        }
+    )
+    return rows.view(dtype)
+
+
+def _rows(points: PointsLike) -> npt.NDArray[np.void]:
+    array = np.asarray(points)
+    if array.dtype.names is not None:
+        return array
+    if array.ndim != 2 or array.shape[1] < 3:
+        raise ValueError(f"points: shape {array.shape}; wanted is (N, 3) or more columns, or fields x, y and z")
+    names = [*_NAMES_OF_COLUMNS, *(f"c{i}" for i in range(len(_NAMES_OF_COLUMNS), array.shape[1]))]
+    dtype = np.dtype([(name, array.dtype) for name in names[: array.shape[1]]])
+    return numpy.lib.recfunctions.unstructured_to_structured(array, dtype)
+
+
+def _with_field(rows: npt.NDArray[np.void], name: str, values: npt.ArrayLike, dtype: Any) -> npt.NDArray[np.void]:
+    column = np.asarray(values)
+    if column.shape != rows.shape:
+        raise ValueError(f"{name}s of shape {column.shape} for {rows.shape[0]} points; wanted is one a point")
+    others = [field for field in rows.dtype.names or () if field != name]
+    together = np.empty(rows.shape, [(field, rows.dtype[field]) for field in others] + [(name, dtype)])
+    for field in others:
+        together[field] = rows[field]
+    together[name] = column
+    return together
+
+
+def _fields_of(dtype: np.dtype[np.void]) -> list[tuple[str, str, int, int]]:
+    fields = []
+    for name in dtype.names or ():
+        base, shape = dtype[name].base, dtype[name].shape
+        if not base.isnative:
+            raise TypeError(f"field {name} is of type {base}; wanted are numbers in this machine's byte order")
+        fields.append((name, base.name, int(np.prod(shape, dtype=int)), 0))
+    return fields

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "baselines/settings.hpp"
+#include "bindings.hpp"
+#include "flagstone/label.hpp"
+#include "flagstone/make_segmenter.hpp"
+#include "flagstone/patch.hpp"
+#include "flagstone/sensor.hpp"
+
+namespace nb = nanobind;
+
+namespace flagstone::python {
+namespace {
+
+nb::str str_of(std::string_view text) { return nb::str(text.data(), text.size()); }
+
+nb::tuple tuple_of(const std::vector<double>& numbers) {
+  nb::list list;
+  for (const double number : numbers) list.append(number);
+  return nb::tuple(list);
+}
+
+nb::list names_of_methods() {
+  nb::list names;
+  for (const std::string_view name : method_names()) names.append(str_of(name));
+  return names;
+}
+
+nb::list names_of_labels() {
+  nb::list names;
+  for (std::size_t code = 0; code < label_count; ++code) {
+    names.append(to_string(static_cast<Label>(code)));
+  }
+  return names;
+}
+
+nb::list names_of_verdicts() {
+  nb::list names;
+  for (auto code = static_cast<unsigned>(Verdict::ground);
+       code <= static_cast<unsigned>(Verdict::off_surface); ++code) {
+    names.append(to_string(static_cast<Verdict>(code)));
+  }
+  return names;
+}
+
+nb::list sensors() {
+  nb::list list;
+  for (const Sensor& sensor : Sensor::known()) {
+    nb::dict entry;
+    entry["name"] = sensor.name;
+    entry["title"] = sensor.title;
+    entry["elevations"] = tuple_of(sensor.elevations);
+    entry["firings"] = sensor.firings;
+    entry["azimuth_begin"] = sensor.azimuth_begin;
+    entry["azimuth_end"] = sensor.azimuth_end;
+    entry["rosette"] = tuple_of(sensor.rosette);
+    entry["min_range"] = sensor.min_range;
+    entry["max_range"] = sensor.max_range;
+    entry["range_sigma"] = sensor.range_sigma;
+    entry["height"] = sensor.height;
+    list.append(entry);
+  }
+  return list;
+}
+
+const char* type_of(const Setting& setting) {
+  constexpr std::array<const char*, 6> names = {"float",           "int", "bool", "Sequence[float]",
+                                                "Sequence[float]", "str"};
+  return names.at(setting.value.index());
+}
+
+/// For every setting of a method: key, type, meaning, what is allowed.
+nb::list settings(const std::string& method) {
+  MethodConfig config = default_config(method);
+  nb::list list;
+  for (const Setting& setting : settings_of(config)) {
+    const bool is_range = setting.value.index() != 2 && setting.value.index() != 5;
+    const std::string allowed = is_range ? to_string(setting.allowed) : "";
+    list.append(nb::make_tuple(str_of(setting.key), type_of(setting), str_of(setting.meaning),
+                               str_of(allowed)));
+  }
+  return list;
+}
+
+}  // namespace
+
+void bind_known(nb::module_& module) {
+  module.def("method_names", &names_of_methods, nb::sig("def method_names() -> list[str]"));
+  module.def("label_names", &names_of_labels, nb::sig("def label_names() -> list[str]"));
+  module.def("verdict_names", &names_of_verdicts, nb::sig("def verdict_names() -> list[str]"));
+  module.def("sensors", &sensors, nb::sig("def sensors() -> list[dict[str, typing.Any]]"));
+  module.def("settings", &settings, nb::arg("method"),
+             nb::sig("def settings(method: str) -> list[tuple[str, str, str, str]]"));
+}
+
+}  // namespace flagstone::python

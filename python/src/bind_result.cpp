@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstddef>
+#include <span>
+
+#include "bindings.hpp"
+#include "result.hpp"
+
+namespace nb = nanobind;
+
+namespace flagstone::python {
+namespace {
+
+template <class Number>
+using Row = nb::ndarray<nb::numpy, const Number, nb::ndim<1>, nb::c_contig>;
+template <class Number>
+using Table = nb::ndarray<nb::numpy, const Number, nb::ndim<2>, nb::c_contig>;
+using Places = nb::ndarray<nb::numpy, const float, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+/// A read-only array of memory that the result owns.
+template <class Number>
+Row<Number> row_of(std::span<const Number> values, nb::handle owner) {
+  return Row<Number>(values.data(), {values.size()}, owner);
+}
+
+/// Memory of an array that Python shall own.
+template <class Number>
+nb::capsule owner_of(Number* numbers) {
+  return nb::capsule(numbers, [](void* memory) noexcept { delete[] static_cast<Number*>(memory); });
+}
+
+const Result& result_of(nb::handle self) { return nb::cast<const Result&>(self); }
+
+Row<std::uint8_t> labels(nb::handle self) {
+  const std::span<const Label> labels = result_of(self).segmentation().labels();
+  return row_of<std::uint8_t>({reinterpret_cast<const std::uint8_t*>(labels.data()), labels.size()},
+                              self);
+}
+
+Row<bool> ground(nb::handle self) {
+  const std::span<const std::uint8_t> ground = nb::cast<Result&>(self).ground();
+  return row_of<bool>({reinterpret_cast<const bool*>(ground.data()), ground.size()}, self);
+}
+
+Row<float> heights(nb::handle self) {
+  return row_of<float>(nb::cast<Result&>(self).heights(), self);
+}
+
+/// The bytes of the patches; patch_fields() says what they mean.
+Row<std::uint8_t> patches(nb::handle self) {
+  const std::span<const Patch> patches = result_of(self).segmentation().patches();
+  return row_of<std::uint8_t>(
+      {reinterpret_cast<const std::uint8_t*>(patches.data()), patches.size_bytes()}, self);
+}
+
+nb::tuple counts(const Result& result) {
+  nb::list counts;
+  for (std::size_t code = 0; code < label_count; ++code) {
+    counts.append(result.segmentation().count(static_cast<Label>(code)));
+  }
+  return nb::tuple(counts);
+}
+
+/// For every grid: side of a cell, heights, confidences.
+nb::list grids(nb::handle self) {
+  nb::list list;
+  for (const Surface::Grid& grid : result_of(self).segmentation().surface().grids()) {
+    const std::size_t width = grid.width;
+    list.append(nb::make_tuple(grid.cell, Table<float>(grid.heights.data(), {width, width}, self),
+                               Table<float>(grid.confidences.data(), {width, width}, self)));
+  }
+  return list;
+}
+
+/// What `ask(surface, x, y)` says of every place.
+template <class Ask>
+Row<float> asked(const Result& result, const Places& x, const Places& y, Ask ask) {
+  if (x.size() != y.size()) throw nb::value_error("x and y differ in length");
+  const std::size_t places = x.size();
+  auto* const values = new float[places == 0 ? 1 : places];
+  nb::capsule owner = owner_of(values);
+  const Surface& surface = result.segmentation().surface();
+  {
+    const nb::gil_scoped_release released;
+    for (std::size_t i = 0; i < places; ++i) values[i] = ask(surface, x.data()[i], y.data()[i]);
+  }
+  return Row<float>(values, {places}, owner);
+}
+
+/// For every place: height, normal x, y, z, slope, confidence.
+Table<float> ground_at(const Result& result, const Places& x, const Places& y) {
+  if (x.size() != y.size()) throw nb::value_error("x and y differ in length");
+  constexpr std::size_t columns = 6;
+  const std::size_t places = x.size();
+  auto* const values = new float[places == 0 ? 1 : columns * places];
+  nb::capsule owner = owner_of(values);
+  const Surface& surface = result.segmentation().surface();
+  {
+    const nb::gil_scoped_release released;
+    float* to = values;
+    for (std::size_t i = 0; i < places; ++i) {
+      const GroundAt at = surface.at(x.data()[i], y.data()[i]);
+      *to++ = at.height;
+      for (const float component : at.normal) *to++ = component;
+      *to++ = at.slope;
+      *to++ = at.confidence;
+    }
+  }
+  return Table<float>(values, {places, columns}, owner);
+}
+
+/// Name, NumPy's format and offset of every field of a patch, and the size of one.
+nb::tuple patch_fields() {
+  nb::list fields;
+  const auto add = [&](const char* name, const char* format, std::size_t offset) {
+    fields.append(nb::make_tuple(name, format, offset));
+  };
+  add("zone", "u2", offsetof(Patch, zone));
+  add("ring", "u2", offsetof(Patch, ring));
+  add("sector", "u2", offsetof(Patch, sector));
+  add("verdict", "u2", offsetof(Patch, verdict));
+  add("point_count", "u4", offsetof(Patch, point_count));
+  add("ground_count", "u4", offsetof(Patch, ground_count));
+  add("sunken_count", "u4", offsetof(Patch, sunken_count));
+  add("mean", "3f4", offsetof(Patch, mean));
+  add("normal", "3f4", offsetof(Patch, normal));
+  add("d", "f4", offsetof(Patch, d));
+  add("eigenvalues", "3f4", offsetof(Patch, eigenvalues));
+  add("uprightness", "f4", offsetof(Patch, uprightness));
+  add("elevation", "f4", offsetof(Patch, elevation));
+  add("flatness", "f4", offsetof(Patch, flatness));
+  add("likelihood", "f4", offsetof(Patch, likelihood));
+  add("surface_variable", "f4", offsetof(Patch, surface_variable));
+  return nb::make_tuple(fields, sizeof(Patch));
+}
+
+nb::tuple tuple_of(const std::array<float, 3>& v) { return nb::make_tuple(v[0], v[1], v[2]); }
+
+/// Height of the sensor, up, origin, scale, and what the decision about them was.
+nb::tuple mount(const Result& result) {
+  const Mount& mount = result.mount();
+  return nb::make_tuple(mount.sensor_height, tuple_of(mount.up), tuple_of(mount.origin),
+                        mount.scale, result.mount_sentence().c_str());
+}
+
+}  // namespace
+
+void bind_result(nb::module_& module) {
+  module.def("patch_fields", &patch_fields,
+             nb::sig("def patch_fields() -> tuple[list[tuple[str, str, int]], int]"));
+  nb::class_<Result>(module, "Result")
+      .def("labels", &labels, nb::sig("def labels(self) -> numpy.typing.NDArray[numpy.uint8]"))
+      .def("ground", &ground, nb::sig("def ground(self) -> numpy.typing.NDArray[numpy.bool_]"))
+      .def("heights", &heights, nb::sig("def heights(self) -> numpy.typing.NDArray[numpy.float32]"))
+      .def("patches", &patches, nb::sig("def patches(self) -> numpy.typing.NDArray[numpy.uint8]"))
+      .def("counts", &counts, nb::sig("def counts(self) -> tuple[int, ...]"))
+      .def("mount", &mount,
+           nb::sig("def mount(self) -> tuple[float, tuple[float, float, float], tuple[float, "
+                   "float, float], float, str]"))
+      .def("grids", &grids,
+           nb::sig("def grids(self) -> list[tuple[float, numpy.typing.NDArray[numpy.float32], "
+                   "numpy.typing.NDArray[numpy.float32]]]"))
+      .def("extent", [](const Result& result) { return result.segmentation().surface().extent(); })
+      .def(
+          "height_at",
+          [](const Result& result, const Places& x, const Places& y) {
+            return asked(result, x, y, [](const Surface& surface, float at_x, float at_y) {
+              return surface.height(at_x, at_y);
+            });
+          },
+          nb::arg("x"), nb::arg("y"),
+          nb::sig("def height_at(self, x: numpy.typing.NDArray[numpy.float32], y: "
+                  "numpy.typing.NDArray[numpy.float32]) -> numpy.typing.NDArray[numpy.float32]"))
+      .def(
+          "resolution_at",
+          [](const Result& result, const Places& x, const Places& y) {
+            return asked(result, x, y, [](const Surface& surface, float at_x, float at_y) {
+              return surface.resolution(at_x, at_y);
+            });
+          },
+          nb::arg("x"), nb::arg("y"),
+          nb::sig("def resolution_at(self, x: numpy.typing.NDArray[numpy.float32], y: "
+                  "numpy.typing.NDArray[numpy.float32]) -> numpy.typing.NDArray[numpy.float32]"))
+      .def("ground_at", &ground_at, nb::arg("x"), nb::arg("y"),
+           nb::sig("def ground_at(self, x: numpy.typing.NDArray[numpy.float32], y: "
+                   "numpy.typing.NDArray[numpy.float32]) -> numpy.typing.NDArray[numpy.float32]"));
+}
+
+}  // namespace flagstone::python

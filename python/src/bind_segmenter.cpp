@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/variant.h>
+
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "baselines/settings.hpp"
+#include "bindings.hpp"
+#include "flagstone/levelled_segmenter.hpp"
+#include "method.hpp"
+#include "mount/mount_settings.hpp"
+#include "points.hpp"
+#include "result.hpp"
+
+namespace nb = nanobind;
+
+namespace flagstone::python {
+namespace {
+
+/// A method with what it was made of. Threads that share it take turns.
+class SharedSegmenter {
+ public:
+  SharedSegmenter(const MethodChoice& choice, unsigned threads)
+      : method_(choice.method), config_(resolve(choice, mount_settings_)) {
+    const float height = sensor_height_of(config_, mount_settings_.mount.sensor_height);
+    segmenter_ = std::make_unique<LevelledSegmenter>(make_method(method_, config_, threads), height,
+                                                     mount_settings_);
+  }
+
+  std::unique_ptr<Result> segment(nb::handle x, nb::handle y, nb::handle z) {
+    const Points points(x, y, z);
+    Status status;
+    std::unique_ptr<Result> result;
+    {
+      const nb::gil_scoped_release released;
+      // After the lock is free again: others wait for it with the interpreter's lock released.
+      const std::scoped_lock lock(turn_);
+      std::unique_ptr<Segmentation> segmentation = spare_->take();
+      status = segmenter_->segment(points.view(copy_), *segmentation);
+      result = std::make_unique<Result>(std::move(segmentation), spare_, segmenter_->mount(),
+                                        to_sentence(segmenter_->decision()));
+    }
+    raise_if_failed(status);
+    return result;
+  }
+
+  void reset() {
+    const nb::gil_scoped_release released;
+    const std::scoped_lock lock(turn_);
+    segmenter_->reset();
+  }
+
+  [[nodiscard]] MethodConfig config() const { return config_; }
+  [[nodiscard]] MountSettings mount_settings() const { return mount_settings_; }
+
+ private:
+  std::mutex turn_;
+  std::string method_;
+  MountSettings mount_settings_;
+  MethodConfig config_;
+  std::unique_ptr<LevelledSegmenter> segmenter_;
+  std::shared_ptr<SpareResults> spare_ = std::make_shared<SpareResults>();
+  std::vector<float> copy_;
+};
+
+/// The number that the shortest text of a float stands for: 1.73 instead of 1.7300000190734863.
+double decimal(float number) { return std::strtod(fmt::format("{}", number).c_str(), nullptr); }
+
+nb::object value_of(const Setting& setting) {
+  if (const auto* choice = std::get_if<Choice>(&setting.value)) {
+    const std::string_view name = choice->names()[choice->index()];
+    return nb::str(name.data(), name.size());
+  }
+  return std::visit(
+      [](const auto& value) -> nb::object {
+        if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(value)>>) {
+          using Value = std::remove_cvref_t<decltype(*value)>;
+          if constexpr (std::is_same_v<Value, float>) {
+            return nb::float_(decimal(*value));
+          } else if constexpr (std::is_arithmetic_v<Value>) {
+            return nb::cast(*value);
+          } else {
+            nb::list list;
+            for (const float number : *value) list.append(decimal(number));
+            return list;
+          }
+        }
+        return nb::none();
+      },
+      setting.value);
+}
+
+void add_settings(const std::vector<Setting>& settings, nb::dict& to) {
+  for (const Setting& setting : settings) {
+    const std::size_t dot = setting.key.find('.');
+    if (dot == std::string_view::npos) {
+      to[nb::str(setting.key.data(), setting.key.size())] = value_of(setting);
+      continue;
+    }
+    const nb::str table(setting.key.data(), dot);
+    if (!to.contains(table)) to[table] = nb::dict();
+    to[table][nb::str(setting.key.data() + dot + 1, setting.key.size() - dot - 1)] =
+        value_of(setting);
+  }
+}
+
+nb::list list_of(const std::vector<Zone>& zones) {
+  nb::list list;
+  for (const Zone& zone : zones) {
+    nb::dict entry;
+    nb::list radii;
+    for (const float radius : zone.ring_radii) radii.append(decimal(radius));
+    entry["ring_radii"] = radii;
+    entry["sectors"] = zone.sectors;
+    entry["height_margin"] = decimal(zone.height_margin);
+    list.append(entry);
+  }
+  return list;
+}
+
+nb::dict settings_dict(const SharedSegmenter& segmenter) {
+  MethodConfig config = segmenter.config();
+  MountSettings mount = segmenter.mount_settings();
+  nb::dict settings;
+  add_settings(settings_of(config), settings);
+  if (const auto* patchwork = std::get_if<PatchworkConfig>(&config)) {
+    settings["zones"] = list_of(patchwork->zones);
+  }
+  add_settings(settings_of(mount), settings);
+  return settings;
+}
+
+}  // namespace
+
+void bind_segmenter(nb::module_& module) {
+  using Height = std::variant<std::monostate, float, std::string>;
+  using Tilt = std::variant<std::monostate, std::array<float, 3>, std::string>;
+  nb::class_<SharedSegmenter>(module, "Segmenter")
+      .def(
+          "__init__",
+          [](SharedSegmenter* self, std::string method, std::string preset, std::string sensor,
+             std::string config_file, std::string settings, Height sensor_height, Tilt tilt,
+             unsigned threads) {
+            new (self) SharedSegmenter({.method = std::move(method),
+                                        .preset = std::move(preset),
+                                        .sensor = std::move(sensor),
+                                        .config_file = std::move(config_file),
+                                        .settings = std::move(settings),
+                                        .sensor_height = std::move(sensor_height),
+                                        .tilt = std::move(tilt)},
+                                       threads);
+          },
+          nb::kw_only(), nb::arg("method"), nb::arg("preset"), nb::arg("sensor"),
+          nb::arg("config_file"), nb::arg("settings"), nb::arg("sensor_height").none(),
+          nb::arg("tilt").none(), nb::arg("threads"))
+      .def("segment", &SharedSegmenter::segment, nb::arg("x"), nb::arg("y"), nb::arg("z"),
+           nb::sig("def segment(self, x: object, y: object, z: object) -> Result"))
+      .def("reset", &SharedSegmenter::reset)
+      .def("settings", &settings_dict, nb::sig("def settings(self) -> dict[str, typing.Any]"));
+}
+
+}  // namespace flagstone::python

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <new>
+
+#include "bindings.hpp"
+#include "flagstone/version.hpp"
+
+namespace flagstone::python {
+
+void raise_if_failed(const Status& status) {
+  if (status.ok()) return;
+  const char* const message = status.message().c_str();
+  switch (status.code()) {
+    case StatusCode::out_of_memory: PyErr_SetString(PyExc_MemoryError, message); break;
+    case StatusCode::not_found: PyErr_SetString(PyExc_FileNotFoundError, message); break;
+    case StatusCode::unreadable:
+    case StatusCode::unwritable: PyErr_SetString(PyExc_OSError, message); break;
+    default: PyErr_SetString(PyExc_ValueError, message); break;
+  }
+  throw nanobind::python_error();
+}
+
+}  // namespace flagstone::python
+
+NB_MODULE(_core, module) {
+  using namespace flagstone::python;
+  module.attr("__version__") = FLAGSTONE_VERSION;
+  bind_result(module);
+  bind_segmenter(module);
+  bind_known(module);
+  bind_files(module);
+  bind_score(module);
+}
