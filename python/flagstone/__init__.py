@@ -15,9 +15,9 @@ Coordinates are metres in the sensor's frame: x forward, y left, z up.
 """
 
 from flagstone import io
-from flagstone._core import __version__
+from flagstone._core import version as __version__
 from flagstone.codes import Label, Verdict
-from flagstone.ground_surface import GroundAt, GroundSurface, Grid
+from flagstone.ground_surface import Grid, GroundAt, GroundSurface
 from flagstone.segmentation import Mount, Segmentation
 from flagstone.segmenters import Patchwork, Segmenter, Surface, make_segmenter, method_names
 from flagstone.sensors import Sensor, sensors

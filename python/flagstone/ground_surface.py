@@ -43,7 +43,7 @@ class Grid:
     @property
     def extent(self) -> float:
         """It covers |x| <= extent and |y| <= extent, metres."""
-        return self.heights.shape[0] * self.cell / 2
+        return len(self.heights) * self.cell / 2
 
 
 class GroundSurface:
@@ -75,7 +75,7 @@ class GroundSurface:
         return tuple(Grid(cell, heights, confidences) for cell, heights, confidences in self._result.grids())
 
     def height(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32]:
-        """z of the ground at places, metres; NaN where it is not known.
+        """How high the ground is at places: z, metres; NaN where it is not known.
 
         Args:
             x: Metres forward, any shape.

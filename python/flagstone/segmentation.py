@@ -22,9 +22,7 @@ if TYPE_CHECKING:
 def _patch_dtype() -> np.dtype[np.void]:
     fields, size = _core.patch_fields()
     names, formats, offsets = zip(*fields, strict=True)
-    return np.dtype(
-        {"names": list(names), "formats": list(formats), "offsets": list(offsets), "itemsize": size}
-    )
+    return np.dtype({"names": list(names), "formats": list(formats), "offsets": list(offsets), "itemsize": size})
 
 
 PATCH_DTYPE: np.dtype[np.void] = _patch_dtype()
@@ -132,16 +130,17 @@ class Segmentation:
         Raises:
             ImportError: pandas is not installed.
         """
-        pandas = needs("pandas", extra="pandas")
+        pd = needs("pandas", extra="pandas")
         patches = self.patches
         columns: dict[str, Any] = {}
         for name in PATCH_DTYPE.names or ():
             if name == "verdict":
                 names = [verdict.name.lower() for verdict in Verdict]
-                columns[name] = pandas.Categorical.from_codes(patches[name].astype(np.int8), names)
+                columns[name] = pd.Categorical.from_codes(patches[name].astype(np.int8), names)
             elif patches[name].ndim == 2:
                 stem, ends = ("eigenvalue", "123") if name == "eigenvalues" else (name, "xyz")
                 columns.update({f"{stem}_{end}": patches[name][:, i] for i, end in enumerate(ends)})
             else:
                 columns[name] = patches[name]
-        return pandas.DataFrame(columns)
+        frame: pandas.DataFrame = pd.DataFrame(columns)
+        return frame

@@ -5,12 +5,17 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from flagstone import _core
 from flagstone._points import PointsLike, columns_of
 from flagstone._toml import to_toml
 from flagstone.segmentation import Segmentation
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from flagstone.settings import PatchworkSettings, SurfaceSettings
 
 SensorHeight = float | Literal["estimate", "track"]
 Tilt = tuple[float, float, float] | Literal["off", "estimate"]
@@ -114,7 +119,7 @@ class Surface(Segmenter):
         tilt: Tilt | None = None,
         config: str | os.PathLike[str] | None = None,
         threads: int = 1,
-        **settings: Any,
+        **settings: Unpack[SurfaceSettings],
     ) -> None:
         """Makes a segmenter.
 
@@ -161,7 +166,7 @@ class Patchwork(Segmenter):
         preset: str = "default",
         config: str | os.PathLike[str] | None = None,
         threads: int = 1,
-        **settings: Any,
+        **settings: Unpack[PatchworkSettings],
     ) -> None:
         """Makes a segmenter.
 

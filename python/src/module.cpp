@@ -24,7 +24,7 @@ void raise_if_failed(const Status& status) {
 
 NB_MODULE(_core, module) {
   using namespace flagstone::python;
-  module.attr("__version__") = FLAGSTONE_VERSION;
+  module.attr("version") = FLAGSTONE_VERSION;
   bind_result(module);
   bind_segmenter(module);
   bind_known(module);
