@@ -7,6 +7,7 @@
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/variant.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -140,11 +141,21 @@ nb::dict settings_dict(const SharedSegmenter& segmenter) {
   return settings;
 }
 
+/// Where the x of the first point is read by segment(); 0 for points that it copies first.
+std::uintptr_t address_of(nb::handle x, nb::handle y, nb::handle z) {
+  const Points points(x, y, z);
+  if (!points.lie_in_place()) return 0;
+  std::vector<float> none;
+  return reinterpret_cast<std::uintptr_t>(points.view(none).data());
+}
+
 }  // namespace
 
 void bind_segmenter(nb::module_& module) {
   using Height = std::variant<std::monostate, float, std::string>;
   using Tilt = std::variant<std::monostate, std::array<float, 3>, std::string>;
+  module.def("address_of", &address_of, nb::arg("x"), nb::arg("y"), nb::arg("z"),
+             nb::sig("def address_of(x: object, y: object, z: object) -> int"));
   nb::class_<SharedSegmenter>(module, "Segmenter")
       .def(
           "__init__",

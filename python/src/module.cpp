@@ -24,6 +24,7 @@ void raise_if_failed(const Status& status) {
 
 NB_MODULE(_core, module) {
   using namespace flagstone::python;
+  nanobind::set_leak_warnings(false);  // a segmenter in a global variable is no leak
   module.attr("version") = FLAGSTONE_VERSION;
   bind_result(module);
   bind_segmenter(module);

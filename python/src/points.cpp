@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "points.hpp"
 
+#include <bit>
 #include <cstring>
 #include <string_view>
 
@@ -24,7 +25,13 @@ Column::Column(nanobind::handle object) {
   if (PyObject_GetBuffer(object.ptr(), &buffer_, PyBUF_STRIDES | PyBUF_FORMAT) != 0) {
     throw nanobind::python_error();
   }
-  const std::string_view format = buffer_.format == nullptr ? "B" : buffer_.format;
+  std::string_view format = buffer_.format == nullptr ? "B" : buffer_.format;
+  // NumPy says "=f" for fields of records that are not aligned.
+  constexpr bool is_little = std::endian::native == std::endian::little;
+  if (format.starts_with('=') || format.starts_with('@') ||
+      format.starts_with(is_little ? '<' : '>')) {
+    format.remove_prefix(1);
+  }
   if (buffer_.ndim != 1 || (format != "f" && format != "d")) {
     PyBuffer_Release(&buffer_);
     throw nanobind::type_error("a column is one row of float32 or float64");

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""What `segment` returns: views that stay valid, patches, surface, counts."""
+
+from __future__ import annotations
+
+import gc
+
+import numpy as np
+import pytest
+from conftest import Scan, made_up_scan
+
+import flagstone
+from flagstone import Label, Verdict
+
+
+def test_every_point_has_one_label_and_the_counts_add_up(scan: Scan) -> None:
+    result = flagstone.Surface().segment(scan)
+    assert result.labels.shape == result.ground.shape == result.heights.shape == (len(scan),)
+    assert (result.labels.dtype, result.ground.dtype, result.heights.dtype) == (np.uint8, np.bool_, np.float32)
+    assert result.counts == {label.name.lower(): int((result.labels == label).sum()) for label in Label}
+    assert sum(result.counts.values()) == len(result) == len(scan)
+
+
+def test_ground_is_the_mask_of_label_ground(scan: Scan) -> None:
+    result = flagstone.Surface().segment(scan)
+    assert np.array_equal(result.ground, result.labels == Label.GROUND)
+    assert result.ground.mean() > 0.7
+
+
+def test_arrays_are_read_only_views_of_one_memory(scan: Scan) -> None:
+    result = flagstone.Surface().segment(scan)
+    for name in ("labels", "ground", "heights", "patches"):
+        array = getattr(result, name)
+        assert not array.flags.writeable and not array.flags.owndata, name
+        assert np.shares_memory(array, getattr(result, name)), name
+
+
+def test_arrays_outlive_result_and_segmenter_and_later_scans(scan: Scan) -> None:
+    segmenter = flagstone.Surface()
+    result = segmenter.segment(scan)
+    held = [result.labels, result.ground, result.heights, result.patches, result.surface.grids[0].heights]
+    copies = [array.copy() for array in held]
+    surface = result.surface
+    height = surface.height(5, 5)
+    del result
+    for seed in range(5):
+        segmenter.segment(made_up_scan(30_000, seed))
+    del segmenter
+    gc.collect()
+    for array, copy in zip(held, copies, strict=True):
+        assert array.tobytes() == copy.tobytes()
+    assert surface.height(5, 5) == height
+
+
+def test_memory_that_nobody_holds_serves_a_later_scan(scan: Scan) -> None:
+    segmenter = flagstone.Surface()
+    first = segmenter.segment(scan).labels.ctypes.data
+    assert segmenter.segment(scan).labels.ctypes.data == first
+
+
+def test_codes_are_those_of_the_library() -> None:
+    assert [label.name.lower() for label in Label] == flagstone._core.label_names()
+    assert [verdict.name.lower() for verdict in Verdict] == flagstone._core.verdict_names()
+    assert [int(label) for label in Label] == list(range(5))
+
+
+def test_patches_hold_planes_of_the_ground_found(scan: Scan) -> None:
+    patches = flagstone.Patchwork().segment(scan).patches
+    ground = patches[np.isin(patches["verdict"], [Verdict.GROUND, Verdict.GROUND_FLAT])]
+    assert len(ground) > 100
+    assert np.allclose(np.linalg.norm(ground["normal"], axis=1), 1, atol=1e-5)
+    assert np.allclose((ground["normal"] * ground["mean"]).sum(1) + ground["d"], 0, atol=1e-4)
+    wide_and_away_from_the_wall = (ground["eigenvalues"][:, 1] > 0.3) & (ground["mean"][:, 0] < 5)
+    assert np.allclose(ground["normal"][wide_and_away_from_the_wall], [0, 0, 1], atol=0.05)
+    assert np.allclose(np.median(ground["mean"][:, 2]), -1.73, atol=0.01)
+    assert (ground["likelihood"] > 0.5).all() and (np.diff(ground["eigenvalues"], axis=1) <= 0).all()
+
+
+def test_ground_counts_of_patchworks_patches_add_up_to_the_ground(scan: Scan) -> None:
+    result = flagstone.Patchwork().segment(scan)
+    assert result.patches["ground_count"].sum() == result.counts["ground"]
+
+
+def test_patches_become_a_frame_with_a_row_a_patch(scan: Scan) -> None:
+    result = flagstone.Patchwork().segment(scan)
+    frame = result.to_pandas()
+    assert len(frame) == len(result.patches)
+    assert np.array_equal(frame["normal_z"], result.patches["normal"][:, 2])
+    assert np.array_equal(frame["eigenvalue_1"], result.patches["eigenvalues"][:, 0])
+    assert list(frame["verdict"].cat.codes) == list(result.patches["verdict"])
+    assert set(frame["verdict"]) <= set(flagstone._core.verdict_names())
+    assert not np.shares_memory(frame["d"].to_numpy(), result.patches)
+
+
+def test_the_surface_answers_at_places_of_any_shape(scan: Scan) -> None:
+    surface = flagstone.Surface().segment(scan).surface
+    assert surface and surface.extent > 50
+    x, y = np.linspace(-8, 8, 5), np.linspace(-8, 8, 7)[:, None]
+    assert surface.height(x, y).shape == (7, 5)
+    assert surface.height(1, 2).shape == ()
+    assert np.allclose(surface.height(x, y), -1.73, atol=0.05)
+    at = surface.at(x, y)
+    assert np.array_equal(at.height, surface.height(x, y))
+    assert at.normal.shape == (7, 5, 3) and at.slope.shape == at.confidence.shape == (7, 5)
+    assert np.allclose(at.normal[..., 2], np.cos(at.slope), atol=1e-4)
+    assert set(np.unique(surface.resolution(x, y))) <= {grid.cell for grid in surface.grids}
+
+
+def test_outside_of_its_extent_the_surface_is_not_known(scan: Scan) -> None:
+    surface = flagstone.Surface().segment(scan).surface
+    assert np.isnan(surface.height(1e4, 0)) and np.isnan(surface.height(np.nan, 0))
+    assert np.isnan(surface.resolution(1e4, 0)) and surface.at(1e4, 0).confidence == 0
+
+
+def test_grids_hold_the_heights_in_the_middle_of_their_cells(scan: Scan) -> None:
+    surface = flagstone.Surface().segment(scan).surface
+    cells = [grid.cell for grid in surface.grids]
+    assert cells == sorted(cells, reverse=True)
+    finest = surface.grids[-1]
+    width = len(finest.heights)
+    row, column = width // 2 + 3, width // 2 - 5
+    x, y = (column + 0.5 - width / 2) * finest.cell, (row + 0.5 - width / 2) * finest.cell
+    assert surface.height(x, y) == finest.heights[row, column]
+    assert finest.extent == width * finest.cell / 2
+
+
+def test_heights_of_points_are_above_the_surface(scan: Scan) -> None:
+    result = flagstone.Surface().segment(scan)
+    known = np.isfinite(result.heights)
+    below = result.surface.height(scan[known, 0], scan[known, 1])
+    assert np.allclose(result.heights[known], scan[known, 2] - below, atol=1e-4)
+
+
+def test_a_method_without_a_surface_knows_no_heights(scan: Scan) -> None:
+    result = flagstone.Patchwork().segment(scan)
+    assert not result.surface and result.surface.grids == () and result.surface.extent == 0
+    assert result.heights.shape == (len(scan),) and np.isnan(result.heights).all()
+    assert np.isnan(result.surface.height([0, 1], 0)).all()
+
+
+def test_a_result_says_what_is_in_it(scan: Scan) -> None:
+    result = flagstone.Patchwork().segment(scan)
+    assert repr(result).startswith(f"Segmentation({len(scan)} points: ")
+    assert f"{result.counts['ground']} ground" in repr(result)
+
+
+@pytest.mark.parametrize("method", flagstone.method_names())
+def test_every_method_labels_every_point(method: str, scan: Scan) -> None:
+    result = flagstone.make_segmenter(method).segment(scan[:4000])
+    assert len(result.labels) == 4000 and result.counts["ground"] > 0

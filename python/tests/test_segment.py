@@ -1,0 +1,192 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""`segment`: any points people have, the same labels, no copy."""
+
+from __future__ import annotations
+
+import array
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pandas
+import pytest
+from conftest import Scan, made_up_scan
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import flagstone
+from flagstone import _command, _core
+from flagstone._points import columns_of
+
+SURFACE = flagstone.Surface(sensor_height=1.73)
+
+
+def structured(scan: Scan, dtype: npt.DTypeLike) -> npt.NDArray[np.void]:
+    out = np.zeros(len(scan), dtype)
+    for i, name in enumerate("xyz"):
+        out[name] = scan[:, i]
+    return out
+
+
+def inside(scan: Scan, dtype: npt.DTypeLike = np.float32) -> npt.NDArray[np.float32]:
+    """Columns 2 to 4 of a wider array."""
+    wide = np.full((len(scan), 7), np.nan, dtype)
+    wide[:, 2:5] = scan[:, :3]
+    return wide[:, 2:5]
+
+
+# float32 of any layout: read where it lies.
+IN_PLACE: dict[str, Callable[[Scan], object]] = {
+    "rows of four": lambda scan: scan,
+    "rows of three": lambda scan: np.ascontiguousarray(scan[:, :3]),
+    "columns one after the other": np.asfortranarray,
+    "inside a wider array": inside,
+    "from the last to the first": lambda scan: np.ascontiguousarray(scan[::-1])[::-1],
+    "every other row of a larger array": lambda scan: np.repeat(scan, 2, axis=0)[::2],
+    "read-only": lambda scan: np.frombuffer(scan.tobytes(), np.float32).reshape(-1, 4),
+    "records": lambda scan: structured(scan, [("x", "f4"), ("y", "f4"), ("z", "f4"), ("ring", "u2")]),
+    "records in another order": lambda scan: structured(scan, [("ring", "u1"), ("z", "f4"), ("y", "f4"), ("x", "f4")]),
+    "a memory view": lambda scan: memoryview(scan),
+}
+CONVERTED: dict[str, Callable[[Scan], object]] = {
+    "float64": lambda scan: scan.astype(np.float64),
+    "float64 inside a wider array": lambda scan: inside(scan, np.float64),
+    "the other byte order": lambda scan: scan.astype(">f4"),
+    "records of float64": lambda scan: structured(scan, [("x", "f8"), ("y", "f8"), ("z", "f8")]),
+    "a frame": lambda scan: pandas.DataFrame(scan[:, [3, 0, 2, 1]], columns=["intensity", "x", "z", "y"]),
+    "lists": lambda scan: scan.astype(np.float64).tolist(),
+}
+
+
+@pytest.fixture(scope="module")
+def expected(scan: Scan) -> npt.NDArray[np.uint8]:
+    return SURFACE.segment(scan).labels.copy()
+
+
+@pytest.mark.parametrize("layout", IN_PLACE | CONVERTED)
+def test_every_layout_gives_the_same_labels(layout: str, scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
+    points = (IN_PLACE | CONVERTED)[layout](scan)
+    assert np.array_equal(SURFACE.segment(points).labels, expected)
+
+
+@pytest.mark.parametrize("layout", IN_PLACE)
+def test_float32_is_read_where_it_lies(layout: str, scan: Scan) -> None:
+    points = IN_PLACE[layout](scan)
+    memory = points if isinstance(points, np.ndarray) else np.asarray(points)
+    first_x = memory["x"] if memory.dtype.names else memory[:, 0]
+    assert _core.address_of(*columns_of(points)) == first_x.__array_interface__["data"][0]
+
+
+def test_a_tensor_of_the_processor_is_read_where_it_lies(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
+    torch = pytest.importorskip("torch")
+    tensor = torch.from_numpy(scan)
+    assert np.array_equal(SURFACE.segment(tensor).labels, expected)
+    assert _core.address_of(*columns_of(tensor)) == tensor.data_ptr()
+
+
+class DLPackOnly:
+    """An array of some other library: it speaks DLPack, and nothing else."""
+
+    def __init__(self, scan: Scan, device: int = 1) -> None:
+        self._scan, self._device = scan, device
+
+    def __dlpack__(self, **arguments: object) -> object:
+        return self._scan.__dlpack__(**arguments)
+
+    def __dlpack_device__(self) -> tuple[int, int]:
+        return self._device, 0
+
+
+def test_what_speaks_dlpack_is_read_where_it_lies(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
+    points = DLPackOnly(scan)
+    assert np.array_equal(SURFACE.segment(points).labels, expected)
+    assert _core.address_of(*columns_of(points)) == scan.ctypes.data
+
+
+@settings(deadline=None, max_examples=50)
+@given(
+    rows=st.slices(300),
+    first=st.integers(0, 4),
+    transposed=st.booleans(),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_any_slice_is_segmented_as_its_copy(rows: slice, first: int, transposed: bool, seed: int) -> None:
+    whole = np.random.default_rng(seed).normal(0, 10, (300, 8)).astype(np.float32)
+    whole = whole.copy(order="F") if transposed else whole
+    view = whole[rows, first : first + 3]
+    ours, copied = SURFACE.segment(view), SURFACE.segment(view.copy())
+    assert np.array_equal(ours.labels, copied.labels)
+    assert np.array_equal(ours.heights, copied.heights, equal_nan=True)
+
+
+WRONG: dict[str, tuple[object, type[Exception], str]] = {
+    "three rows": (np.zeros((3, 5000), np.float32), ValueError, r"shape \(3, 5000\).*\(N, 3\).*pass points\.T"),
+    "two columns": (np.zeros((9, 2), np.float32), ValueError, r"shape \(9, 2\).*\(N, 3\)"),
+    "two coordinates of rows": (np.zeros((3, 2), np.float32), ValueError, r"shape \(3, 2\).*pass points\.T"),
+    "one row": (np.zeros(12, np.float32), ValueError, r"shape \(12,\).*\(N, 3\)"),
+    "three axes": (np.zeros((2, 9, 3), np.float32), ValueError, r"shape \(2, 9, 3\)"),
+    "whole numbers": (np.zeros((9, 3), np.int32), TypeError, r"int32.*astype\(numpy\.float32\)"),
+    "half precision": (np.zeros((9, 3), np.float16), TypeError, r"float16.*astype"),
+    "truth values": (np.zeros((9, 3), bool), TypeError, r"bool.*float32 or float64"),
+    "complex numbers": (np.zeros((9, 3), complex), TypeError, r"complex128.*float32 or float64"),
+    "objects": (np.full((9, 3), None), TypeError, r"object.*float32 or float64"),
+    "nothing": (None, ValueError, r"NoneType of shape \(\)"),
+    "an empty list": ([], ValueError, r"list of shape \(0,\)"),
+    "rows of different length": ([[1.0, 2, 3], [4.0]], TypeError, r"list is no array"),
+    "a text": ("scan.bin", ValueError, r"str of shape \(\)"),
+    "bytes": (array.array("f", [1, 2, 3]), ValueError, r"array of shape \(3,\)"),
+    "records without z": (np.zeros(9, [("x", "f4"), ("y", "f4")]), ValueError, r"no z among the fields x, y"),
+    "records of integers": (np.zeros(9, [("x", "i4"), ("y", "i4"), ("z", "i4")]), TypeError, r"field x: .*int32"),
+    "records of vectors": (np.zeros(9, [("x", "3f4"), ("y", "f4"), ("z", "f4")]), ValueError, r"field x of shape"),
+    "a frame without names": (pandas.DataFrame(np.zeros((9, 3))), ValueError, r"no x and no y and no z among"),
+    "a frame of integers": (pandas.DataFrame({"x": [1], "y": [2], "z": [3]}), TypeError, r"field x: .*int64"),
+    "a tensor of a GPU": (DLPackOnly(made_up_scan(9), device=2), TypeError, r"another device.*\.cpu\(\)"),
+}
+
+
+@pytest.mark.parametrize("what", WRONG)
+def test_wrong_points_are_refused_in_one_line(what: str) -> None:
+    points, error, message = WRONG[what]
+    with pytest.raises(error, match=message) as raised:
+        SURFACE.segment(points)
+    assert "\n" not in str(raised.value)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_an_empty_scan_has_an_empty_result(dtype: npt.DTypeLike) -> None:
+    result = SURFACE.segment(np.empty((0, 3), dtype))
+    assert len(result) == len(result.labels) == len(result.ground) == len(result.heights) == 0
+    assert len(result.patches) == 0
+
+
+def test_points_that_are_not_finite_are_invalid_and_keep_their_place(scan: Scan) -> None:
+    holed = scan.copy()
+    holed[::7, 0] = np.nan
+    holed[3::7, 2] = np.inf
+    holed[5::7, :3] = 0
+    invalid = ~np.isfinite(holed[:, :3]).all(1) | (holed[:, :3] == 0).all(1)
+    result = SURFACE.segment(holed)
+    assert np.array_equal(result.labels == flagstone.Label.INVALID, invalid)
+    assert np.isnan(result.heights[invalid]).all()
+
+
+def test_labels_are_those_of_the_command(simulated: Path, tmp_path: Path) -> None:
+    scans = simulated / "sequences" / "00" / "velodyne"
+    for method in ("surface", "patchwork"):
+        folder = tmp_path / method
+        command = [_command.path(), "segment", scans, "--output", folder, "--method", method, "--sensor-height", "0.6"]
+        subprocess.run(command, check=True, capture_output=True)
+        segmenter = flagstone.make_segmenter(method, sensor_height=0.6)
+        for file in sorted(scans.iterdir()):
+            labels = segmenter.segment(flagstone.io.read(file)).labels
+            assert labels.astype("<u4").tobytes() == (folder / file.with_suffix(".label").name).read_bytes()
+
+
+def test_real_scans_have_the_labels_of_the_command(data: Path, tmp_path: Path) -> None:
+    file = data / "kitti" / "velodyne" / "08-000000.bin"
+    subprocess.run([_command.path(), "segment", file, "--output", tmp_path], check=True, capture_output=True)
+    labels = flagstone.Surface().segment(np.fromfile(file, np.float32).reshape(-1, 4)).labels
+    assert labels.astype("<u4").tobytes() == (tmp_path / "08-000000.label").read_bytes()

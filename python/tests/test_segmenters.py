@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Making segmenters: settings, sensors, mounts, pickling, threads."""
+
+from __future__ import annotations
+
+import pickle
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import Scan, made_up_scan, run_command
+
+import flagstone
+from flagstone import Patchwork, Surface, make_segmenter
+
+
+def test_settings_are_those_that_were_asked_for() -> None:
+    settings = Surface(sensor_height=1.5, point={"margin": 0.2}, max_range=60).settings
+    assert settings["sensor_height"] == 1.5 and settings["point"]["margin"] == 0.2 and settings["max_range"] == 60
+    assert settings["point"]["noise_depth"] == Surface().settings["point"]["noise_depth"]
+
+
+def test_settings_can_be_given_back() -> None:
+    segmenter = Patchwork(sensor="vlp-16", uprightness={"angle": 45}, flatness={"thresholds": [0.1, 0.2]})
+    settings = segmenter.settings
+    settings.pop("mount")
+    assert Patchwork(**settings).settings == segmenter.settings
+
+
+def test_a_file_of_settings_is_laid_under_those_by_name(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text("distance_margin = 0.05\nseed_count = 7\n")
+    settings = Patchwork(config=file, seed_count=9).settings
+    assert settings["distance_margin"] == 0.05 and settings["seed_count"] == 9
+
+
+def test_a_file_the_command_prints_makes_the_same_segmenter(tmp_path: Path) -> None:
+    file = tmp_path / "printed.toml"
+    file.write_text(run_command("config", "--method", "patchwork", "--sensor", "os0-128"))
+    assert Patchwork(config=file).settings == Patchwork(sensor="os0-128").settings
+
+
+def test_presets_are_of_patchwork() -> None:
+    assert Patchwork(preset="paper").settings["judge_final_set"] is True
+    assert make_segmenter("czm+u", preset="reference").method == "czm+u"
+    with pytest.raises(ValueError, match='preset = "paper": method surface has none'):
+        make_segmenter("surface", preset="paper")
+
+
+def test_a_sensor_of_ones_own_is_a_file(tmp_path: Path) -> None:
+    file = tmp_path / "robot.toml"
+    file.write_text("beams = 16\nelevation_top = 15.0\nelevation_bottom = -15.0\nheight = 0.4\n")
+    assert Patchwork(sensor=file).settings["sensor_height"] == 0.4
+    assert Patchwork(sensor=file, sensor_height=0.5).settings["sensor_height"] == 0.5
+
+
+def test_known_sensors_are_those_of_the_command() -> None:
+    listed = run_command("sensors")
+    for sensor in flagstone.sensors():
+        assert sensor.name in listed and sensor.height > 0 and len(sensor.elevations) > 0
+        assert Surface(sensor=sensor.name).settings["sensor_height"] == sensor.height
+
+
+WRONG: list[tuple[dict[str, Any], type[Exception], str]] = [
+    ({"colour": 1}, ValueError, "colour is no setting"),
+    ({"point": {"margin": -1}}, ValueError, r"point\.margin = -1 is out of range; allowed: 0 to 10 m"),
+    ({"point": {"margin": "wide"}}, ValueError, r"point\.margin is a number, not a string"),
+    ({"point": {"margin": None}}, TypeError, r"point\.margin is a NoneType"),
+    ({"point": 3}, ValueError, "point is a table of settings, not a integer"),
+    ({"sensor": "hdl-65e"}, ValueError, 'no sensor is named "hdl-65e"; there are hdl-64e'),
+    ({"sensor_height": "guess"}, ValueError, 'sensor_height = "guess" is neither metres nor "estimate" nor "track"'),
+    ({"sensor_height": float("nan")}, ValueError, "sensor_height = nan is out of range"),
+    ({"sensor_height": 1000}, ValueError, r"sensor_height = 1000 is out of range; allowed: -100 to 100 m"),
+    ({"tilt": "left"}, ValueError, 'tilt = "left" is neither "off" nor "estimate"'),
+    ({"tilt": (0, 0, 0)}, ValueError, "up"),
+    ({"threads": 0}, ValueError, "threads is 0, allowed are 1 to 1024"),
+    ({"config": "nowhere.toml"}, ValueError, "nowhere.toml"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "error", "message"), WRONG)
+def test_wrong_settings_are_refused_in_one_line(
+    arguments: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    with pytest.raises(error, match=message) as raised:
+        Surface(**arguments)
+    assert "\n" not in str(raised.value)
+
+
+def test_an_unknown_method_is_refused_with_those_there_are() -> None:
+    with pytest.raises(ValueError, match=r"ransac.*patchwork"):
+        make_segmenter("patchwerk")
+    with pytest.raises(ValueError, match="method gpf has one; surface and patchwork have more"):
+        make_segmenter("gpf", threads=2)
+
+
+def test_the_height_of_the_sensor_is_estimated_from_a_scan() -> None:
+    scan = made_up_scan()
+    scan[:, 2] += 0.83  # the ground is 0.9 m below now
+    result = Surface(sensor_height="estimate").segment(scan)
+    assert result.mount.sensor_height == pytest.approx(0.9, abs=0.05)
+    assert "0.90 m above the ground" in result.mount.decision
+
+
+def test_reset_forgets_what_scans_have_told() -> None:
+    low, high = made_up_scan(), made_up_scan(seed=2)
+    low[:, 2] += 0.83
+    segmenter = Surface(sensor_height="estimate")
+    segmenter.segment(low)
+    assert segmenter.segment(high).mount.sensor_height == pytest.approx(0.9, abs=0.05)
+    segmenter.reset()
+    assert segmenter.segment(high).mount.sensor_height == pytest.approx(1.73, abs=0.05)
+
+
+def test_a_leaning_sensor_is_levelled(scan: Scan) -> None:
+    angle = np.radians(25)
+    turn = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
+    leaning = (scan[:, :3] @ turn.T).astype(np.float32)
+    up = tuple(turn @ [0, 0, 1])
+    straight = Surface().segment(scan).ground
+    assert (Surface(tilt=up).segment(leaning).ground == straight).mean() > 0.99
+    assert (Surface().segment(leaning).ground == straight).mean() < 0.95
+
+
+@pytest.mark.parametrize(
+    "segmenter",
+    [
+        Surface(sensor_height=1.6, point={"margin": 0.2}),
+        Patchwork(sensor="vlp-16", preset="default"),
+        make_segmenter("gpf", sensor_height=2),
+    ],
+    ids=repr,
+)
+def test_a_segmenter_can_be_pickled(segmenter: flagstone.Segmenter, scan: Scan) -> None:
+    again = pickle.loads(pickle.dumps(segmenter))
+    assert type(again) is type(segmenter) and again.settings == segmenter.settings
+    assert np.array_equal(again.segment(scan).labels, segmenter.segment(scan).labels)
+
+
+@pytest.mark.parametrize("method", ["surface", "patchwork"])
+def test_threads_of_one_scan_change_nothing(method: str, scan: Scan) -> None:
+    assert np.array_equal(
+        make_segmenter(method, threads=3).segment(scan).labels, make_segmenter(method).segment(scan).labels
+    )
+
+
+def test_threads_may_share_a_segmenter() -> None:
+    scans = [made_up_scan(5000 + 1000 * i, seed=i) for i in range(6)]
+    alone = [Surface().segment(scan).labels.copy() for scan in scans]
+    shared = Surface()
+
+    def labels_are_right(i: int) -> bool:
+        return np.array_equal(shared.segment(scans[i % 6]).labels, alone[i % 6])
+
+    with ThreadPoolExecutor(8) as pool:
+        assert all(pool.map(labels_are_right, range(300)))
+
+
+def test_other_threads_of_python_go_on_while_a_scan_is_segmented() -> None:
+    scan = np.tile(made_up_scan(100_000), (20, 1))
+    segmenter = Surface()
+    thread = threading.Thread(target=segmenter.segment, args=(scan,))
+    steps = 0
+    thread.start()
+    while thread.is_alive():
+        steps += 1
+    # With the lock held the loop could not turn but before the scan begins and after it has ended.
+    assert steps > 1000

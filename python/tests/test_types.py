@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""The package's types: complete, true, and of use to those who check theirs."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import flagstone
+
+PACKAGE = Path(flagstone.__file__).parent
+REPOSITORY = Path(__file__).parents[2]
+
+pytest.importorskip("mypy")
+
+USER = """
+import numpy as np
+import numpy.typing as npt
+from typing_extensions import assert_type
+
+import flagstone
+
+points: npt.NDArray[np.float32] = np.zeros((5, 3), np.float32)
+segmenter = flagstone.Surface(sensor_height="estimate", point={"margin": 0.2})
+result = segmenter.segment(points)
+assert_type(result.labels, npt.NDArray[np.uint8])
+assert_type(result.ground, npt.NDArray[np.bool_])
+assert_type(result.heights, npt.NDArray[np.float32])
+assert_type(result.counts, dict[str, int])
+assert_type(result.surface.height(1, 2), npt.NDArray[np.float32])
+assert_type(flagstone.make_segmenter("gpf"), flagstone.Segmenter)
+"""
+
+MISTAKEN = """
+import flagstone
+
+flagstone.Surface(sensor_height="guess")
+flagstone.Surface(point={"margins": 0.2})
+flagstone.Patchwork(colour=1)
+flagstone.Surface(preset="paper")
+flagstone.io.write_labels("a.label", [1], label_map="kitti")
+"""
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("mypy-cache")
+
+
+def mypy(cache: Path, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    options = ["--strict", "--config-file=", f"--cache-dir={cache}"]
+    command = [sys.executable, "-m", "mypy", *options, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, cwd=PACKAGE.parent)
+
+
+def test_the_package_and_its_users_pass_mypy_strict(tmp_path: Path, cache: Path) -> None:
+    (tmp_path / "user.py").write_text(USER)
+    done = mypy(cache, PACKAGE, tmp_path / "user.py")
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_mistakes_are_found_before_the_program_runs(tmp_path: Path, cache: Path) -> None:
+    (tmp_path / "mistaken.py").write_text(MISTAKEN)
+    found = mypy(cache, tmp_path / "mistaken.py").stdout
+    lines = {int(line.split(":")[1]) for line in found.splitlines() if "error:" in line}
+    assert lines == {4, 5, 6, 7, 8}, found
+
+
+def test_the_stub_of_the_compiled_part_is_what_is_in_it(tmp_path: Path) -> None:
+    stubgen = pytest.importorskip("nanobind.stubgen")
+    patterns = REPOSITORY / "python" / "src" / "stub_patterns.txt"
+    stubgen.main(["-q", "-m", "flagstone._core", "-p", str(patterns), "-o", str(tmp_path / "_core.pyi")])
+    assert (tmp_path / "_core.pyi").read_text() == (PACKAGE / "_core.pyi").read_text()
+
+
+def test_stubtest_finds_nothing_in_the_compiled_part_but_that_it_is_compiled() -> None:
+    options = ["--concise", "--mypy-config-file", "", "--ignore-disjoint-bases"]
+    command = [sys.executable, "-m", "mypy.stubtest", *options, "flagstone._core"]
+    found = subprocess.run(command, capture_output=True, text=True, cwd=PACKAGE.parent).stdout.splitlines()
+    # Functions and classes of nanobind have types of their own, and only segment() makes a Result.
+    of_nanobind = ("is not a function", "metaclass differs", 'does not have *args parameter "args"')
+    assert [line for line in found if not line.endswith(of_nanobind)] == []
+
+
+def test_typed_settings_are_those_there_are() -> None:
+    script = REPOSITORY / "scripts" / "python-settings"
+    printed = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True).stdout
+    assert printed == (PACKAGE / "settings.py").read_text()
