@@ -6,7 +6,7 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
+.PHONY: help build demo test test-python sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
         edges soak bench-compare surface-study surface-figures worlds-study contact-sheet install clean
 .DEFAULT_GOAL := build
 
@@ -20,7 +20,10 @@ demo: build ## build, then simulate a street, segment it and score the result
 	@build/flagstone demo
 
 test: ## install what is missing, build and run every test, short fuzz runs included
-	@scripts/setup build test && scripts/test
+	@scripts/setup build test python && scripts/test
+
+test-python: ## build and test the Python package alone; PYTHON names another interpreter
+	@scripts/setup build python && scripts/test-python
 
 sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@scripts/setup build test && scripts/test sanitize
@@ -74,4 +77,4 @@ install: build ## install the library and the command under PREFIX (/usr/local)
 	@cmake --install build --prefix $(PREFIX)
 
 clean: ## remove the build trees
-	@rm -rf build build-fuzz build-thread build-sanitize build-sanitize-thread build-compare
+	@rm -rf build build-python build-fuzz build-thread build-sanitize build-sanitize-thread build-compare
