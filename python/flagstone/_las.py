@@ -1,0 +1,290 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""LAS and LAZ files as structured arrays, through laspy."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from flagstone._las_classes import classes_from_labels
+from flagstone._progress import Progress
+from flagstone._whole_file import written_whole
+
+if TYPE_CHECKING:
+    import laspy
+
+Points = npt.NDArray[Any]
+
+points_at_once = 1_000_000
+"""How many points are held in more than one form at a time."""
+
+_axes = ("x", "y", "z")
+_scale = 0.001  # metres; what surveys write, and finer than any LiDAR measures
+_least_header = 227  # bytes, of LAS 1.0 to 1.2
+_least_record = 54  # bytes, a variable length record that holds nothing
+_unnamed_columns = ("x", "y", "z", "intensity", "ring")
+
+
+def read(path: str | os.PathLike[str], *, origin: Sequence[float] | None = None) -> Points:
+    """Reads all points of a LAS or LAZ file.
+
+    Args:
+        path: A file of LAS 1.0 to 1.4, point formats 0 to 10, compressed or not.
+        origin: x, y, z in the file's coordinates, subtracted from every point in double precision: the sensor's
+            position, so that what is left is small enough for 32-bit floats.
+
+    Returns:
+        A structured array with a field for each dimension of the file: `x`, `y`, `z` (float64, in the file's units,
+        metres as a rule), then the others by their names in laspy: `intensity`, `return_number`, `classification`,
+        `gps_time` and so on, flags as 0 and 1, then the extra bytes, scaled where the file says how.
+
+    Raises:
+        FileNotFoundError: There is no such file.
+        ValueError: The file is damaged or no LAS file, or `origin` is not three finite numbers.
+        ImportError: laspy is not installed.
+    """
+    moved = _origin(origin)
+    with opened(path) as reader:
+        count = reader.header.point_count
+        names = [name for name in reader.header.point_format.dimension_names if name not in ("X", "Y", "Z")]
+        points = np.empty(count, _dtype(reader, names))
+        done = 0
+        with Progress(count, "points") as progress:
+            for chunk in reader.chunk_iterator(points_at_once):
+                rows = points[done : done + len(chunk)]
+                for axis, shift in zip(_axes, moved):
+                    rows[axis] = np.asarray(chunk[axis]) - shift
+                for name in names:
+                    rows[name] = np.asarray(chunk[name])
+                done += len(chunk)
+                progress.add(len(chunk))
+    return points
+
+
+def write(
+    path: str | os.PathLike[str],
+    points: npt.ArrayLike,
+    *,
+    labels: npt.ArrayLike | None = None,
+    heights: npt.ArrayLike | None = None,
+) -> None:
+    """Writes points as LAS 1.4, compressed where the name ends with `.laz`.
+
+    The point format is 6, 7 with fields `red`, `green`, `blue`, 8 with `nir` too. Coordinates are rounded to a
+    millimetre. Fields that LAS knows are written as such, all others as extra bytes. A floating `intensity` of 0 to 1
+    is spread over the 16 bits that LAS has for it.
+
+    Args:
+        path: The file to write; it is there whole or not at all.
+        points: A structured array with fields x, y, z, or an array of shape (N, >=3), metres.
+        labels: Codes of `flagstone.Label`, shape (N,): `classification` is set from them as `classify_las` does it.
+        heights: Metres above the ground, shape (N,): extra bytes `height`, float32.
+
+    Raises:
+        ValueError: A field does not fit LAS: its name, the value and the range are said.
+        OSError: The file cannot be written.
+        ImportError: laspy is not installed.
+    """
+    laspy = _laspy()
+    fields = _fields(points)
+    count = len(fields["x"])
+    if labels is not None:
+        before = np.asarray(fields.get("classification", np.zeros(count, np.uint8)))
+        fields["classification"] = classes_from_labels(before, _one_a_point("labels", labels, count))
+    if heights is not None:
+        fields["height"] = _one_a_point("heights", heights, count).astype(np.float32)
+
+    header = laspy.LasHeader(version="1.4", point_format=_point_format(fields))
+    header.generating_software = "flagstone"
+    header.scales = np.full(3, _scale)
+    header.offsets = _offsets(fields)
+    standard = set(header.point_format.dimension_names)
+    for name, values in fields.items():
+        if name in _axes:
+            continue
+        if name in standard:
+            fields[name] = _fitting(header, name, values)
+        else:
+            header.add_extra_dim(_extra_bytes(name, values))
+
+    with written_whole(path) as file:
+        compressed = os.fspath(path).lower().endswith(".laz")
+        with (
+            laspy.open(file, mode="w", header=header, do_compress=compressed, closefd=False) as writer,
+            Progress(count, "points") as progress,
+        ):
+            for first in range(0, count, points_at_once):
+                some = slice(first, first + points_at_once)
+                record = laspy.ScaleAwarePointRecord.zeros(len(fields["x"][some]), header=header)
+                for name, values in fields.items():
+                    record[name] = values[some]
+                writer.write_points(record)
+                progress.add(len(record))
+
+
+@contextmanager
+def opened(path: str | os.PathLike[str]) -> Iterator[laspy.LasReader]:
+    """A reader of the file. Whatever its bytes make laspy raise in the block becomes one line of ValueError."""
+    laspy = _laspy()
+    try:
+        with open(path, "rb") as file:
+            size = os.fstat(file.fileno()).st_size
+            _check_header(file.read(_least_header), size)
+            file.seek(0)
+            with laspy.open(file, closefd=False, read_evlrs=False) as reader:
+                _check_size(reader, size)
+                yield reader
+    except BadFile as error:
+        raise ValueError(f"{os.fspath(path)}: {error}") from None
+    except OSError as error:
+        if error.errno is not None:
+            raise
+        raise ValueError(_damaged(path, error)) from error
+    except (KeyboardInterrupt, SystemExit, GeneratorExit, ImportError):
+        raise
+    except BaseException as error:  # lazrs panics are no Exception
+        raise ValueError(_damaged(path, error)) from error
+
+
+class BadFile(Exception):
+    """What is wrong with a file, without its name."""
+
+
+def _damaged(path: str | os.PathLike[str], error: BaseException) -> str:
+    reason = " ".join(str(error).split()) or type(error).__name__
+    return f"{os.fspath(path)}: is no LAS or LAZ file that can be read ({reason}); it may be cut off or damaged"
+
+
+def _laspy() -> Any:
+    try:
+        import laspy
+        import lazrs  # noqa: F401  laspy needs it for LAZ and says so too late
+    except ImportError:
+        raise ImportError("LAS and LAZ need laspy with lazrs: pip install 'flagstone[las]'") from None
+    return laspy
+
+
+# laspy believes a header that is damaged, and looks for four billion records in a small file.
+def _check_header(header: bytes, size: int) -> None:
+    if len(header) < _least_header or header[:4] != b"LASF":
+        raise BadFile("does not begin with the header of a LAS file, LASF; name a .las or .laz file")
+    header_size = int.from_bytes(header[94:96], "little")
+    begin_of_points = int.from_bytes(header[96:100], "little")
+    records = int.from_bytes(header[100:104], "little")
+    if begin_of_points > size or header_size + records * _least_record > begin_of_points:
+        raise BadFile(
+            f"a header of {header_size} bytes, {records} records and points from byte {begin_of_points} on do not fit "
+            f"each other and its {size:,} bytes: it is cut off or damaged"
+        )
+
+
+# No more is allocated than the file's own size can justify; what LAZ expands to is found out by reading.
+def _check_size(reader: laspy.LasReader, size: int) -> None:
+    header = reader.header
+    if header.are_points_compressed:
+        return
+    wanted = header.offset_to_point_data + header.point_count * header.point_format.size
+    if wanted > size:
+        raise BadFile(
+            f"{header.point_count:,} points of {header.point_format.size} bytes need {wanted:,} bytes, the file has "
+            f"{size:,}: it is cut off"
+        )
+
+
+def _dtype(reader: laspy.LasReader, names: Sequence[str]) -> np.dtype[Any]:
+    import laspy
+
+    none = laspy.ScaleAwarePointRecord.zeros(0, header=reader.header)
+    fields: list[tuple[str, Any, tuple[int, ...]]] = [(axis, np.float64, ()) for axis in _axes]
+    for name in names:
+        values = np.asarray(none[name])
+        fields.append((name, values.dtype, values.shape[1:]))
+    return np.dtype(fields)
+
+
+def _origin(origin: Sequence[float] | None) -> tuple[float, float, float]:
+    if origin is None:
+        return (0.0, 0.0, 0.0)
+    values = np.asarray(origin, np.float64)
+    if values.shape != (3,) or not np.isfinite(values).all():
+        raise ValueError(f"origin: {origin!r} is not x, y, z; give three finite numbers in the file's coordinates")
+    return (float(values[0]), float(values[1]), float(values[2]))
+
+
+def _fields(points: npt.ArrayLike) -> dict[str, Points]:
+    array = np.asarray(points)
+    if array.dtype.names is None:
+        if array.ndim != 2 or array.shape[1] < 3:
+            raise ValueError(f"points: an array of shape {array.shape} came; wanted (N, 3 or more), or fields x, y, z")
+        names = [*_unnamed_columns, *(f"c{i}" for i in range(5, array.shape[1]))][: array.shape[1]]
+        return {name: array[:, i] for i, name in enumerate(names)}
+    if missing := [axis for axis in _axes if axis not in array.dtype.names]:
+        raise ValueError(f"points: fields {', '.join(array.dtype.names)} came, without {missing[0]}; wanted x, y, z")
+    return {name: array[name] for name in array.dtype.names}
+
+
+def _one_a_point(what: str, values: npt.ArrayLike, count: int) -> Points:
+    array = np.asarray(values)
+    if array.shape != (count,):
+        raise ValueError(f"{what}: an array of shape {array.shape} came for {count} points; wanted ({count},)")
+    return array
+
+
+def _point_format(fields: Mapping[str, Points]) -> int:
+    if not {"red", "green", "blue"} <= fields.keys():
+        return 6
+    return 8 if "nir" in fields else 7
+
+
+def _offsets(fields: Mapping[str, Points]) -> Points:
+    offsets = np.zeros(3)
+    for i, axis in enumerate(_axes):
+        values = np.asarray(fields[axis], np.float64)
+        if not np.isfinite(values).all():
+            first = int(np.argmin(np.isfinite(values)))
+            raise ValueError(
+                f"points: {axis} of point {first} is {values[first]}; LAS holds finite coordinates only: leave such "
+                "points out"
+            )
+        if len(values) == 0:
+            continue
+        offsets[i] = np.floor(values.min())
+        if values.max() - offsets[i] > np.iinfo(np.int32).max * _scale:
+            raise ValueError(
+                f"points: {axis} reaches from {values.min():g} to {values.max():g} m; in millimetres LAS holds 2147 km"
+            )
+    return offsets
+
+
+def _fitting(header: laspy.LasHeader, name: str, values: Points) -> Points:
+    if name == "gps_time":
+        return values
+    dimension = header.point_format.dimension_by_name(name)
+    if name == "intensity" and values.dtype.kind == "f" and ((values >= 0) & (values <= 1)).all():
+        values = np.rint(values * dimension.max)
+    wrong = ~((values >= dimension.min) & (values <= dimension.max) & (values == np.rint(values)))
+    if wrong.any():
+        first = int(np.argmax(wrong))
+        raise ValueError(
+            f"points: {name} of point {first} is {values[first]}; LAS holds whole numbers of {dimension.min} to "
+            f"{dimension.max} there: round it, or give the field another name"
+        )
+    return values
+
+
+def _extra_bytes(name: str, values: Points) -> Any:
+    import laspy
+
+    shape = values.shape[1:]
+    if values.dtype.kind not in "iuf" or values.dtype.itemsize > 8 or values.dtype == np.float16 or len(shape) > 1:
+        raise ValueError(f"points: field {name} is of type {values.dtype}; LAS holds integers and floats of 4, 8 bytes")
+    if len(name.encode()) > 32 or (shape and shape[0] > 3):
+        raise ValueError(f"points: field {name}: LAS holds names of 32 bytes and fields of 3 numbers at most")
+    kind = values.dtype.newbyteorder("<").str[1:]
+    return laspy.ExtraBytesParams(name=name, type=f"{shape[0]}{kind}" if shape else kind)
