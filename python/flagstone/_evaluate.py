@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from flagstone import _command
-from flagstone._pandas import import_pandas
-from flagstone._toml import flat_settings
+from flagstone._optional import needs
+from flagstone._toml import to_toml
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -131,7 +131,7 @@ def evaluate(
         OSError: No scan could be read.
         ImportError: pandas is not installed.
     """
-    import_pandas()
+    needs("pandas", "pandas")
     datasets = [dataset] if isinstance(dataset, (str, os.PathLike)) else list(dataset)
     for each in datasets:
         if not Path(each).exists():
@@ -149,7 +149,7 @@ def evaluate(
         *_command.option("tilt", None if tilt is None else _command.listed(tilt)),
         *_command.option("preset", preset),
         *_command.option("config", config),
-        *(f"--set={setting}" for setting in flat_settings(settings or {})),
+        *(f"--set={method}.{line}" for method, own in (settings or {}).items() for line in to_toml(own).splitlines()),
         *(f"--labels={name}={os.fspath(folder)}" for name, folder in (labels or {}).items()),
         *_command.option("label-map", label_map),
         *_command.option("threads", threads),
@@ -166,7 +166,7 @@ def evaluate(
 
 
 def _read(json_file: Path, csv_file: Path) -> Evaluation:
-    pandas = import_pandas()
+    pandas = needs("pandas", "pandas")
     results = json.loads(json_file.read_text(encoding="utf-8"))
     methods = results["methods"]
     names = {"method": str, "scan": str}

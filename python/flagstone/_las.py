@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from flagstone._las_classes import classes_from_labels
+from flagstone._optional import needs
 from flagstone._progress import Progress
 from flagstone._whole_file import written_whole
 
@@ -28,16 +29,18 @@ _axes = ("x", "y", "z")
 _scale = 0.001  # metres; what surveys write, and finer than any LiDAR measures
 _least_header = 227  # bytes, of LAS 1.0 to 1.2
 _least_record = 54  # bytes, a variable length record that holds nothing
-_unnamed_columns = ("x", "y", "z", "intensity", "ring")
 
 
-def read(path: str | os.PathLike[str], *, origin: Sequence[float] | None = None) -> Points:
+def is_las(path: str | os.PathLike[str]) -> bool:
+    """Whether a file's name says LAS or LAZ."""
+    return os.fspath(path).lower().endswith((".las", ".laz"))
+
+
+def read(path: str | os.PathLike[str]) -> Points:
     """Reads all points of a LAS or LAZ file.
 
     Args:
         path: A file of LAS 1.0 to 1.4, point formats 0 to 10, compressed or not.
-        origin: x, y, z in the file's coordinates, subtracted from every point in double precision: the sensor's
-            position, so that what is left is small enough for 32-bit floats.
 
     Returns:
         A structured array with a field for each dimension of the file: `x`, `y`, `z` (float64, in the file's units,
@@ -46,10 +49,9 @@ def read(path: str | os.PathLike[str], *, origin: Sequence[float] | None = None)
 
     Raises:
         FileNotFoundError: There is no such file.
-        ValueError: The file is damaged or no LAS file, or `origin` is not three finite numbers.
+        ValueError: The file is damaged or no LAS file.
         ImportError: laspy is not installed.
     """
-    moved = _origin(origin)
     with opened(path) as reader:
         count = reader.header.point_count
         names = [name for name in reader.header.point_format.dimension_names if name not in ("X", "Y", "Z")]
@@ -58,9 +60,7 @@ def read(path: str | os.PathLike[str], *, origin: Sequence[float] | None = None)
         with Progress(count, "points") as progress:
             for chunk in reader.chunk_iterator(points_at_once):
                 rows = points[done : done + len(chunk)]
-                for axis, shift in zip(_axes, moved):
-                    rows[axis] = np.asarray(chunk[axis]) - shift
-                for name in names:
+                for name in (*_axes, *names):
                     rows[name] = np.asarray(chunk[name])
                 done += len(chunk)
                 progress.add(len(chunk))
@@ -69,7 +69,7 @@ def read(path: str | os.PathLike[str], *, origin: Sequence[float] | None = None)
 
 def write(
     path: str | os.PathLike[str],
-    points: npt.ArrayLike,
+    points: Points,
     *,
     labels: npt.ArrayLike | None = None,
     heights: npt.ArrayLike | None = None,
@@ -82,7 +82,7 @@ def write(
 
     Args:
         path: The file to write; it is there whole or not at all.
-        points: A structured array with fields x, y, z, or an array of shape (N, >=3), metres.
+        points: A structured array of shape (N,) with fields x, y, z, metres.
         labels: Codes of `flagstone.Label`, shape (N,): `classification` is set from them as `classify_las` does it.
         heights: Metres above the ground, shape (N,): extra bytes `height`, float32.
 
@@ -92,7 +92,9 @@ def write(
         ImportError: laspy is not installed.
     """
     laspy = _laspy()
-    fields = _fields(points)
+    if missing := [axis for axis in _axes if axis not in (points.dtype.names or ())]:
+        raise ValueError(f"points: field {missing[0]} is missing; wanted are x, y and z")
+    fields = {name: points[name] for name in points.dtype.names or ()}
     count = len(fields["x"])
     if labels is not None:
         before = np.asarray(fields.get("classification", np.zeros(count, np.uint8)))
@@ -162,12 +164,8 @@ def _damaged(path: str | os.PathLike[str], error: BaseException) -> str:
 
 
 def _laspy() -> Any:
-    try:
-        import laspy
-        import lazrs  # noqa: F401  laspy needs it for LAZ and says so too late
-    except ImportError:
-        raise ImportError("LAS and LAZ need laspy with lazrs: pip install 'flagstone[las]'") from None
-    return laspy
+    needs("lazrs", "las")  # laspy needs it for LAZ, and says so too late
+    return needs("laspy", "las")
 
 
 # laspy believes a header that is damaged, and looks for four billion records in a small file.
@@ -206,27 +204,6 @@ def _dtype(reader: laspy.LasReader, names: Sequence[str]) -> np.dtype[Any]:
         values = np.asarray(none[name])
         fields.append((name, values.dtype, values.shape[1:]))
     return np.dtype(fields)
-
-
-def _origin(origin: Sequence[float] | None) -> tuple[float, float, float]:
-    if origin is None:
-        return (0.0, 0.0, 0.0)
-    values = np.asarray(origin, np.float64)
-    if values.shape != (3,) or not np.isfinite(values).all():
-        raise ValueError(f"origin: {origin!r} is not x, y, z; give three finite numbers in the file's coordinates")
-    return (float(values[0]), float(values[1]), float(values[2]))
-
-
-def _fields(points: npt.ArrayLike) -> dict[str, Points]:
-    array = np.asarray(points)
-    if array.dtype.names is None:
-        if array.ndim != 2 or array.shape[1] < 3:
-            raise ValueError(f"points: an array of shape {array.shape} came; wanted (N, 3 or more), or fields x, y, z")
-        names = [*_unnamed_columns, *(f"c{i}" for i in range(5, array.shape[1]))][: array.shape[1]]
-        return {name: array[:, i] for i, name in enumerate(names)}
-    if missing := [axis for axis in _axes if axis not in array.dtype.names]:
-        raise ValueError(f"points: fields {', '.join(array.dtype.names)} came, without {missing[0]}; wanted x, y, z")
-    return {name: array[name] for name in array.dtype.names}
 
 
 def _one_a_point(what: str, values: npt.ArrayLike, count: int) -> Points:

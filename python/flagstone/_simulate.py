@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flagstone import _command
-from flagstone._pandas import import_pandas
+from flagstone._optional import needs
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -73,7 +73,7 @@ def simulate(
         OSError: Files cannot be written.
         ImportError: pandas is not installed.
     """
-    import_pandas()
+    needs("pandas", "pandas")
     arguments = [
         *("simulate", f"--output={os.fspath(output)}", f"--scene={scene}"),
         *_command.option("sensor", os.fspath(sensor)),
@@ -94,7 +94,7 @@ def simulate(
 
 
 def _list_sequence(folder: Path, frames: int) -> pd.DataFrame:
-    pandas = import_pandas()
+    pandas = needs("pandas", "pandas")
     poses = np.loadtxt(folder / "poses.txt", ndmin=2).reshape(-1, 3, 4)
     rows = []
     for frame in range(frames):

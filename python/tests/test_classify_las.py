@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-
 from flagstone import _las_classify
 from flagstone.io import classify_las
 from las_files import laspy, point_formats, set_classes, write_random_las
