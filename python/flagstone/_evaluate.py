@@ -13,12 +13,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from flagstone import _command
 from flagstone._optional import needs
+from flagstone._run_command import file_argument, listed, option, run
 from flagstone._toml import to_toml
 
 if TYPE_CHECKING:
-    import pandas as pd
+    import pandas
 
 PathLike = str | os.PathLike[str]
 
@@ -54,11 +54,11 @@ class Evaluation:
         date: Day of the run, YYYY-MM-DD.
     """
 
-    methods: pd.DataFrame
-    scans: pd.DataFrame
-    ranges: pd.DataFrame
-    heights: pd.DataFrame
-    failed: pd.DataFrame
+    methods: pandas.DataFrame
+    scans: pandas.DataFrame
+    ranges: pandas.DataFrame
+    heights: pandas.DataFrame
+    failed: pandas.DataFrame
     unscored: tuple[str, ...]
     protocol: str
     datasets: tuple[str, ...]
@@ -71,8 +71,10 @@ class Evaluation:
         scans = "1 scan" if count == 1 else f"{count} scans"
         return f"{scans} of {', '.join(self.datasets)}, protocol {self.protocol}"
 
-    def _brief(self) -> pd.DataFrame:
-        return self.methods[["scans", "precision", "recall", "f1", "f1_ci95", "accuracy", "iou", "hz"]]
+    def _brief(self) -> pandas.DataFrame:
+        columns = ["scans", "precision", "recall", "f1", "f1_ci95", "accuracy", "iou", "hz"]
+        brief: pandas.DataFrame = self.methods[columns]
+        return brief
 
     def __repr__(self) -> str:
         return f"{self._heading()}\n{self._brief().to_string(float_format='{:.4f}'.format)}"
@@ -138,25 +140,25 @@ def evaluate(
             raise FileNotFoundError(f"{os.fspath(each)}: no such dataset")
     arguments = [
         "eval",
-        *map(_command.file_argument, datasets),
-        *_command.option("methods", _command.listed(methods)),
-        *_command.option("protocol", os.fspath(protocol)),
-        *_command.option("sequences", None if sequences is None else _command.listed(sequences)),
-        *_command.option("every", every),
-        *_command.option("columns", columns),
-        *_command.option("sensor", sensor),
-        *_command.option("sensor-height", sensor_height),
-        *_command.option("tilt", None if tilt is None else _command.listed(tilt)),
-        *_command.option("preset", preset),
-        *_command.option("config", config),
+        *map(file_argument, datasets),
+        *option("methods", listed(methods)),
+        *option("protocol", os.fspath(protocol)),
+        *option("sequences", None if sequences is None else listed(sequences)),
+        *option("every", every),
+        *option("columns", columns),
+        *option("sensor", sensor),
+        *option("sensor-height", sensor_height),
+        *option("tilt", None if tilt is None else listed(tilt)),
+        *option("preset", preset),
+        *option("config", config),
         *(f"--set={method}.{line}" for method, own in (settings or {}).items() for line in to_toml(own).splitlines()),
         *(f"--labels={name}={os.fspath(folder)}" for name, folder in (labels or {}).items()),
-        *_command.option("label-map", label_map),
-        *_command.option("threads", threads),
+        *option("label-map", label_map),
+        *option("threads", threads),
     ]
     with tempfile.TemporaryDirectory(prefix="flagstone-") as folder:
         json_file, csv_file = Path(folder) / "results.json", Path(folder) / "results.csv"
-        ended = _command.run([*arguments, f"--json={json_file}", f"--csv={csv_file}"])
+        ended = run([*arguments, f"--json={json_file}", f"--csv={csv_file}"])
         if not json_file.exists():
             raise OSError(ended.reason)
         evaluation = _read(json_file, csv_file)
@@ -166,16 +168,16 @@ def evaluate(
 
 
 def _read(json_file: Path, csv_file: Path) -> Evaluation:
-    pandas = needs("pandas", "pandas")
+    pd = needs("pandas", "pandas")
     results = json.loads(json_file.read_text(encoding="utf-8"))
     methods = results["methods"]
     names = {"method": str, "scan": str}
     return Evaluation(
-        methods=pandas.DataFrame([_method_row(method) for method in methods]).set_index("method"),
-        scans=pandas.read_csv(csv_file, dtype=names, keep_default_na=False, na_values=[""]),
-        ranges=pandas.DataFrame([row for method in methods for row in _range_rows(method)]),
-        heights=pandas.DataFrame([row for method in methods for row in _height_rows(method)], columns=_height_columns),
-        failed=pandas.DataFrame(results["failed"], columns=["scan", "error"]),
+        methods=pd.DataFrame([_method_row(method) for method in methods]).set_index("method"),
+        scans=pd.read_csv(csv_file, dtype=names, keep_default_na=False, na_values=[""]),
+        ranges=pd.DataFrame([row for method in methods for row in _range_rows(method)]),
+        heights=pd.DataFrame([row for method in methods for row in _height_rows(method)], columns=_height_columns),
+        failed=pd.DataFrame(results["failed"], columns=["scan", "error"]),
         unscored=tuple(results["unscored"]),
         protocol=results["protocol"],
         datasets=tuple(results["datasets"]),

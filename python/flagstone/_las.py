@@ -7,7 +7,8 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,9 +17,6 @@ from flagstone._las_classes import classes_from_labels
 from flagstone._optional import needs
 from flagstone._progress import Progress
 from flagstone._whole_file import written_whole
-
-if TYPE_CHECKING:
-    import laspy
 
 Points = npt.NDArray[Any]
 
@@ -131,18 +129,18 @@ def write(
 
 
 @contextmanager
-def opened(path: str | os.PathLike[str]) -> Iterator[laspy.LasReader]:
+def opened(path: str | os.PathLike[str]) -> Iterator[Any]:
     """A reader of the file. Whatever its bytes make laspy raise in the block becomes one line of ValueError."""
     laspy = _laspy()
     try:
-        with open(path, "rb") as file:
+        with Path(path).open("rb") as file:
             size = os.fstat(file.fileno()).st_size
             _check_header(file.read(_least_header), size)
             file.seek(0)
             with laspy.open(file, closefd=False, read_evlrs=False) as reader:
                 _check_size(reader, size)
                 yield reader
-    except BadFile as error:
+    except BadFileError as error:
         raise ValueError(f"{os.fspath(path)}: {error}") from None
     except OSError as error:
         if error.errno is not None:
@@ -154,7 +152,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[laspy.LasReader]:
         raise ValueError(_damaged(path, error)) from error
 
 
-class BadFile(Exception):
+class BadFileError(Exception):
     """What is wrong with a file, without its name."""
 
 
@@ -171,34 +169,32 @@ def _laspy() -> Any:
 # laspy believes a header that is damaged, and looks for four billion records in a small file.
 def _check_header(header: bytes, size: int) -> None:
     if len(header) < _least_header or header[:4] != b"LASF":
-        raise BadFile("does not begin with the header of a LAS file, LASF; name a .las or .laz file")
+        raise BadFileError("does not begin with the header of a LAS file, LASF; name a .las or .laz file")
     header_size = int.from_bytes(header[94:96], "little")
     begin_of_points = int.from_bytes(header[96:100], "little")
     records = int.from_bytes(header[100:104], "little")
     if begin_of_points > size or header_size + records * _least_record > begin_of_points:
-        raise BadFile(
+        raise BadFileError(
             f"a header of {header_size} bytes, {records} records and points from byte {begin_of_points} on do not fit "
             f"each other and its {size:,} bytes: it is cut off or damaged"
         )
 
 
 # No more is allocated than the file's own size can justify; what LAZ expands to is found out by reading.
-def _check_size(reader: laspy.LasReader, size: int) -> None:
+def _check_size(reader: Any, size: int) -> None:
     header = reader.header
     if header.are_points_compressed:
         return
     wanted = header.offset_to_point_data + header.point_count * header.point_format.size
     if wanted > size:
-        raise BadFile(
+        raise BadFileError(
             f"{header.point_count:,} points of {header.point_format.size} bytes need {wanted:,} bytes, the file has "
             f"{size:,}: it is cut off"
         )
 
 
-def _dtype(reader: laspy.LasReader, names: Sequence[str]) -> np.dtype[Any]:
-    import laspy
-
-    none = laspy.ScaleAwarePointRecord.zeros(0, header=reader.header)
+def _dtype(reader: Any, names: Sequence[str]) -> np.dtype[Any]:
+    none = _laspy().ScaleAwarePointRecord.zeros(0, header=reader.header)
     fields: list[tuple[str, Any, tuple[int, ...]]] = [(axis, np.float64, ()) for axis in _axes]
     for name in names:
         values = np.asarray(none[name])
@@ -239,7 +235,7 @@ def _offsets(fields: Mapping[str, Points]) -> Points:
     return offsets
 
 
-def _fitting(header: laspy.LasHeader, name: str, values: Points) -> Points:
+def _fitting(header: Any, name: str, values: Points) -> Points:
     if name == "gps_time":
         return values
     dimension = header.point_format.dimension_by_name(name)
@@ -256,12 +252,10 @@ def _fitting(header: laspy.LasHeader, name: str, values: Points) -> Points:
 
 
 def _extra_bytes(name: str, values: Points) -> Any:
-    import laspy
-
     shape = values.shape[1:]
     if values.dtype.kind not in "iuf" or values.dtype.itemsize > 8 or values.dtype == np.float16 or len(shape) > 1:
         raise ValueError(f"points: field {name} is of type {values.dtype}; LAS holds integers and floats of 4, 8 bytes")
     if len(name.encode()) > 32 or (shape and shape[0] > 3):
         raise ValueError(f"points: field {name}: LAS holds names of 32 bytes and fields of 3 numbers at most")
     kind = values.dtype.newbyteorder("<").str[1:]
-    return laspy.ExtraBytesParams(name=name, type=f"{shape[0]}{kind}" if shape else kind)
+    return _laspy().ExtraBytesParams(name=name, type=f"{shape[0]}{kind}" if shape else kind)

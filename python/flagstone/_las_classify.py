@@ -8,13 +8,15 @@ import os
 import zlib
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
 import numpy.typing as npt
 
-from flagstone._las import BadFile, opened, points_at_once
+from flagstone._las import BadFileError, opened, points_at_once
 from flagstone._las_classes import checked_labels, class_table, default_may_change
+from flagstone._optional import needs
 from flagstone._progress import Progress
 from flagstone._whole_file import written_whole
 
@@ -64,14 +66,14 @@ def classify_las(
     """
     codes = checked_labels(labels)
     table = class_table(may_change)
-    ending = os.path.splitext(os.fspath(source))[1].lower()
-    if os.path.splitext(os.fspath(destination))[1].lower() != ending:
+    ending = Path(source).suffix.lower()
+    if Path(destination).suffix.lower() != ending:
         raise ValueError(f"destination: {os.fspath(destination)} must end with {ending}, as the source does")
     counts = np.zeros(256, np.int64)
-    with written_whole(destination) as copy, opened(source) as reader, open(source, "rb") as file:
+    with written_whole(destination) as copy, opened(source) as reader, Path(source).open("rb") as file:
         layout = _Layout.of(reader, os.fstat(file.fileno()).st_size)
         if len(codes) != layout.count:
-            raise BadFile(f"has {layout.count:,} points, but there are {len(codes):,} labels; give one a point")
+            raise BadFileError(f"has {layout.count:,} points, but there are {len(codes):,} labels; give one a point")
         with Progress(layout.count, "points") as progress:
 
             def classify(rows: Rows, first: int) -> None:
@@ -102,14 +104,16 @@ class _Layout:
         header = reader.header
         for record in header.vlrs:
             if record.user_id == "copc":
-                raise BadFile("is COPC, whose index tells where each compressed chunk is; convert it to plain LAZ")
+                raise BadFileError("is COPC, whose index tells where each compressed chunk is; convert it to plain LAZ")
             if record.user_id == "lascompatible":
-                raise BadFile("is LAS 1.4 in compatibility mode, with classes in two places; convert it to plain LAZ")
+                raise BadFileError(
+                    "is LAS 1.4 in compatibility mode, with classes in two places; convert it to plain LAZ"
+                )
         has_long_class = header.point_format.id >= 6
         starts = (header.start_of_waveform_data_packet_record, header.start_of_first_evlr)
         behind = min((start for start in starts if start > header.offset_to_point_data), default=0)
         if behind > size:
-            raise BadFile(f"says that records begin at byte {behind:,} of its {size:,}: it is cut off or damaged")
+            raise BadFileError(f"says that records begin at byte {behind:,} of its {size:,}: it is cut off or damaged")
         return _Layout(
             begin=header.offset_to_point_data,
             count=header.point_count,
@@ -126,7 +130,7 @@ def _compression(header: Any) -> bytes | None:
         return None
     parameters = bytes(header.vlrs.get("LasZipVlr")[0].record_data)
     if int.from_bytes(parameters[:2], "little") not in (2, 3):
-        raise BadFile("was compressed by a LASzip of before 2011, without chunks; compress it anew")
+        raise BadFileError("was compressed by a LASzip of before 2011, without chunks; compress it anew")
     return parameters
 
 
@@ -143,15 +147,14 @@ def _copy_uncompressed(file: BinaryIO, copy: BinaryIO, layout: _Layout, classify
         count = min(points_at_once, layout.count - first)
         rows = np.frombuffer(bytearray(file.read(count * layout.row)), np.uint8).reshape(-1, layout.row)
         classify(rows, first)
-        copy.write(rows)
+        copy.write(rows.data)
     _copy_rest(file, copy)
 
 
 def _copy_compressed(
     file: BinaryIO, copy: BinaryIO, layout: _Layout, parameters: bytes, classify: Callable[[Rows, int], None]
 ) -> None:
-    import lazrs
-
+    lazrs = needs("lazrs", "las")
     file.seek(0)
     head = bytearray(file.read(layout.begin))
     copy.write(head)
@@ -165,7 +168,7 @@ def _copy_compressed(
             compressor.finish_current_chunk()
         classify(rows, first)
         first += len(rows)
-        checksum = zlib.crc32(rows, checksum)
+        checksum = zlib.crc32(rows.data, checksum)
         compressor.compress_many(rows.reshape(-1))
     compressor.done()
 
@@ -182,8 +185,7 @@ def _copy_compressed(
 
 # Rows of points, and whether a chunk of the compressed file begins with them.
 def _decompressed(file: BinaryIO, layout: _Layout, parameters: bytes) -> Iterator[tuple[Rows, bool]]:
-    import lazrs
-
+    lazrs = needs("lazrs", "las")
     kind = lazrs.LazVlr(parameters)
     chunks = [layout.count]
     if kind.uses_variable_size_chunks():
@@ -212,9 +214,9 @@ def _check_copy(copy: BinaryIO, layout: _Layout, parameters: bytes, checksum: in
     copy.flush()
     again = 0
     for rows, _ in _decompressed(copy, layout, parameters):
-        again = zlib.crc32(rows, again)
+        again = zlib.crc32(rows.data, again)
     if again != checksum:
-        raise BadFile("cannot be compressed by lazrs without loss; uncompress it to LAS, and give that")
+        raise BadFileError("cannot be compressed by lazrs without loss; uncompress it to LAS, and give that")
 
 
 def _copy_rest(file: BinaryIO, copy: BinaryIO) -> None:

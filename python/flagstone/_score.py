@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -73,8 +74,8 @@ def score(labels: npt.ArrayLike, classes: npt.ArrayLike, points: PointsLike, *, 
         TypeError: Labels or classes are no integers.
         ValueError: Lengths differ, the protocol is not known, or a label or class is none.
     """
-    codes = _whole("labels", labels, np.uint8, 4)
-    truth = _whole("classes", classes, np.uint32, 0xFFFF)
+    codes = np.ascontiguousarray(_whole("labels", labels, 4), np.uint8)
+    truth = np.ascontiguousarray(_whole("classes", classes, 0xFFFF), np.uint32)
     return Score(*map(int, _core.score(codes, truth, *columns_of(points), protocol)))
 
 
@@ -82,7 +83,7 @@ def _share(part: int, whole: int) -> float:
     return 1.0 if whole == 0 else part / whole
 
 
-def _whole(name: str, values: npt.ArrayLike, kind: type[np.unsignedinteger[npt.NBitBase]], most: int) -> npt.NDArray:  # type: ignore[type-arg]
+def _whole(name: str, values: npt.ArrayLike, most: int) -> npt.NDArray[Any]:
     array = np.asarray(values)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{name}: an array of {array.dtype} came; wanted are whole numbers of 0 to {most:,}")
@@ -92,4 +93,4 @@ def _whole(name: str, values: npt.ArrayLike, kind: type[np.unsignedinteger[npt.N
         raise ValueError(
             f"{name}: reach from {array.min()} to {array.max()}; wanted are whole numbers of 0 to {most:,}"
         )
-    return np.ascontiguousarray(array, kind)
+    return array

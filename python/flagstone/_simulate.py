@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from flagstone import _command
 from flagstone._optional import needs
+from flagstone._run_command import listed, option, run
 
 if TYPE_CHECKING:
-    import pandas as pd
+    import pandas
 
 PathLike = str | os.PathLike[str]
 
@@ -37,7 +37,7 @@ def simulate(
     seed: int = 1,
     sequence: str = "00",
     threads: int | None = None,
-) -> pd.DataFrame:
+) -> pandas.DataFrame:
     """Simulates a sequence of scans with exact truth, as `flagstone simulate` does.
 
     The files lie below `output/sequences/NN` as SemanticKITTI lays out a sequence, so that `evaluate(output)` reads
@@ -76,43 +76,43 @@ def simulate(
     needs("pandas", "pandas")
     arguments = [
         *("simulate", f"--output={os.fspath(output)}", f"--scene={scene}"),
-        *_command.option("sensor", os.fspath(sensor)),
-        *_command.option("sensor-height", sensor_height),
-        *_command.option("tilt", _command.listed(tilt)),
-        *_command.option("noise", noise),
-        *_command.option("weather", _command.listed(weather)),
+        *option("sensor", os.fspath(sensor)),
+        *option("sensor-height", sensor_height),
+        *option("tilt", listed(tilt)),
+        *option("noise", noise),
+        *option("weather", listed(weather)),
         *(["--keep-no-returns"] if keep_no_returns else []),
-        *_command.option("frames", frames),
-        *_command.option("seed", seed),
-        *_command.option("sequence", sequence),
-        *_command.option("threads", threads),
+        *option("frames", frames),
+        *option("seed", seed),
+        *option("sequence", sequence),
+        *option("threads", threads),
     ]
-    ended = _command.run(arguments)
+    ended = run(arguments)
     if ended.code != 0:
         raise OSError(ended.reason)
     return _list_sequence(Path(output) / "sequences" / sequence, frames)
 
 
-def _list_sequence(folder: Path, frames: int) -> pd.DataFrame:
-    pandas = needs("pandas", "pandas")
+def _list_sequence(folder: Path, frames: int) -> pandas.DataFrame:
     poses = np.loadtxt(folder / "poses.txt", ndmin=2).reshape(-1, 3, 4)
     rows = []
-    for frame in range(frames):
-        name = f"{frame:06}"
+    for number in range(frames):
+        name = f"{number:06}"
         labels = folder / "labels" / f"{name}.label"
         classes = np.fromfile(labels, "<u4") & 0xFFFF
         rows.append(
             {
                 "sequence": folder.name,
-                "frame": frame,
-                "drive": frame // _frames_per_drive,
+                "frame": number,
+                "drive": number // _frames_per_drive,
                 "scan": str(folder / "velodyne" / f"{name}.bin"),
                 "labels": str(labels),
                 "ground": str(folder / "ground" / f"{name}.ground.npy"),
                 "echoes": str(folder / "echoes" / f"{name}.echo.npy"),
                 "points": len(classes),
                 "ground_share": float(np.isin(classes, _ground_classes).mean()) if len(classes) > 0 else float("nan"),
-                **dict(zip("xyz", poses[frame, :, 3].tolist())),
+                **dict(zip("xyz", poses[number, :, 3].tolist(), strict=True)),
             }
         )
-    return pandas.DataFrame(rows)
+    frame: pandas.DataFrame = needs("pandas", "pandas").DataFrame(rows)
+    return frame

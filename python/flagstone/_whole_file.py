@@ -36,7 +36,7 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     try:
         with opened:
             yield cast(BinaryIO, file)
-        os.replace(temporary, target)
+        temporary.replace(target)
     except BaseException as raised:
         temporary.unlink(missing_ok=True)
         fault = file.fault if file.fault is not None else raised
@@ -69,6 +69,6 @@ def _new_file_in(folder: Path) -> tuple[Path, BinaryIO]:
     while True:
         path = folder / f".flagstone-{os.getpid()}-py{next(_numbers)}.tmp"
         try:
-            return path, open(path, "x+b")
+            return path, path.open("x+b")
         except FileExistsError:  # left behind by a killed process that had our number
             continue

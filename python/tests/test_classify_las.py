@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from las_files import laspy, point_formats, set_classes, write_random_las
+
 from flagstone import _las_classify
 from flagstone.io import classify_las
-from las_files import laspy, point_formats, set_classes, write_random_las
 
 GROUND, NONGROUND, NOISE, OUT_OF_RANGE, INVALID = 1, 0, 2, 3, 4
 endings = ("las", "laz")
@@ -45,8 +46,10 @@ def test_points_get_the_class_that_the_rule_says(tmp_path: Path, point_format: i
     for may_change in ({0, 1, 2, 7}, set(), set(range(256)), set(random.integers(0, 32, 9).tolist())):
         counts = classify_las(source, copy, labels, may_change=may_change)
         after = np.asarray(laspy.read(copy).classification)
-        assert after.tolist() == [class_of(*each, may_change) for each in zip(before.tolist(), labels.tolist())]
-        assert counts == dict(zip(*(each.tolist() for each in np.unique(after, return_counts=True))))
+        assert after.tolist() == [
+            class_of(*each, may_change) for each in zip(before.tolist(), labels.tolist(), strict=True)
+        ]
+        assert counts == dict(zip(*(each.tolist() for each in np.unique(after, return_counts=True)), strict=True))
 
 
 @pytest.mark.parametrize("point_format", point_formats)
@@ -142,7 +145,7 @@ def test_laz_with_chunks_of_any_size_keeps_them(tmp_path: Path) -> None:
     source, copy = tmp_path / "a.laz", tmp_path / "b.laz"
     write_random_las(source, 6, count=1000)
     las = laspy.read(source)
-    with open(source, "wb") as file:
+    with source.open("wb") as file:
         kind = lazrs.LazVlr.new_for_compression(6, las.point_format.num_extra_bytes, True)
         header = las.header
         header.are_points_compressed, header.number_of_evlrs, header.start_of_first_evlr = True, 0, 0
@@ -159,7 +162,7 @@ def test_laz_with_chunks_of_any_size_keeps_them(tmp_path: Path) -> None:
     with laspy.open(copy) as reader:
         parameters = reader.header.vlrs.get("LasZipVlr")[0].record_data
         begin = reader.header.offset_to_point_data
-    with open(copy, "rb") as file:
+    with copy.open("rb") as file:
         file.seek(begin)
         chunks = lazrs.read_chunk_table(file, lazrs.LazVlr(parameters))
     assert [points for points, _ in chunks] == [10, 690, 300]
@@ -204,13 +207,13 @@ def test_labels_that_do_not_fit_are_one_line(tmp_path: Path) -> None:
     write_random_las(source, 6)
     with pytest.raises(ValueError, match=r"a\.las: has 1,000 points, but there are 999 labels; give one a point"):
         classify_las(source, copy, np.zeros(999, np.uint8))
-    with pytest.raises(ValueError, match="labels: that of point 3 is 5; wanted codes of flagstone.Label, 0 to 4"):
+    with pytest.raises(ValueError, match=r"labels: that of point 3 is 5; wanted codes of flagstone.Label, 0 to 4"):
         classify_las(source, copy, np.array([0, 1, 2, 5]))
-    with pytest.raises(TypeError, match="labels: an array of float64 came; wanted codes"):
+    with pytest.raises(TypeError, match=r"labels: an array of float64 came; wanted codes"):
         classify_las(source, copy, np.zeros(1000))
     with pytest.raises(ValueError, match=r"labels: an array of shape \(10, 100\) came; wanted \(N,\)"):
         classify_las(source, copy, np.zeros((10, 100), np.uint8))
-    with pytest.raises(ValueError, match="may_change: 256 is no class of LAS; wanted whole numbers of 0 to 255"):
+    with pytest.raises(ValueError, match=r"may_change: 256 is no class of LAS; wanted whole numbers of 0 to 255"):
         classify_las(source, copy, np.zeros(1000, np.uint8), may_change=[256])
     assert not copy.exists()
 

@@ -4,14 +4,16 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from flagstone.io import read, write
 from las_files import laspy, point_formats, write_random_las
+
+from flagstone.io import read, write
 
 endings = ("las", "laz")
 
@@ -148,7 +150,7 @@ def test_labels_and_heights_are_one_a_point(tmp_path: Path) -> None:
 def test_an_origin_is_three_finite_numbers(tmp_path: Path) -> None:
     write_random_las(tmp_path / "a.las", 6)
     for origin in ([1, 2], [1, 2, float("nan")]):
-        with pytest.raises(ValueError, match="origin = .*; wanted are x, y, z, three finite numbers"):
+        with pytest.raises(ValueError, match=r"origin = .*; wanted are x, y, z, three finite numbers"):
             read(tmp_path / "a.las", origin=origin)
 
 
@@ -187,6 +189,21 @@ def test_damaged_files_are_one_line_or_read_but_nothing_worse(tmp_path: Path, en
                 assert str(error).startswith(f"{file}: ") and "\n" not in str(error)
                 refused += 1
     assert refused > 50
+
+
+@pytest.mark.parametrize("ending", endings)
+def test_a_full_disk_leaves_no_file(tmp_path: Path, ending: str) -> None:
+    program = (
+        "import numpy, resource, signal, sys, flagstone.io\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))\n"
+        "try: flagstone.io.write(sys.argv[1], numpy.random.default_rng(1).random((50_000, 3)))\n"
+        "except OSError as error: print(error)\n"
+    )
+    file = tmp_path / f"a.{ending}"
+    done = subprocess.run([sys.executable, "-c", program, file], capture_output=True, text=True)
+    assert done.stdout == f"[Errno 27] File too large: '{file}'\n", done.stderr
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_without_laspy_it_is_said_how_to_get_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
