@@ -59,6 +59,7 @@ def run(arguments: Sequence[str]) -> Ended:
         code = process.wait()
     except BaseException:
         _end(process)
+        _show("\r\x1b[K")  # no progress any more
         raise
     finally:
         os.close(read_end)

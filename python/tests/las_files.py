@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import struct
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +33,54 @@ def write_random_las(path: Path, point_format: int, count: int = 1000, seed: int
     if str(header.version) == "1.4":
         las.evlrs = laspy.vlrs.vlrlist.VLRList([laspy.VLR("someone", 8, "at the end", b"also kept" * 1000)])
     las.write(path)
+
+
+def write_copc(path: Path) -> None:
+    """A COPC file of four nodes, the last of them in a page of its own, with records of others about its index."""
+    import lazrs
+
+    random = np.random.default_rng(3)
+    voxels = {(0, 0, 0, 0): (-100, 100), (1, 0, 0, 0): (-100, 0), (1, 1, 1, 1): (0, 100), (2, 3, 3, 3): (50, 100)}
+    header = laspy.LasHeader(point_format=6)
+    nodes = []
+    for low, high in voxels.values():
+        points = laspy.ScaleAwarePointRecord.zeros(int(random.integers(100, 2000)), header=header)
+        points.array.view(np.uint8)[:] = random.integers(0, 256, points.array.nbytes, np.uint8)
+        for axis in ("x", "y", "z"):
+            points[axis] = random.uniform(low, high, len(points))
+        points["gps_time"] = header.point_count + np.arange(len(points))  # the place in the file
+        nodes.append(points)
+        header.grow(points)
+
+    kind = lazrs.LazVlr.new_for_compression(6, 0, True)
+    header.vlrs.append(laspy.VLR("copc", 1, "", struct.pack("<5d2Q13Q", 0, 0, 0, 100, 10, *[0] * 15)))
+    header.vlrs.append(laspy.vlrs.known.LasZipVlr(kind.record_data()))
+    header.are_points_compressed, header.number_of_evlrs = True, 2
+    with path.open("w+b") as file:
+        header.write_to(file)
+        begin = file.tell()
+        compressor = lazrs.LasZipCompressor(file, kind)
+        for i, points in enumerate(nodes):
+            if i > 0:
+                compressor.finish_current_chunk()
+            compressor.compress_many(np.frombuffer(points.array.tobytes(), np.uint8))
+        compressor.done()
+        file.seek(begin)
+        sizes = [size for _, size in lazrs.read_chunk_table(file, kind)]
+        places = [begin + 8 + sum(sizes[:i]) for i in range(len(sizes))]
+
+        header.start_of_first_evlr = file.seek(0, 2)
+        other = laspy.vlrs.vlrlist.VLRList([laspy.VLR("someone", 8, "", b"kept")])
+        other.write_to(file, as_extended=True)
+        root = file.tell() + 60
+        entries = [(*voxel, places[i], sizes[i], len(nodes[i])) for i, voxel in enumerate(voxels)]
+        pages = [*entries[:3], (*list(voxels)[3], root + 5 * 32, 32, -1), (1, 0, 0, 1, 0, 0, 0), entries[3]]
+        index = b"".join(struct.pack("<4iQii", *entry) for entry in pages)
+        laspy.vlrs.vlrlist.VLRList([laspy.VLR("copc", 1000, "", index)]).write_to(file, as_extended=True)
+        info = struct.pack("<5d2Q2d11Q", 0, 0, 0, 100, 10, root, 5 * 32, *[0] * 13)
+        header.vlrs[0] = laspy.VLR("copc", 1, "", info)
+        file.seek(0)
+        header.write_to(file)
 
 
 def set_classes(path: Path, classes: np.ndarray[Any, Any]) -> None:

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from las_files import laspy, point_formats, set_classes, write_random_las
+from las_files import laspy, point_formats, set_classes, write_copc, write_random_las
 
-from flagstone import _las_classify
+from flagstone import _las_copy
 from flagstone.io import classify_las
 
 GROUND, NONGROUND, NOISE, OUT_OF_RANGE, INVALID = 1, 0, 2, 3, 4
@@ -134,7 +134,7 @@ def test_many_points_go_through_in_parts(tmp_path: Path, ending: str, monkeypatc
     write_random_las(source, 6, count=1003)
     labels = random_labels(1003)
     classify_las(source, whole, labels)
-    monkeypatch.setattr(_las_classify, "points_at_once", 100)
+    monkeypatch.setattr(_las_copy, "points_at_once", 100)
     classify_las(source, parts, labels)
     assert whole.read_bytes() == parts.read_bytes()
 
@@ -224,14 +224,42 @@ def test_endings_that_differ_are_refused(tmp_path: Path) -> None:
         classify_las(tmp_path / "a.las", tmp_path / "b.laz", np.zeros(1000, np.uint8))
 
 
-@pytest.mark.parametrize(("user", "what"), [("copc", "is COPC"), ("lascompatible", "compatibility mode")])
-def test_files_that_would_contradict_themselves_are_refused(tmp_path: Path, user: str, what: str) -> None:
+def test_the_index_of_a_copc_file_leads_to_the_same_points_with_their_new_classes(tmp_path: Path) -> None:
+    source, copy = tmp_path / "a.copc.laz", tmp_path / "b.copc.laz"
+    write_copc(source)
+    classify_las(source, copy, np.full(len(laspy.read(source)), GROUND), may_change=range(256))
+    assert (laspy.read(copy).classification == 2).all()
+    places = []
+    for file in (source, copy):
+        in_order = laspy.read(file).points.array
+        with laspy.CopcReader.open(file) as reader:
+            by_index = [reader.query(level=level).array for level in range(3)]
+            places.append([entry.offset for entry in reader.root_page.entries.values()])
+        assert sum(map(len, by_index)) == len(in_order)
+        for found in by_index:
+            assert len(found) > 0
+            assert found.tobytes() == in_order[found["gps_time"].astype(int)].tobytes()
+    assert places[0] != places[1]  # or nothing was put to the test
+
+
+def test_a_copc_file_whose_index_is_damaged_is_refused(tmp_path: Path) -> None:
+    source = tmp_path / "a.copc.laz"
+    write_copc(source)
+    damaged = bytearray(source.read_bytes())
+    damaged[-16] ^= 1  # where the chunk of the last node begins
+    source.write_bytes(damaged)
+    with pytest.raises(ValueError, match=r"a\.copc\.laz: is COPC with an index that does not fit its chunks"):
+        classify_las(source, source, random_labels(laspy.open(source).header.point_count))
+    assert source.read_bytes() == damaged
+
+
+def test_las_in_compatibility_mode_is_refused(tmp_path: Path) -> None:
     source = tmp_path / "a.laz"
     write_random_las(source, 6)
     las = laspy.read(source)
-    las.header.vlrs.append(laspy.VLR(user, 22204, "", b"\0" * 160))
+    las.header.vlrs.append(laspy.VLR("lascompatible", 22204, "", b"\0" * 156))
     las.write(source)
-    with pytest.raises(ValueError, match=what):
+    with pytest.raises(ValueError, match=r"is LAS 1.4 in compatibility mode, with classes in two places"):
         classify_las(source, tmp_path / "b.laz", np.zeros(1000, np.uint8))
 
 
