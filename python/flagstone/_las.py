@@ -184,6 +184,12 @@ def _check_header(header: bytes, size: int) -> None:
 def _check_size(reader: Any, size: int) -> None:
     header = reader.header
     if header.are_points_compressed:
+        parameters = header.vlrs.get("LasZipVlr")
+        size_of_point = needs("lazrs", "las").LazVlr(parameters[0].record_data).item_size() if parameters else None
+        if size_of_point != header.point_format.size:
+            raise BadFileError(
+                f"has points of {header.point_format.size} bytes, but was compressed with {size_of_point}: it is damaged"
+            )
         return
     wanted = header.offset_to_point_data + header.point_count * header.point_format.size
     if wanted > size:
