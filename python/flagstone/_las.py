@@ -188,7 +188,7 @@ def _check_size(reader: Any, size: int) -> None:
         size_of_point = needs("lazrs", "las").LazVlr(parameters[0].record_data).item_size() if parameters else None
         if size_of_point != header.point_format.size:
             raise BadFileError(
-                f"has points of {header.point_format.size} bytes, but was compressed with {size_of_point}: it is damaged"
+                f"has points of {header.point_format.size} bytes, but was compressed with {size_of_point}: damaged"
             )
         return
     wanted = header.offset_to_point_data + header.point_count * header.point_format.size
