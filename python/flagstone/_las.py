@@ -48,6 +48,7 @@ def read(path: str | os.PathLike[str]) -> Points:
     Raises:
         FileNotFoundError: There is no such file.
         ValueError: The file is damaged or no LAS file.
+        MemoryError: It has more points than the memory holds, or says so.
         ImportError: laspy is not installed.
     """
     with opened(path) as reader:
@@ -90,9 +91,12 @@ def write(
         ImportError: laspy is not installed.
     """
     laspy = _laspy()
-    if missing := [axis for axis in _axes if axis not in (points.dtype.names or ())]:
-        raise ValueError(f"points: field {missing[0]} is missing; wanted are x, y and z")
     fields = {name: points[name] for name in points.dtype.names or ()}
+    for axis in _axes:
+        if axis not in fields:
+            raise ValueError(f"points: field {axis} is missing; wanted are x, y and z")
+        if axis.upper() in fields:
+            raise ValueError(f"points: field {axis.upper()} is what LAS makes of {axis}; leave it out, or rename it")
     count = len(fields["x"])
     if labels is not None:
         before = np.asarray(fields.get("classification", np.zeros(count, np.uint8)))
@@ -146,7 +150,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Any]:
         if error.errno is not None:
             raise
         raise ValueError(_damaged(path, error)) from error
-    except (KeyboardInterrupt, SystemExit, GeneratorExit, ImportError):
+    except (KeyboardInterrupt, SystemExit, GeneratorExit, ImportError, MemoryError):
         raise
     except BaseException as error:  # lazrs panics are no Exception
         raise ValueError(_damaged(path, error)) from error

@@ -79,6 +79,18 @@ def test_what_is_written_is_read_back(tmp_path: Path, ending: str) -> None:
     assert np.array_equal(again["height"], np.where(points["x"] < 50, points["z"], np.nan), equal_nan=True)
 
 
+@pytest.mark.parametrize("point_format", point_formats)
+def test_all_that_is_read_of_a_file_can_be_written(tmp_path: Path, point_format: int) -> None:
+    write_random_las(tmp_path / "a.las", point_format)
+    points = read(tmp_path / "a.las")
+    for axis in "xyz":
+        points[axis] = 0  # random ones are farther apart than millimetres can tell
+    write(tmp_path / "b.las", points)
+    again = read(tmp_path / "b.las")
+    for name in set(points.dtype.names or ()) - set("xyz"):
+        assert np.array_equal(points[name], again[name], equal_nan=points[name].dtype.kind == "f"), name
+
+
 def test_colours_choose_the_point_format(tmp_path: Path) -> None:
     file = tmp_path / "a.las"
     colours = [(name, "u2") for name in ("red", "green", "blue", "nir")]
@@ -123,6 +135,7 @@ xyz = {axis: np.zeros(2) for axis in "xyz"}
         (structured(x=[1.0], y=[1.0]), "points: field z is missing; wanted are x, y and z"),
         (np.array([[0, 0, 0], [0, np.nan, 0]]), "points: y of point 1 is nan; LAS holds finite coordinates only"),
         (np.array([[0, 0, 0], [1e9, 0, 0]]), "points: x reaches from 0 to 1e.09 m; in millimetres LAS holds 2147 km"),
+        (structured(**xyz, X=[1, 2]), r"points: field X is what LAS makes of x; leave it out, or rename it"),
         (structured(**xyz, intensity=[1, 70_000]), "intensity of point 1 is 70000; LAS holds whole numbers of 0 to 65"),
         (
             structured(**xyz, return_number=[16, 1]),
@@ -187,6 +200,8 @@ def test_damaged_files_are_one_line_or_read_but_nothing_worse(tmp_path: Path, en
                 read(file)
             except ValueError as error:
                 assert str(error).startswith(f"{file}: ") and "\n" not in str(error)
+                refused += 1
+            except MemoryError:  # of a number of points that LAZ might have
                 refused += 1
     assert refused > 50
 

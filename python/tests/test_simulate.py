@@ -102,7 +102,7 @@ def test_a_folder_that_cannot_be_made_is_an_oserror(tmp_path: Path) -> None:
 
 
 def test_an_interrupt_ends_the_simulator_and_the_next_call_goes_on(tmp_path: Path) -> None:
-    program = f"import flagstone; flagstone.simulate({str(tmp_path)!r}, scene='park', sensor='vlp-16', frames=60)"
+    program = f"import flagstone; flagstone.simulate({str(tmp_path)!r}, scene='park', sensor='vlp-16', frames=40)"
     process = subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.PIPE, text=True)
     folder = tmp_path / "sequences" / "00" / "velodyne"
     while process.poll() is None and not (folder / "000003.bin").exists():
@@ -112,12 +112,12 @@ def test_an_interrupt_ends_the_simulator_and_the_next_call_goes_on(tmp_path: Pat
     assert process.returncode == -signal.SIGINT, error
     assert error.rstrip().endswith("KeyboardInterrupt")
     made = sorted(folder.iterdir())
-    assert 3 < len(made) < 60
+    assert 3 < len(made) < 40
     time.sleep(0.3)
     assert sorted(folder.iterdir()) == made  # the simulator is gone as well
     assert not list(tmp_path.rglob("*.tmp"))
     times = [file.stat().st_mtime_ns for file in made]
-    assert len(flagstone.simulate(tmp_path, **PARK, frames=60)) == 60
+    assert len(flagstone.simulate(tmp_path, **PARK, frames=40)) == 40
     assert [file.stat().st_mtime_ns for file in made] == times
 
 
