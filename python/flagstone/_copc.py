@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from typing import BinaryIO
 
 import numpy as np
 import numpy.typing as npt
 
-from flagstone._las import BadFileError
+from flagstone._laz import BadFileError
 
 Chunks = Sequence[tuple[int, int]]  # points and bytes of each
 
@@ -42,12 +43,15 @@ def move_index(head: bytearray, copy: BinaryIO, before: Chunks, after: Chunks, s
     head[_begin_of_root_page] = (root + shift).to_bytes(8, "little")
     places = dict(zip(_places(begin_of_points, before), _places(begin_of_points, after), strict=True))
 
+    end = copy.seek(0, os.SEEK_END)
     at = begin_of_records
     for _ in range(int.from_bytes(head[243:247], "little")):
         copy.seek(at)
         record = copy.read(_record_head)
         size = int.from_bytes(record[20:28], "little")
         at += _record_head
+        if at + size > end:
+            raise BadFileError("is COPC with a record that reaches beyond its end: it is cut off or damaged")
         if record[2:18].rstrip(b"\0") == b"copc" and int.from_bytes(record[18:20], "little") == _hierarchy:
             entries = np.frombuffer(bytearray(copy.read(size)), _entry)
             _move_entries(entries, places, shift)

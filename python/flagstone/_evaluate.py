@@ -11,7 +11,7 @@ import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from flagstone._optional import needs
 from flagstone._run_command import file_argument, listed, option, run
@@ -19,6 +19,8 @@ from flagstone._toml import to_toml
 
 if TYPE_CHECKING:
     import pandas
+
+    from flagstone.segmenters import SensorHeight, Tilt
 
 PathLike = str | os.PathLike[str]
 
@@ -94,13 +96,13 @@ def evaluate(
     every: int = 1,
     columns: int | None = None,
     sensor: PathLike | None = None,
-    sensor_height: float | str | None = None,
-    tilt: str | Sequence[float] | None = None,
-    preset: str | None = None,
+    sensor_height: SensorHeight | None = None,
+    tilt: Tilt | None = None,
+    preset: Literal["default", "paper", "reference"] = "default",
     config: PathLike | None = None,
     settings: Mapping[str, Mapping[str, Any]] | None = None,
     labels: Mapping[str, PathLike] | None = None,
-    label_map: str = "flagstone",
+    label_map: Literal["flagstone", "semantic_kitti"] = "flagstone",
     threads: int | None = None,
 ) -> Evaluation:
     """Scores methods on labelled scans, as `flagstone eval` does.
@@ -120,7 +122,7 @@ def evaluate(
         config: A TOML file of Patchwork's settings, as `flagstone config` prints.
         settings: Of methods, by name: `{"surface": {"point": {"margin": 0.2}}, "gpf": {"segments": 5}}`.
         labels: Labels that other programs made, scored like a method: its name, and the folder.
-        label_map: Codes in `labels`: `"flagstone"` (1 is ground), or `"semantic-kitti"` (the protocol's classes).
+        label_map: Codes in `labels`: `"flagstone"` (1 is ground), or `"semantic_kitti"` (the protocol's classes).
         threads: Scans worked on at once, 1 to 1024; all cores by default. `hz` is comparable with 1.
 
     Returns:
@@ -141,7 +143,7 @@ def evaluate(
     arguments = [
         "eval",
         *map(file_argument, datasets),
-        *option("methods", listed(methods)),
+        *option("methods", listed(methods) or "none"),
         *option("protocol", os.fspath(protocol)),
         *option("sequences", None if sequences is None else listed(sequences)),
         *option("every", every),
@@ -153,7 +155,7 @@ def evaluate(
         *option("config", config),
         *(f"--set={method}.{line}" for method, own in (settings or {}).items() for line in to_toml(own).splitlines()),
         *(f"--labels={name}={os.fspath(folder)}" for name, folder in (labels or {}).items()),
-        *option("label-map", label_map),
+        *option("label-map", label_map.replace("_", "-")),
         *option("threads", threads),
     ]
     with tempfile.TemporaryDirectory(prefix="flagstone-") as folder:

@@ -8,12 +8,13 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 import numpy.typing as npt
 
 from flagstone._las_classes import classes_from_labels
+from flagstone._laz import BadFileError, check_chunks
 from flagstone._optional import needs
 from flagstone._progress import Progress
 from flagstone._whole_file import written_whole
@@ -142,7 +143,7 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Any]:
             _check_header(file.read(_least_header), size)
             file.seek(0)
             with laspy.open(file, closefd=False, read_evlrs=False) as reader:
-                _check_size(reader, size)
+                _check_size(reader, file, size)
                 yield reader
     except BadFileError as error:
         raise ValueError(f"{os.fspath(path)}: {error}") from None
@@ -154,10 +155,6 @@ def opened(path: str | os.PathLike[str]) -> Iterator[Any]:
         raise
     except BaseException as error:  # lazrs panics are no Exception
         raise ValueError(_damaged(path, error)) from error
-
-
-class BadFileError(Exception):
-    """What is wrong with a file, without its name."""
 
 
 def _damaged(path: str | os.PathLike[str], error: BaseException) -> str:
@@ -184,22 +181,19 @@ def _check_header(header: bytes, size: int) -> None:
         )
 
 
-# No more is allocated than the file's own size can justify; what LAZ expands to is found out by reading.
-def _check_size(reader: Any, size: int) -> None:
+# No more is allocated than the file's own size can justify.
+def _check_size(reader: Any, file: BinaryIO, size: int) -> None:
     header = reader.header
+    begin, count, row = header.offset_to_point_data, header.point_count, header.point_format.size
     if header.are_points_compressed:
         parameters = header.vlrs.get("LasZipVlr")
-        size_of_point = needs("lazrs", "las").LazVlr(parameters[0].record_data).item_size() if parameters else None
-        if size_of_point != header.point_format.size:
-            raise BadFileError(
-                f"has points of {header.point_format.size} bytes, but was compressed with {size_of_point}: damaged"
-            )
-        return
-    wanted = header.offset_to_point_data + header.point_count * header.point_format.size
-    if wanted > size:
+        if not parameters:
+            raise BadFileError("is compressed, but has no record of LASzip that says how: it is damaged")
+        check_chunks(file, size, begin, count, row, bytes(parameters[0].record_data))
+        file.seek(begin)
+    elif begin + count * row > size:
         raise BadFileError(
-            f"{header.point_count:,} points of {header.point_format.size} bytes need {wanted:,} bytes, the file has "
-            f"{size:,}: it is cut off"
+            f"{count:,} points of {row} bytes need {begin + count * row:,} bytes, the file has {size:,}: it is cut off"
         )
 
 

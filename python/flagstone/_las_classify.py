@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from flagstone._las import BadFileError, opened
+from flagstone._las import opened
 from flagstone._las_classes import checked_labels, class_table, default_may_change
 from flagstone._las_copy import Layout, Rows, copy_points
+from flagstone._laz import BadFileError
 from flagstone._progress import Progress
 from flagstone._whole_file import written_whole
 

@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from flagstone import _copc
-from flagstone._las import BadFileError, points_at_once
+from flagstone._las import points_at_once
+from flagstone._laz import BadFileError
 from flagstone._optional import needs
 
 Rows = npt.NDArray[np.uint8]  # (points, bytes a point)

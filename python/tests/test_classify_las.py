@@ -253,6 +253,27 @@ def test_a_copc_file_whose_index_is_damaged_is_refused(tmp_path: Path) -> None:
     assert source.read_bytes() == damaged
 
 
+def test_a_chunk_table_that_lies_is_refused_before_memory_is_taken_for_it(tmp_path: Path) -> None:
+    source = tmp_path / "a.copc.laz"
+    write_copc(source)
+    whole = source.read_bytes()
+    with laspy.open(source) as reader:
+        begin, count = reader.header.offset_to_point_data, reader.header.point_count
+    table = int.from_bytes(whole[begin : begin + 8], "little")
+    random = np.random.default_rng(4)
+    refused = 0
+    for _ in range(60):
+        damaged = bytearray(whole)
+        damaged[random.integers(table, table + 30)] = random.integers(0, 256)
+        source.write_bytes(damaged)
+        try:
+            classify_las(source, tmp_path / "b.laz", random_labels(count))
+        except ValueError as error:
+            assert "\n" not in str(error)
+            refused += 1
+    assert refused > 10
+
+
 def test_las_in_compatibility_mode_is_refused(tmp_path: Path) -> None:
     source = tmp_path / "a.laz"
     write_random_las(source, 6)

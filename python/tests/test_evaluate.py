@@ -107,7 +107,7 @@ def test_labels_made_elsewhere_are_scored_like_a_method(simulated: Path, tmp_pat
     truth = simulated / "sequences" / "00" / "labels"
     (tmp_path / "00").symlink_to(truth)
     evaluation = flagstone.evaluate(
-        simulated, protocol="simulation", methods="none", labels={"truth": tmp_path}, label_map="semantic-kitti"
+        simulated, protocol="simulation", methods=[], labels={"truth": tmp_path}, label_map="semantic_kitti"
     )
     assert evaluation.methods.index.tolist() == ["truth"]
     assert evaluation.methods.loc["truth", "f1"] == 1

@@ -192,8 +192,10 @@ def test_damaged_files_are_one_line_or_read_but_nothing_worse(tmp_path: Path, en
         write_random_las(file, point_format, count=50)
         whole = file.read_bytes()
         for _ in range(10):
-            damaged = bytearray(whole[: int(random.integers(len(whole) // 2, len(whole)))])
-            for at in random.integers(0, 400, 3):
+            damaged = bytearray(
+                whole if random.random() < 0.5 else whole[: random.integers(len(whole) // 2, len(whole))]
+            )
+            for at in (*random.integers(0, 400, 2), *random.integers(-400, 0, 2)):  # header, records, chunk table
                 damaged[at] = random.integers(0, 256)
             file.write_bytes(damaged)
             try:
@@ -203,7 +205,7 @@ def test_damaged_files_are_one_line_or_read_but_nothing_worse(tmp_path: Path, en
                 refused += 1
             except MemoryError:  # of a number of points that LAZ might have
                 refused += 1
-    assert refused > 50
+    assert refused > 20
 
 
 @pytest.mark.parametrize("ending", endings)
