@@ -16,6 +16,9 @@ Coordinates are metres in the sensor's frame: x forward, y left, z up.
 
 from flagstone import io
 from flagstone._core import version as __version__
+from flagstone._evaluate import Evaluation, evaluate
+from flagstone._score import Score, score
+from flagstone._simulate import simulate
 from flagstone.codes import Label, Verdict
 from flagstone.ground_surface import Grid, GroundAt, GroundSurface
 from flagstone.segmentation import Mount, Segmentation
@@ -23,20 +26,25 @@ from flagstone.segmenters import Patchwork, Segmenter, Surface, make_segmenter, 
 from flagstone.sensors import Sensor, sensors
 
 __all__ = [
+    "Evaluation",
     "Grid",
     "GroundAt",
     "GroundSurface",
     "Label",
     "Mount",
     "Patchwork",
+    "Score",
     "Segmentation",
     "Segmenter",
     "Sensor",
     "Surface",
     "Verdict",
     "__version__",
+    "evaluate",
     "io",
     "make_segmenter",
     "method_names",
+    "score",
     "sensors",
+    "simulate",
 ]

@@ -8,14 +8,27 @@ Which formats there are, and what each may hold, says docs/formats.md.
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
 import numpy.lib.recfunctions
 import numpy.typing as npt
 
-from flagstone import _core
+from flagstone import _core, _las
+from flagstone._las_classify import classify_las
 from flagstone._points import PointsLike
+
+__all__ = [
+    "classify_las",
+    "format_of",
+    "is_scan_name",
+    "parse",
+    "read",
+    "read_labels",
+    "write",
+    "write_labels",
+]
 
 Path = str | os.PathLike[str]
 
@@ -25,24 +38,36 @@ _NPY_OF = {"float32": "<f4", "float64": "<f8"} | {
 _NAMES_OF_COLUMNS = ("x", "y", "z", "intensity", "ring")  # as files without names have them
 
 
-def read(path: Path, *, columns: int | None = None) -> npt.NDArray[np.void]:
+def read(
+    path: Path, *, columns: int | None = None, origin: Sequence[float] | npt.NDArray[np.floating[Any]] | None = None
+) -> npt.NDArray[np.void]:
     """Reads a scan with every field its file has.
 
     Args:
-        path: .bin, .pcd.bin, .pcd, .ply or .npy; the name says the format.
+        path: .bin, .pcd.bin, .pcd, .ply, .npy, .las or .laz; the name says the format.
         columns: Floats a point of raw files (.bin), 3 to 1,024; without it 5 for .pcd.bin, else 4.
+        origin: x, y, z in the file's coordinates that become 0: where the sensor stood, for files in coordinates of a
+            map, which 32-bit floats would round to decimetres. x, y and z are float64 then.
 
     Returns:
         (N,) structured array with the fields x, y, z and whatever else there is, in the file's order. It can be handed
-        to `segment` as it is.
+        to `segment` as it is. Of LAS and LAZ: x, y, z as float64, then the dimensions by their names in laspy, such as
+        `intensity`, `return_number`, `classification`, `gps_time`; flags as 0 and 1; then the extra bytes.
 
     Raises:
         FileNotFoundError: There is no such file.
+        ImportError: LAS and LAZ need laspy: pip install 'flagstone[las]'.
         OSError: The system would not read it.
         ValueError: Its contents are not what its format allows, or its ending is not known; one line with file, byte
-            and reason.
+            and reason. Or `origin` is not three finite numbers.
         MemoryError: It is larger than the memory.
     """
+    shift = None if origin is None else _three_finite("origin", origin)
+    rows = _las.read(path) if _las.is_las(path) else _read_by_core(path, columns)
+    return rows if shift is None else _moved(rows, shift)
+
+
+def _read_by_core(path: Path, columns: int | None) -> npt.NDArray[np.void]:
     return _structured(*_core.read_cloud(os.fspath(path), 0 if columns is None else columns))
 
 
@@ -73,18 +98,25 @@ def write(
     """Writes a scan; the file is there whole or not at all.
 
     Args:
-        path: .bin, .pcd, .ply or .npy; the name says the format.
+        path: .bin, .pcd, .ply, .npy, .las or .laz; the name says the format. LAS and LAZ are of version 1.4, point
+            format 6, 7 with fields `red`, `green`, `blue`, 8 with `nir` too; coordinates are rounded to a millimetre,
+            a floating `intensity` of 0 to 1 is spread over 16 bits, fields that LAS does not know are extra bytes.
         points: (N,) structured array with fields x, y and z, or (N, >=3) numbers, whose columns become x, y, z,
             intensity, ring, c5, c6, ...
-        labels: (N,) codes; become a field `label`, uint8.
+        labels: (N,) codes; become a field `label`, uint8. In LAS and LAZ they set `classification` as `classify_las`
+            does.
         heights: (N,) metres; become a field `height`, float32.
 
     Raises:
+        ImportError: LAS and LAZ need laspy: pip install 'flagstone[las]'.
         OSError: The system would not write it.
         TypeError: A field is of a type that no format holds.
         ValueError: The format cannot hold a field, or lengths differ.
     """
     rows = _rows(points)
+    if _las.is_las(path):
+        _las.write(path, rows, labels=labels, heights=heights)
+        return
     if labels is not None:
         rows = _with_field(rows, "label", labels, np.uint8)
     if heights is not None:
@@ -145,6 +177,23 @@ def format_of(path: Path) -> str | None:
 def is_scan_name(path: Path) -> bool:
     """Whether a file met in a folder is taken for a scan: by its ending, not hidden, not one of labels or heights."""
     return _core.is_scan_name(os.fspath(path))
+
+
+def _three_finite(name: str, values: Sequence[float] | npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.float64]:
+    numbers = np.asarray(values, np.float64)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+        raise ValueError(f"{name} = {values!r}; wanted are x, y, z, three finite numbers in the file's coordinates")
+    return numbers
+
+
+def _moved(rows: npt.NDArray[np.void], shift: npt.NDArray[np.float64]) -> npt.NDArray[np.void]:
+    doubles = {axis: np.dtype(np.float64) for axis in "xyz"}
+    moved = np.empty(rows.shape, [(name, doubles.get(name, rows.dtype[name])) for name in rows.dtype.names or ()])
+    for name in rows.dtype.names or ():
+        moved[name] = rows[name]
+    for axis, value in zip("xyz", shift, strict=True):
+        moved[axis] -= value
+    return moved
 
 
 def _structured(

@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Files that are there whole or not at all."""
+
+from __future__ import annotations
+
+import errno
+import itertools
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, BinaryIO, cast
+
+_numbers = itertools.count()
+
+
+@contextmanager
+def written_whole(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """Opens a new file beside `path`, which takes its place when the block ends well and goes away otherwise.
+
+    A symbolic link is followed; what is there and no regular file is never replaced.
+
+    Raises:
+        OSError: The folder is not there, the disk is full, `path` is a folder, pipe or device.
+    """
+    target = Path(os.path.realpath(path))
+    if target.exists() and not target.is_file():
+        what = "is no regular file (name one, or one that is not there yet)"
+        raise OSError(errno.EINVAL, what, os.fspath(path))
+    try:
+        temporary, opened = _new_file_in(target.parent)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, os.fspath(path)) from None
+    file = _Remembering(opened)
+    try:
+        with opened:
+            yield cast(BinaryIO, file)
+        temporary.replace(target)
+    except BaseException as raised:
+        temporary.unlink(missing_ok=True)
+        fault = file.fault if file.fault is not None else raised
+        if isinstance(fault, OSError) and fault.filename is None:
+            raise OSError(fault.errno, fault.strerror, os.fspath(path)) from raised
+        raise
+
+
+class _Remembering:
+    """A file that keeps the first error of the disk, since compressors tell only that there was one."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._file = file
+        self.fault: OSError | None = None
+
+    def __getattr__(self, name: str) -> Any:
+        method = getattr(self._file, name)
+
+        def call(*arguments: Any) -> Any:
+            try:
+                return method(*arguments)
+            except OSError as error:
+                self.fault = self.fault or error
+                raise
+
+        return call
+
+
+def _new_file_in(folder: Path) -> tuple[Path, BinaryIO]:
+    while True:
+        path = folder / f".flagstone-{os.getpid()}-py{next(_numbers)}.tmp"
+        try:
+            return path, path.open("x+b")
+        except FileExistsError:  # left behind by a killed process that had our number
+            continue

@@ -1,0 +1,338 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""flagstone.io.classify_las: classes of a LAS file from labels, and nothing else touched."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from las_files import laspy, point_formats, set_classes, write_copc, write_random_las
+
+from flagstone import _las_copy
+from flagstone.io import classify_las
+
+GROUND, NONGROUND, NOISE, OUT_OF_RANGE, INVALID = 1, 0, 2, 3, 4
+endings = ("las", "laz")
+
+
+def random_labels(count: int, seed: int = 2) -> np.ndarray[Any, Any]:
+    return np.random.default_rng(seed).integers(0, 5, count, np.uint8)
+
+
+def class_of(before: int, label: int, may_change: set[int]) -> int:
+    """The rule, a point at a time."""
+    if before not in may_change or label in (OUT_OF_RANGE, INVALID):
+        return before
+    if label == GROUND:
+        return 2
+    if label == NOISE:
+        return 7
+    return 1 if before in (0, 2, 7) else before
+
+
+@pytest.mark.parametrize("ending", endings)
+@pytest.mark.parametrize("point_format", point_formats)
+def test_points_get_the_class_that_the_rule_says(tmp_path: Path, point_format: int, ending: str) -> None:
+    source, copy = tmp_path / f"a.{ending}", tmp_path / f"b.{ending}"
+    write_random_las(source, point_format)
+    before = np.asarray(laspy.read(source).classification)
+    labels = random_labels(len(before))
+    random = np.random.default_rng(point_format)
+    for may_change in ({0, 1, 2, 7}, set(), set(range(256)), set(random.integers(0, 32, 9).tolist())):
+        counts = classify_las(source, copy, labels, may_change=may_change)
+        after = np.asarray(laspy.read(copy).classification)
+        assert after.tolist() == [
+            class_of(*each, may_change) for each in zip(before.tolist(), labels.tolist(), strict=True)
+        ]
+        assert counts == dict(zip(*(each.tolist() for each in np.unique(after, return_counts=True)), strict=True))
+
+
+@pytest.mark.parametrize("point_format", point_formats)
+def test_a_las_file_differs_in_the_bits_of_classes_only(tmp_path: Path, point_format: int) -> None:
+    source, copy = tmp_path / "a.las", tmp_path / "b.las"
+    write_random_las(source, point_format)
+    labels = random_labels(1000)
+    classify_las(source, copy, labels, may_change=range(256))
+    before, after = (np.frombuffer(file.read_bytes(), np.uint8) for file in (source, copy))
+    with laspy.open(source) as reader:
+        begin, row = reader.header.offset_to_point_data, reader.header.point_format.size
+    class_byte, class_bits = (15, 0x1F) if point_format < 6 else (16, 0xFF)
+    allowed = np.zeros(len(before), np.uint8)
+    allowed[begin + class_byte : begin + 1000 * row : row] = class_bits
+    assert len(after) == len(before)
+    assert (before ^ after).any()
+    assert not ((before ^ after) & ~allowed).any()
+
+
+@pytest.mark.parametrize("point_format", point_formats)
+def test_a_laz_file_keeps_everything_else(tmp_path: Path, point_format: int) -> None:
+    source, copy = tmp_path / "a.laz", tmp_path / "b.laz"
+    write_random_las(source, point_format)
+    classify_las(source, copy, random_labels(1000), may_change=range(256))
+    with laspy.open(source) as before, laspy.open(copy) as after:
+        begin = before.header.offset_to_point_data
+        moved = slice(227, 243) if str(before.header.version) == "1.4" else slice(0, 0)
+        heads = [bytearray(file.read_bytes()[:begin]) for file in (source, copy)]
+        for head in heads:  # where the records behind the points begin
+            head[moved] = b""
+        assert heads[0] == heads[1]
+        assert [record.record_data for record in before.header.evlrs or []] == [
+            record.record_data for record in after.header.evlrs or []
+        ]
+        points, others = before.read().points, after.read().points
+    set_aside = {"classification", "raw_classification"}
+    assert not np.array_equal(points.classification, others.classification)
+    for name in points.point_format.dimension_names:
+        if name not in set_aside:
+            assert np.asarray(points[name]).tobytes() == np.asarray(others[name]).tobytes(), name
+
+
+@pytest.mark.parametrize("ending", endings)
+def test_flags_beside_a_class_of_five_bits_stay(tmp_path: Path, ending: str) -> None:
+    file = tmp_path / f"a.{ending}"
+    write_random_las(file, 1)
+    before = laspy.read(file)
+    classify_las(file, file, np.full(1000, GROUND), may_change=range(32))
+    after = laspy.read(file)
+    assert (after.classification == 2).all()
+    for flag in ("synthetic", "key_point", "withheld"):
+        assert np.asarray(before[flag]).any()
+        assert np.array_equal(before[flag], after[flag])
+
+
+def test_what_others_classified_stays_unless_it_may_change(tmp_path: Path) -> None:
+    file = tmp_path / "a.las"
+    write_random_las(file, 6)
+    others = np.setdiff1d(np.arange(256, dtype=np.uint8), [0, 1, 2, 7])
+    set_classes(file, np.resize(others, 1000))
+    before = file.read_bytes()
+    for label in (GROUND, NONGROUND, NOISE):
+        classify_las(file, file, np.full(1000, label))
+        assert file.read_bytes() == before
+    classify_las(file, file, np.full(1000, GROUND), may_change=range(256))
+    assert (laspy.read(file).classification == 2).all()
+
+
+@pytest.mark.parametrize("ending", endings)
+def test_doing_it_twice_is_doing_it_once(tmp_path: Path, ending: str) -> None:
+    source, once, twice = (tmp_path / f"{name}.{ending}" for name in "abc")
+    write_random_las(source, 7)
+    labels = random_labels(1000)
+    classify_las(source, once, labels)
+    classify_las(once, twice, labels)
+    assert once.read_bytes() == twice.read_bytes()
+
+
+@pytest.mark.parametrize("ending", endings)
+def test_many_points_go_through_in_parts(tmp_path: Path, ending: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    source, whole, parts = (tmp_path / f"{name}.{ending}" for name in "abc")
+    write_random_las(source, 6, count=1003)
+    labels = random_labels(1003)
+    classify_las(source, whole, labels)
+    monkeypatch.setattr(_las_copy, "points_at_once", 100)
+    classify_las(source, parts, labels)
+    assert whole.read_bytes() == parts.read_bytes()
+
+
+def test_laz_with_chunks_of_any_size_keeps_them(tmp_path: Path) -> None:
+    import lazrs
+
+    source, copy = tmp_path / "a.laz", tmp_path / "b.laz"
+    write_random_las(source, 6, count=1000)
+    las = laspy.read(source)
+    with source.open("wb") as file:
+        kind = lazrs.LazVlr.new_for_compression(6, las.point_format.num_extra_bytes, True)
+        header = las.header
+        header.are_points_compressed, header.number_of_evlrs, header.start_of_first_evlr = True, 0, 0
+        header.vlrs.append(laspy.vlrs.known.LasZipVlr(kind.record_data()))
+        header.write_to(file)
+        compressor = lazrs.LasZipCompressor(file, kind)
+        for part in (slice(0, 10), slice(10, 700), slice(700, 1000)):
+            if part.start > 0:
+                compressor.finish_current_chunk()
+            compressor.compress_many(np.frombuffer(las.points.array[part].tobytes(), np.uint8))
+        compressor.done()
+    labels = random_labels(1000)
+    classify_las(source, copy, labels)
+    with laspy.open(copy) as reader:
+        parameters = reader.header.vlrs.get("LasZipVlr")[0].record_data
+        begin = reader.header.offset_to_point_data
+    with copy.open("rb") as file:
+        file.seek(begin)
+        chunks = lazrs.read_chunk_table(file, lazrs.LazVlr(parameters))
+    assert [points for points, _ in chunks] == [10, 690, 300]
+    assert np.array_equal(laspy.read(copy).gps_time, las.gps_time, equal_nan=True)
+
+
+@pytest.mark.parametrize("ending", endings)
+def test_a_file_without_points_is_copied(tmp_path: Path, ending: str) -> None:
+    source, copy = tmp_path / f"a.{ending}", tmp_path / f"b.{ending}"
+    write_random_las(source, 6, count=0)
+    assert classify_las(source, copy, np.zeros(0, np.uint8)) == {}
+    assert copy.read_bytes() == source.read_bytes()
+
+
+def test_a_loss_in_compression_is_noticed_and_the_destination_left(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import lazrs
+
+    class Careless:
+        def __init__(self, *arguments: Any) -> None:
+            self.compressor = careful(*arguments)
+
+        def compress_many(self, points: np.ndarray[Any, Any]) -> None:
+            self.compressor.compress_many(points ^ (np.arange(len(points)) == 12_345).astype(np.uint8))
+
+        def done(self) -> None:
+            self.compressor.done()
+
+    careful = lazrs.ParLasZipCompressor
+    file = tmp_path / "a.laz"
+    write_random_las(file, 6)
+    before = file.read_bytes()
+    monkeypatch.setattr(lazrs, "ParLasZipCompressor", Careless)
+    with pytest.raises(ValueError, match=r"a\.laz: cannot be compressed by lazrs without loss; uncompress it to LAS"):
+        classify_las(file, file, np.full(1000, GROUND))
+    assert file.read_bytes() == before
+
+
+def test_labels_that_do_not_fit_are_one_line(tmp_path: Path) -> None:
+    source, copy = tmp_path / "a.las", tmp_path / "b.las"
+    write_random_las(source, 6)
+    with pytest.raises(ValueError, match=r"a\.las: has 1,000 points, but there are 999 labels; give one a point"):
+        classify_las(source, copy, np.zeros(999, np.uint8))
+    with pytest.raises(ValueError, match=r"labels: that of point 3 is 5; wanted codes of flagstone.Label, 0 to 4"):
+        classify_las(source, copy, np.array([0, 1, 2, 5]))
+    with pytest.raises(TypeError, match=r"labels: an array of float64 came; wanted codes"):
+        classify_las(source, copy, np.zeros(1000))
+    with pytest.raises(ValueError, match=r"labels: an array of shape \(10, 100\) came; wanted \(N,\)"):
+        classify_las(source, copy, np.zeros((10, 100), np.uint8))
+    with pytest.raises(ValueError, match=r"may_change: 256 is no class of LAS; wanted whole numbers of 0 to 255"):
+        classify_las(source, copy, np.zeros(1000, np.uint8), may_change=[256])
+    assert not copy.exists()
+
+
+def test_endings_that_differ_are_refused(tmp_path: Path) -> None:
+    write_random_las(tmp_path / "a.las", 6)
+    with pytest.raises(ValueError, match=r"b\.laz must end with \.las, as the source does"):
+        classify_las(tmp_path / "a.las", tmp_path / "b.laz", np.zeros(1000, np.uint8))
+
+
+def test_the_index_of_a_copc_file_leads_to_the_same_points_with_their_new_classes(tmp_path: Path) -> None:
+    source, copy = tmp_path / "a.copc.laz", tmp_path / "b.copc.laz"
+    write_copc(source)
+    classify_las(source, copy, np.full(len(laspy.read(source)), GROUND), may_change=range(256))
+    assert (laspy.read(copy).classification == 2).all()
+    places = []
+    for file in (source, copy):
+        in_order = laspy.read(file).points.array
+        with laspy.CopcReader.open(file) as reader:
+            by_index = [reader.query(level=level).array for level in range(3)]
+            places.append([entry.offset for entry in reader.root_page.entries.values()])
+        assert sum(map(len, by_index)) == len(in_order)
+        for found in by_index:
+            assert len(found) > 0
+            assert found.tobytes() == in_order[found["gps_time"].astype(int)].tobytes()
+    assert places[0] != places[1]  # or nothing was put to the test
+
+
+def test_a_copc_file_whose_index_is_damaged_is_refused(tmp_path: Path) -> None:
+    source = tmp_path / "a.copc.laz"
+    write_copc(source)
+    damaged = bytearray(source.read_bytes())
+    damaged[-16] ^= 1  # where the chunk of the last node begins
+    source.write_bytes(damaged)
+    with pytest.raises(ValueError, match=r"a\.copc\.laz: is COPC with an index that does not fit its chunks"):
+        classify_las(source, source, random_labels(laspy.open(source).header.point_count))
+    assert source.read_bytes() == damaged
+
+
+def test_a_chunk_table_that_lies_is_refused_before_memory_is_taken_for_it(tmp_path: Path) -> None:
+    source = tmp_path / "a.copc.laz"
+    write_copc(source)
+    whole = source.read_bytes()
+    with laspy.open(source) as reader:
+        begin, count = reader.header.offset_to_point_data, reader.header.point_count
+    table = int.from_bytes(whole[begin : begin + 8], "little")
+    random = np.random.default_rng(4)
+    refused = 0
+    for _ in range(60):
+        damaged = bytearray(whole)
+        damaged[random.integers(table, table + 30)] = random.integers(0, 256)
+        source.write_bytes(damaged)
+        try:
+            classify_las(source, tmp_path / "b.laz", random_labels(count))
+        except ValueError as error:
+            assert "\n" not in str(error)
+            refused += 1
+    assert refused > 10
+
+
+def test_las_in_compatibility_mode_is_refused(tmp_path: Path) -> None:
+    source = tmp_path / "a.laz"
+    write_random_las(source, 6)
+    las = laspy.read(source)
+    las.header.vlrs.append(laspy.VLR("lascompatible", 22204, "", b"\0" * 156))
+    las.write(source)
+    with pytest.raises(ValueError, match=r"is LAS 1.4 in compatibility mode, with classes in two places"):
+        classify_las(source, tmp_path / "b.laz", np.zeros(1000, np.uint8))
+
+
+@pytest.mark.parametrize("ending", endings)
+def test_a_source_that_is_cut_off_leaves_the_destination_as_it_was(tmp_path: Path, ending: str) -> None:
+    source, destination = tmp_path / f"a.{ending}", tmp_path / f"b.{ending}"
+    write_random_las(source, 6)
+    destination.write_bytes(b"what was there")
+    whole = source.read_bytes()
+    for size in (0, 100, 300, 1000, len(whole) // 2):
+        source.write_bytes(whole[:size])
+        with pytest.raises(ValueError, match=rf"a\.{ending}: .*") as caught:
+            classify_las(source, destination, np.zeros(1000, np.uint8))
+        assert "\n" not in str(caught.value)
+        assert destination.read_bytes() == b"what was there"
+        assert {file.name for file in tmp_path.iterdir()} == {source.name, destination.name}
+
+
+def test_folders_and_missing_files_are_told(tmp_path: Path) -> None:
+    write_random_las(tmp_path / "a.las", 6)
+    labels = np.zeros(1000, np.uint8)
+    with pytest.raises(FileNotFoundError, match=r"none\.las"):
+        classify_las(tmp_path / "none.las", tmp_path / "b.las", labels)
+    with pytest.raises(FileNotFoundError, match=r"no/b\.las"):
+        classify_las(tmp_path / "a.las", tmp_path / "no" / "b.las", labels)
+    (tmp_path / "folder.las").mkdir()
+    with pytest.raises(OSError, match=r"is no regular file.*folder\.las"):
+        classify_las(tmp_path / "a.las", tmp_path / "folder.las", labels)
+
+
+def test_a_symbolic_link_is_followed(tmp_path: Path) -> None:
+    file, link = tmp_path / "a.las", tmp_path / "link.las"
+    write_random_las(file, 6)
+    link.symlink_to(file)
+    classify_las(link, link, np.full(1000, GROUND), may_change=range(256))
+    assert link.is_symlink()
+    assert (laspy.read(file).classification == 2).all()
+
+
+@pytest.mark.parametrize("ending", endings)
+def test_a_full_disk_is_an_oserror_and_leaves_nothing(tmp_path: Path, ending: str) -> None:
+    source = tmp_path / f"a.{ending}"
+    write_random_las(source, 6, count=20_000)
+    program = (
+        "import numpy, resource, signal, sys, flagstone.io\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))\n"
+        "try: flagstone.io.classify_las(sys.argv[1], sys.argv[2], numpy.zeros(20_000, numpy.uint8))\n"
+        "except OSError as error: print(error)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, source, tmp_path / f"b.{ending}"], capture_output=True, text=True
+    )
+    assert done.stdout == f"[Errno 27] File too large: '{tmp_path}/b.{ending}'\n", done.stderr
+    assert [file.name for file in tmp_path.iterdir()] == [source.name]

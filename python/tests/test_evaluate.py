@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""`flagstone.evaluate`: what the command finds, as data frames."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import run_command
+
+import flagstone
+
+pandas = pytest.importorskip("pandas", reason="pandas is not installed: pip install 'flagstone[pandas]'")
+
+HEIGHT = 0.6  # of the simulated sensor, metres
+
+
+@pytest.fixture(scope="module")
+def evaluation(simulated: Path) -> flagstone.Evaluation:
+    return flagstone.evaluate(simulated, protocol="simulation", sensor_height=HEIGHT, threads=1)
+
+
+def test_figures_are_those_of_the_command(evaluation: flagstone.Evaluation, simulated: Path, tmp_path: Path) -> None:
+    options = ["--protocol", "simulation", "--sensor-height", str(HEIGHT), "--threads", "1"]
+    run_command("eval", simulated, *options, "--json", tmp_path / "a.json", "--csv", tmp_path / "a.csv")
+    results = json.loads((tmp_path / "a.json").read_text())
+    for method in results["methods"]:
+        row = evaluation.methods.loc[method["name"]]
+        for share in ("precision", "recall", "f1", "accuracy", "iou"):
+            assert row[share] == method[share]["mean"]
+            assert row[f"{share}_std"] == method[share]["std"]
+            assert row[f"{share}_ci95"] == method[share]["ci95"]
+        assert row["f1_pooled"] == method["pooled"]["f1"]
+        bands = evaluation.ranges[evaluation.ranges["method"] == method["name"]]
+        assert bands["f1"].tolist() == [band["f1"] for band in method["by_range"]] + [method["pooled"]["f1"]]
+    with (tmp_path / "a.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    for column in ("method", "scan", "tp", "f1", "height_median_0_20m"):
+        assert evaluation.scans[column].astype(object).where(evaluation.scans[column].notna(), "").tolist() == [
+            row[column] if column in ("method", "scan") else float(row[column]) if row[column] else "" for row in rows
+        ]
+
+
+def test_there_is_a_row_a_method_in_the_order_asked_for(evaluation: flagstone.Evaluation) -> None:
+    assert evaluation.methods.index.tolist() == ["surface", "patchwork"]
+    assert evaluation.methods["scans"].tolist() == [2, 2]
+    assert (evaluation.methods["hz"] > 0).all()
+
+
+def test_there_is_a_row_a_method_and_scan(evaluation: flagstone.Evaluation, simulated: Path) -> None:
+    scans = evaluation.scans
+    assert scans[["method", "scan"]].apply(tuple, axis=1).tolist() == [
+        (method, f"00/{frame:06}") for method in ("surface", "patchwork") for frame in range(2)
+    ]
+    points = {path.stem: path.stat().st_size // 16 for path in (simulated / "sequences/00/velodyne").iterdir()}
+    counted = scans[["tp", "fp", "fn", "tn"]].sum(axis=1)
+    assert counted.tolist() == [points[scan.removeprefix("00/")] for scan in scans["scan"]]
+
+
+def test_bands_of_range_are_followed_by_all_points(evaluation: flagstone.Evaluation) -> None:
+    for _, rows in evaluation.ranges.groupby("method", sort=False):
+        assert rows["from"].tolist() == [0, 10, 20, 40, 0]
+        assert rows["to"].tolist() == [10, 20, 40, 80, np.inf]
+        *bands, everywhere = rows["points"].tolist()
+        assert 0.99 * everywhere < sum(bands) <= everywhere  # few points lie beyond 80 m
+
+
+def test_heights_are_scored_where_the_truth_is_there(evaluation: flagstone.Evaluation) -> None:
+    heights = evaluation.heights
+    assert set(heights["method"]) == {"surface"}  # Patchwork gives no heights
+    assert heights["points"].tolist() == ["ground"] * 4 + ["all"] * 4
+    near = heights.iloc[0]
+    assert (near["from"], near["to"]) == (0, 20)
+    assert 0 < near["median"] < 0.05
+
+
+def test_heights_are_an_empty_frame_where_it_is_not(simulated: Path, tmp_path: Path) -> None:
+    folder = simulated / "sequences" / "00"
+    for name in ("velodyne", "labels"):
+        (tmp_path / name).symlink_to(folder / name)
+    evaluation = flagstone.evaluate(tmp_path, methods=["surface"])
+    assert evaluation.heights.empty
+    assert "median" in evaluation.heights.columns
+    assert not any(name.startswith("height") for name in evaluation.scans.columns)
+
+
+def test_one_scan_has_no_interval(simulated: Path) -> None:
+    evaluation = flagstone.evaluate(simulated, methods="surface", every=2)
+    assert evaluation.methods["scans"].tolist() == [1]
+    assert np.isnan(evaluation.methods.loc["surface", "f1_ci95"])
+
+
+def test_settings_are_passed_on_by_method(simulated: Path) -> None:
+    def recall(**settings: Any) -> float:
+        evaluation = flagstone.evaluate(simulated, methods=["surface"], sensor_height=HEIGHT, settings=settings)
+        return float(evaluation.methods.loc["surface", "recall"])
+
+    assert recall(surface={"point": {"margin": 0.01}}) < recall() == recall(surface={}) == recall(mount={})
+
+
+def test_labels_made_elsewhere_are_scored_like_a_method(simulated: Path, tmp_path: Path) -> None:
+    truth = simulated / "sequences" / "00" / "labels"
+    (tmp_path / "00").symlink_to(truth)
+    evaluation = flagstone.evaluate(
+        simulated, protocol="simulation", methods=[], labels={"truth": tmp_path}, label_map="semantic_kitti"
+    )
+    assert evaluation.methods.index.tolist() == ["truth"]
+    assert evaluation.methods.loc["truth", "f1"] == 1
+    assert np.isnan(evaluation.methods.loc["truth", "hz"])
+
+
+def test_a_scan_that_cannot_be_read_is_a_row_and_a_warning(simulated: Path, tmp_path: Path) -> None:
+    for name in ("velodyne", "labels"):
+        (tmp_path / name).mkdir()
+        for file in (simulated / "sequences" / "00" / name).iterdir():
+            (tmp_path / name / file.name).write_bytes(file.read_bytes())
+    damaged = tmp_path / "velodyne" / "000001.bin"
+    damaged.write_bytes(damaged.read_bytes()[:-1])
+    with pytest.warns(RuntimeWarning, match=r"1 failed, see `failed`: .*000001\.bin: byte .*columns"):
+        evaluation = flagstone.evaluate(tmp_path)
+    assert evaluation.failed["scan"].tolist() == ["000001"]
+    assert evaluation.methods["scans"].tolist() == [1, 1]
+    (tmp_path / "velodyne" / "000000.bin").unlink()
+    with pytest.raises(OSError, match=r"000001\.bin: byte"):
+        flagstone.evaluate(tmp_path)
+
+
+def test_it_is_shown_as_a_table(evaluation: flagstone.Evaluation, simulated: Path) -> None:
+    heading = f"2 scans of {simulated.name}, protocol simulation"
+    assert repr(evaluation).startswith(f"{heading}\n")
+    assert f"{evaluation.methods.loc['surface', 'f1']:.4f}" in repr(evaluation)
+    assert f"<p>{heading}</p><table" in evaluation._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"protocol": "kitti"}, 'no protocol is named "kitti"; there are patchwork'),
+        ({"methods": "surfaces"}, 'no method is named "surfaces"'),
+        ({"sensor_height": "high"}, "sensor_height: high is no number of metres"),
+        ({"tilt": "left"}, "tilt: left is not off, estimate or where up is"),
+        ({"sensor": "hdl-65"}, "sensor: "),
+        ({"every": 0}, "every: Value 0 not in range 1 to 1000000"),
+        ({"sequences": ["77"]}, "77"),
+        ({"settings": {"surface": {"margin": 1}}}, "margin is no setting; 'flagstone config --method NAME' prints all"),
+        ({"settings": {"roof": {"margin": 1}}}, "settings roof"),
+    ],
+)
+def test_a_wrong_argument_is_one_line_that_names_it(simulated: Path, arguments: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message) as caught:
+        flagstone.evaluate(simulated, **arguments)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_dataset_that_is_not_there_or_holds_no_scans_is_told(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match="none: no such dataset"):
+        flagstone.evaluate(tmp_path / "none")
+    with pytest.raises(ValueError, match="no dataset; allowed: a folder with"):
+        flagstone.evaluate(tmp_path)
+
+
+def test_a_dataset_may_begin_with_a_dash(simulated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "-scans").symlink_to(simulated)
+    monkeypatch.chdir(tmp_path)
+    assert flagstone.evaluate("-scans", methods=["patchwork"]).datasets == ("-scans",)

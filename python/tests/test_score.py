@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""`flagstone.score`: labels of one scan against its classes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import flagstone
+
+ROAD, CAR, OUTLIER, VEGETATION = 40, 10, 1, 70
+
+
+def test_points_are_counted_by_label_and_class() -> None:
+    labels = [1, 1, 1, 0, 2, 3, 4, 0]
+    classes = [ROAD, ROAD, CAR, ROAD, ROAD, CAR, CAR, CAR]
+    score = flagstone.score(labels, classes, np.zeros((8, 3), np.float32))
+    assert score == flagstone.Score(2, 1, 2, 3)
+    assert (score.precision, score.recall, score.accuracy, score.iou) == (2 / 3, 1 / 2, 5 / 8, 2 / 5)
+    assert score.f1 == pytest.approx(4 / 7)
+
+
+def test_a_share_of_nothing_is_one() -> None:
+    score = flagstone.score([0], [CAR], np.zeros((1, 3), np.float32))
+    assert (score.precision, score.recall, score.f1, score.iou) == (1, 1, 1, 1)
+
+
+def test_protocols_differ_in_vegetation_and_in_what_is_scored() -> None:
+    points = np.array([[5, 0, -1.7], [5, 0, 1], [5, 0, 0]], np.float32)
+    classes, labels = [VEGETATION, VEGETATION, OUTLIER], [1, 0, 0]
+    assert flagstone.score(labels, classes, points) == flagstone.Score(1, 0, 0, 2)
+    assert flagstone.score(labels, classes, points, protocol="patchwork++") == flagstone.Score(0, 0, 0, 0)
+    assert flagstone.score(labels, classes, points, protocol="simulation") == flagstone.Score(0, 1, 0, 2)
+
+
+@pytest.mark.parametrize("protocol", ["patchwork", "patchwork++", "simulation"])
+def test_it_is_what_evaluate_finds(simulated: Path, protocol: str) -> None:
+    pytest.importorskip("pandas")
+    rows = flagstone.evaluate(simulated, methods=["surface"], protocol=protocol, sensor_height=0.6).scans
+    for row in rows.itertuples():
+        folder, name = simulated / "sequences" / "00", row.scan.removeprefix("00/")
+        points = flagstone.io.read(folder / "velodyne" / f"{name}.bin")
+        labels = flagstone.Surface(sensor_height=0.6).segment(points).labels
+        classes = flagstone.io.read_labels(folder / "labels" / f"{name}.label", len(points))
+        score = flagstone.score(labels, classes, points, protocol=protocol)
+        assert score == flagstone.Score(row.tp, row.fp, row.fn, row.tn)
+        assert score.f1 == pytest.approx(row.f1, abs=1e-6)
+
+
+def test_what_does_not_fit_is_one_line() -> None:
+    points = np.zeros((2, 3), np.float32)
+    with pytest.raises(ValueError, match="1 labels and 2 classes for 2 points"):
+        flagstone.score([1], [ROAD, ROAD], points)
+    with pytest.raises(ValueError, match="labels: reach from 0 to 5; wanted are whole numbers of 0 to 4"):
+        flagstone.score([0, 5], [ROAD, ROAD], points)
+    with pytest.raises(ValueError, match="classes: reach from -1 to 40; wanted are whole numbers of 0 to 65,535"):
+        flagstone.score([0, 1], [-1, 40], points)
+    with pytest.raises(TypeError, match="labels: an array of float64 came"):
+        flagstone.score([0.0, 1.0], [ROAD, ROAD], points)
+    with pytest.raises(ValueError, match=r'protocol = "kitti" is not known; there are patchwork'):
+        flagstone.score([0, 1], [ROAD, ROAD], points, protocol="kitti")

@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""`flagstone.simulate`: sequences with exact truth, and a data frame of their files."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import flagstone
+from flagstone import _run_command
+
+pandas = pytest.importorskip("pandas", reason="pandas is not installed: pip install 'flagstone[pandas]'")
+
+PARK: dict[str, Any] = {"scene": "park", "sensor": "vlp-16"}
+GROUND = (40, 44, 48, 49, 60, 72)
+
+
+def test_there_is_a_row_a_scan_that_says_where_its_files_are(tmp_path: Path) -> None:
+    scans = flagstone.simulate(tmp_path, **PARK, frames=12, seed=2, sequence="07")
+    assert scans["frame"].tolist() == list(range(12))
+    assert scans["drive"].tolist() == [0] * 10 + [1] * 2
+    assert set(scans["sequence"]) == {"07"}
+    poses = np.loadtxt(tmp_path / "sequences" / "07" / "poses.txt").reshape(-1, 3, 4)
+    for scan in scans.itertuples():
+        points = flagstone.io.read(scan.scan)
+        classes = flagstone.io.read_labels(scan.labels, len(points))
+        assert len(points) == scan.points == len(np.load(scan.ground)) == len(np.load(scan.echoes))
+        assert scan.ground_share == np.isin(classes, GROUND).mean()
+        assert (scan.x, scan.y, scan.z) == tuple(poses[scan.frame, :, 3])
+
+
+def test_a_list_of_paths_can_be_evaluated(tmp_path: Path) -> None:
+    flagstone.simulate(tmp_path, **PARK, frames=2)
+    assert flagstone.evaluate(tmp_path, methods=["patchwork"]).methods["scans"].item() == 2
+
+
+def test_more_frames_are_added_to_those_there_are(tmp_path: Path) -> None:
+    first = flagstone.simulate(tmp_path, **PARK, frames=1)
+    made = Path(first["scan"][0]).stat().st_mtime_ns
+    more = flagstone.simulate(tmp_path, **PARK, frames=3)
+    assert len(more) == 3
+    assert Path(more["scan"][0]).stat().st_mtime_ns == made
+
+
+def test_every_argument_reaches_the_simulator(tmp_path: Path) -> None:
+    import json
+
+    flagstone.simulate(
+        tmp_path,
+        **PARK,
+        sensor_height=2.5,
+        tilt=(15, -5),
+        noise="harsh",
+        weather=["rain", "dust"],
+        keep_no_returns=True,
+        frames=1,
+        seed=9,
+        threads=1,
+    )
+    made = json.loads((tmp_path / "sequences" / "00" / "scene.json").read_text())
+    assert made["mount"] == {"height": 2.5, "pitch": 15, "roll": -5}
+    assert (made["scene"], made["sensor"]["name"], made["noise"]["name"]) == ("park", "vlp-16", "harsh")
+    assert (made["weather"], made["no_returns_kept"], made["seed"]) == (["rain", "dust"], True, 9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"scene": "parc"}, "scene: there is no 'parc'; choose flat_street"),
+        ({"sensor": "vlp-17"}, "sensor: "),
+        ({"weather": "hail"}, "weather: there is no 'hail'; choose clear"),
+        ({"tilt": (1,)}, "tilt: '1' is not PITCH,ROLL"),
+        ({"frames": 0}, "frames: Value 0 not in range 1 to 100000"),
+        ({"keep_no_returns": True, "sequence": "7"}, "sequence: '7' is no name of a sequence"),
+    ],
+)
+def test_a_wrong_argument_is_one_line_that_names_it(tmp_path: Path, arguments: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message) as caught:
+        flagstone.simulate(tmp_path / "out", **(PARK | {"frames": 1} | arguments))
+    assert "\n" not in str(caught.value)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
+    flagstone.simulate(tmp_path, **PARK, frames=1)
+    with pytest.raises(ValueError, match=r"scene\.json: tells of another seed than asked for"):
+        flagstone.simulate(tmp_path, **PARK, frames=1, seed=2)
+
+
+def test_a_folder_that_cannot_be_made_is_an_oserror(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OSError, match="cannot be made: Not a directory"):
+        flagstone.simulate(tmp_path / "file" / "out", **PARK, frames=1)
+
+
+def test_an_interrupt_ends_the_simulator_and_the_next_call_goes_on(tmp_path: Path) -> None:
+    program = f"import flagstone; flagstone.simulate({str(tmp_path)!r}, scene='park', sensor='vlp-16', frames=40)"
+    process = subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.PIPE, text=True)
+    folder = tmp_path / "sequences" / "00" / "velodyne"
+    while process.poll() is None and not (folder / "000003.bin").exists():
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=60)
+    assert process.returncode == -signal.SIGINT, error
+    assert error.rstrip().endswith("KeyboardInterrupt")
+    made = sorted(folder.iterdir())
+    assert 3 < len(made) < 40
+    time.sleep(0.3)
+    assert sorted(folder.iterdir()) == made  # the simulator is gone as well
+    assert not list(tmp_path.rglob("*.tmp"))
+    times = [file.stat().st_mtime_ns for file in made]
+    assert len(flagstone.simulate(tmp_path, **PARK, frames=40)) == 40
+    assert [file.stat().st_mtime_ns for file in made] == times
+
+
+def test_progress_is_shown_on_a_terminal(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(_run_command, "_on_terminal", lambda: True)
+    flagstone.simulate(tmp_path, **PARK, frames=4)
+    drawn = capsys.readouterr().err
+    assert "] 2 of 4 scans, " in drawn
+    assert drawn.endswith("\r\x1b[K")  # and taken away
+    with pytest.raises(ValueError, match="scene: there is no 'parc'"):
+        flagstone.simulate(tmp_path, scene="parc")
+    assert capsys.readouterr().err == ""
+
+
+def test_nothing_is_printed_elsewhere(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    flagstone.simulate(tmp_path, **PARK, frames=2)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_simulator_that_is_killed_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    script = tmp_path / "flagstone"
+    script.write_text("#!/bin/sh\nkill -KILL $$\n")
+    script.chmod(0o755)
+    monkeypatch.setattr(_run_command._command, "path", lambda: script)
+    with pytest.raises(RuntimeError, match="the flagstone command was ended by SIGKILL"):
+        flagstone.simulate(tmp_path / "out", **PARK)
