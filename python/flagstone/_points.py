@@ -70,17 +70,17 @@ def _array_of(points: PointsLike) -> npt.NDArray[Any]:
     if isinstance(points, np.ndarray):
         return points
     if hasattr(points, "__dlpack__"):
-        device = int(points.__dlpack_device__()[0])
-        if device not in _CPU_DEVICES:
-            raise TypeError(
-                f"points: {type(points).__name__} in the memory of another device (DLPack's type {device}); "
-                "flagstone reads the processor's: copy them there first, with torch points.cpu()"
-            )
         try:
-            return np.from_dlpack(points)
+            device = int(points.__dlpack_device__()[0])
+            if device in _CPU_DEVICES:
+                return np.from_dlpack(points)
         except (BufferError, RuntimeError, TypeError, ValueError) as error:
             reason = " ".join(str(error).split())
             raise TypeError(f"points: {type(points).__name__} cannot be read: {reason}; {_WANTED}") from error
+        raise TypeError(
+            f"points: {type(points).__name__} in the memory of another device (DLPack's type {device}); "
+            "flagstone reads the processor's: copy them there first, with torch points.cpu()"
+        )
     try:
         return np.asarray(points)
     except ValueError as error:
