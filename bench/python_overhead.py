@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What does `segment` cost from Python beside the same call in C++? Needs the Python package, CMake, Ninja and a
-C++ compiler.
+"""What does `segment` cost from Python beside the same call in C++? Needs the package and what builds the library.
 
     python3 bench/python_overhead.py $FLAGSTONE_DATA/kitti/velodyne/0[08]-*.bin
     python3 bench/python_overhead.py --methods surface --launches 40
@@ -23,9 +22,7 @@ LOOP = ROOT / "bench" / "segment_loop" / "segment_loop.py"
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     methods = ("surface", "patchwork")
     parser.add_argument("--methods", nargs="+", choices=methods, default=methods, help="both")
     parser.add_argument("--launches", type=int, default=20, help="6 or more; 20")

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """segment_loop.cpp again, through the Python package, for bench/python_overhead.py.
 
-    segment_loop.py METHOD FILE...
+segment_loop.py METHOD FILE...
 """
 
 import sys
