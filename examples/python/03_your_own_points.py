@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Points as you already have them, read where they lie: wide rows, named fields, bytes, a data frame."""
 
-import flagstone
 import numpy as np
 import pandas as pd
+
+import flagstone
 
 frames = flagstone.simulate("simulated", scene="flat_street", frames=3)
 rows = np.fromfile(frames["scan"][0], np.float32).reshape(-1, 4)  # x, y, z, intensity

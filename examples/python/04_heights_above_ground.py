@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """How high each point stands above the ground, and the ground itself at any place."""
 
-import flagstone
 import numpy as np
+
+import flagstone
 
 frames = flagstone.simulate("simulated", scene="flat_street", frames=3)
 points = flagstone.io.read(frames["scan"][0])

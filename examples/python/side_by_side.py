@@ -371,7 +371,7 @@ def error_in(text):
     """The exception's type and the end of its message."""
     plain = re.sub(r"\x1b\[[0-9;]*m", "", text)  # Open3D's are in colour
     kind, _, message = [line for line in plain.splitlines() if "Error" in line][-1].partition(": ")
-    return f"`{kind}`: {message.rpartition('.cpp:')[2].partition(' ')[2] or message}"
+    return f"`{kind}`: {re.sub(r'^.*[.]cpp:[0-9]+: ', '', message)}"
 
 
 def behaviour(contenders, scan):
@@ -510,11 +510,11 @@ def draw(results, file=None):
 # %%
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="The same scans segmented by several packages.")
-    parser.add_argument("--quick", action="store_true", help="two scans, three rounds")
+    parser.add_argument("--quick", action="store_true", help="two scans, two rounds")
     parser.add_argument("--rounds", type=int, help="of timing; 15")
     parser.add_argument("--write", type=pathlib.Path, help="page whose tables are filled in; draws its picture too")
     options = parser.parse_args(arguments)
-    rounds = options.rounds or (3 if options.quick else 15)
+    rounds = options.rounds or (2 if options.quick else 15)
     count = 2 if options.quick else len(SCENES)
 
     contenders = installed()
