@@ -485,21 +485,33 @@ def draw(results, file=None):
     """F1 against time: filled dots are real scans, hollow ones simulated."""
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(figsize=(7.5, 4.5), layout="constrained")
-    colours = {"flagstone": "#c77700", "pypatchworkpp": "#3466a4", "open3d": "#777777"}
+    figure, axes = plt.subplots(figsize=(7.5, 4.8), layout="constrained")
+    colours = {"flagstone": "#b86a00", "pypatchworkpp": "#2f5f9e", "open3d": "#666666"}
     for what, (contenders, milliseconds, f1) in results.items():
         for contender in contenders:
             colour = colours[contender.package]
-            x, y = milliseconds[contender.title], f1[contender.title]["patchwork++"]
-            axes.plot(x, y, "o", color=colour, markerfacecolor=colour if what == "kitti" else "white", markersize=8)
+            place = milliseconds[contender.title], f1[contender.title]["patchwork++"]
+            axes.plot(*place, "o", color=colour, markerfacecolor=colour if what == "kitti" else "white", markersize=8)
             if what == list(results)[-1]:
+                to_the_left = contender.package == "open3d"
                 axes.annotate(
-                    contender.title.replace("`", ""), (x, y), xytext=(9, -3), textcoords="offset points", color=colour
+                    contender.title.replace("`", ""),
+                    place,
+                    xytext=(-12 if to_the_left else 14, 0),
+                    textcoords="offset points",
+                    horizontalalignment="right" if to_the_left else "left",
+                    verticalalignment="center",
+                    color=colour,
                 )
+    for what, face in (("SemanticKITTI", "black"), ("simulated", "white")):
+        axes.plot([], [], "o", color="black", markerfacecolor=face, markersize=8, label=what)
+    axes.legend(loc="lower left", frameon=False)
     axes.set_xscale("log")
+    axes.set_xlim(0.5, 500)
+    axes.xaxis.set_major_formatter("{x:g}")
     axes.set_xlabel("milliseconds a scan, one core")
-    axes.set_ylabel("F1 of ground, percent, protocol patchwork++")
-    axes.grid(alpha=0.3, which="both")
+    axes.set_ylabel("F1 of ground, percent (patchwork++)")
+    axes.grid(alpha=0.25)
     axes.spines[["top", "right"]].set_visible(False)
     if file:
         figure.savefig(file, dpi=120)
