@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""segment_loop.cpp again, through the Python package, for bench/python_overhead.py.
-
-segment_loop.py METHOD FILE...
-"""
+"""segment_loop.cpp again, through the Python package, for bench/python_overhead.py: segment_loop.py METHOD FILE..."""
 
 import sys
 import time
