@@ -5,8 +5,9 @@
 import sys
 import time
 
-import flagstone
 import numpy as np
+
+import flagstone
 
 
 def hash_of(labels):
