@@ -1,0 +1,559 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+
+# %% [markdown]
+# # Side by side
+#
+# The same scans, segmented by [pypatchworkpp](https://pypi.org/project/pypatchworkpp) (both of its methods), by
+# [Open3D](https://www.open3d.org)'s `segment_plane` and by flagstone (both of its methods): lines of code, time,
+# accuracy, and what happens to input that is not as it should be. What is not installed is left out and named.
+#
+#     pip install flagstone[pandas,plot] pypatchworkpp open3d
+#     python side_by_side.py                                         # prints the tables
+#     python side_by_side.py --quick                                 # fewer scans and rounds
+#     python side_by_side.py --write docs/python/side_by_side.md     # fills the tables in, draws the picture
+#
+# It also opens as a notebook: the cells begin with `# %%`. Scans are simulated; where the environment variable
+# `FLAGSTONE_DATA` names a folder with real ones, those in `kitti` are taken too.
+
+# %%
+import argparse
+import contextlib
+import datetime
+import importlib.util
+import inspect
+import json
+import os
+import pathlib
+import platform
+import re
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import textwrap
+import time
+import typing
+
+import numpy as np
+
+os.environ["OMP_NUM_THREADS"] = "1"  # one thread each; read when the packages are loaded, which is below
+
+# %% [markdown]
+# ## The code that each needs
+#
+# Each function makes a segmenter; what it returns takes points, (N, 4) float32: x, y, z, intensity, and gives a
+# mask: which of the points are ground. Settings are the packages' own, but for the sensor's height where it is asked
+# for, and for RANSAC's 0.2 m and 1,000 trials, which have no defaults.
+
+
+# %%
+def pypatchworkpp_patchwork(sensor_height):
+    import numpy as np
+    import pypatchworkpp
+
+    parameters = pypatchworkpp.PatchworkParams()
+    parameters.sensor_height = sensor_height
+    segmenter = pypatchworkpp.patchwork(parameters)
+
+    def ground_of(points):
+        segmenter.estimateGround(points)
+        ground = np.zeros(len(points), bool)
+        ground[segmenter.getGroundIndices()] = True
+        return ground
+
+    return ground_of
+
+
+def pypatchworkpp_patchworkpp(sensor_height):
+    import numpy as np
+    import pypatchworkpp
+
+    parameters = pypatchworkpp.Parameters()
+    parameters.sensor_height = sensor_height
+    segmenter = pypatchworkpp.patchworkpp(parameters)
+
+    def ground_of(points):
+        segmenter.estimateGround(points)
+        ground = np.zeros(len(points), bool)
+        ground[segmenter.getGroundIndices()] = True
+        return ground
+
+    return ground_of
+
+
+def open3d_segment_plane(_sensor_height):
+    import numpy as np
+    import open3d
+
+    def ground_of(points):
+        xyz = open3d.utility.Vector3dVector(points[:, :3].astype(float))
+        _, inliers = open3d.geometry.PointCloud(xyz).segment_plane(0.2, ransac_n=3, num_iterations=1000)
+        ground = np.zeros(len(points), bool)
+        ground[inliers] = True
+        return ground
+
+    return ground_of
+
+
+def flagstone_surface(sensor_height):
+    import flagstone
+
+    segmenter = flagstone.Surface(sensor_height=sensor_height)
+
+    def ground_of(points):
+        return segmenter.segment(points).ground
+
+    return ground_of
+
+
+def flagstone_patchwork(sensor_height):
+    import flagstone
+
+    segmenter = flagstone.Patchwork(sensor_height=sensor_height)
+
+    def ground_of(points):
+        return segmenter.segment(points).ground
+
+    return ground_of
+
+
+# %%
+class Contender(typing.NamedTuple):
+    """A package's way to find ground."""
+
+    title: str
+    package: str
+    make: typing.Callable  # sensor height, metres -> a function from points to a mask
+    hands_back: str  # the package's own answer, before a mask is made of it
+
+
+CONTENDERS = (
+    Contender("flagstone `Surface`", "flagstone", flagstone_surface, "a label, and a height, for each point"),
+    Contender("flagstone `Patchwork`", "flagstone", flagstone_patchwork, "a label for each point"),
+    Contender(
+        "pypatchworkpp `patchwork`", "pypatchworkpp", pypatchworkpp_patchwork, "two lists of indices, bin by bin"
+    ),
+    Contender(
+        "pypatchworkpp `patchworkpp`", "pypatchworkpp", pypatchworkpp_patchworkpp, "two arrays of indices, bin by bin"
+    ),
+    Contender("Open3D `segment_plane`", "open3d", open3d_segment_plane, "indices of the plane's points, ascending"),
+)
+
+
+def installed(contenders=CONTENDERS):
+    """Those whose package is there; the others are named."""
+    there = [c for c in contenders if importlib.util.find_spec(c.package)]
+    for package in sorted({c.package for c in contenders if c not in there}):
+        print(f"left out: {package} is not installed (pip install {package})")
+    return there
+
+
+def lines_of(make):
+    """Lines of code, without blank ones and without the three that all have in common: two `def`, one `return`."""
+    return sum(bool(line.strip()) for line in inspect.getsource(make).splitlines()) - 3
+
+
+@contextlib.contextmanager
+def silence():
+    """Sends standard output to nowhere: pypatchworkpp prints from C++ when a segmenter is made."""
+    sys.stdout.flush()
+    kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(nowhere)
+
+
+def made(contender, sensor_height):
+    with silence():
+        return contender.make(sensor_height)
+
+
+# %% [markdown]
+# ## The scans
+#
+# Simulated: one scan of each of eight scenes by an HDL-64E, with exact classes. Real: the eight full-density
+# SemanticKITTI scans of two places, of which the first six were taken within 1.5 seconds.
+
+
+# %%
+class Scan(typing.NamedTuple):
+    """Points, (N, 4) float32, and SemanticKITTI's class of each, (N,)."""
+
+    points: np.ndarray
+    classes: np.ndarray
+
+
+SENSOR_HEIGHT = 1.73  # metres, of all of them
+SCENES = (
+    "flat_street", "steep_street", "parked_cars", "bushes_and_lawn", "urban_street", "crossroads", "highway", "park",
+)  # fmt: skip
+KITTI = (
+    "00-000000", "00-000001", "00-000002", "00-000005", "00-000010", "00-000015", "08-000000", "08-000536",
+)  # fmt: skip
+
+
+def read_scan(points, labels):
+    return Scan(np.fromfile(points, np.float32).reshape(-1, 4), np.fromfile(labels, np.uint32) & 0xFFFF)
+
+
+def simulated_scans(folder, scenes):
+    import flagstone
+
+    scans = []
+    for number, scene in enumerate(scenes):
+        show_progress(f"simulating {scene}")
+        frames = flagstone.simulate(folder, scene=scene, frames=1, sequence=f"{number:02}")
+        scans.append(read_scan(frames["scan"][0], frames["labels"][0]))
+    return scans
+
+
+def real_scans(names):
+    folder = pathlib.Path(os.environ.get("FLAGSTONE_DATA", "/none")) / "kitti"
+    if not folder.is_dir():
+        print("left out: real scans, since FLAGSTONE_DATA names no folder that has them")
+        return []
+    return [read_scan(folder / "velodyne" / f"{name}.bin", folder / "labels" / f"{name}.label") for name in names]
+
+
+def show_progress(text):
+    """On a terminal, in one line that the next call replaces; an empty text clears it."""
+    if sys.stderr.isatty():
+        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
+
+
+# %% [markdown]
+# ## Accuracy
+#
+# F1 of ground under the two protocols that the literature uses. Figures are comparable under the same one only.
+# Every scan is segmented by a new segmenter. Counted is also how many labels come out otherwise from a segmenter
+# that saw the scans before: because it adapts itself to them, or because it draws lots.
+
+
+# %%
+GROUND = (40, 44, 48, 49, 60, 72)  # road, parking, sidewalk, other ground, lane marking, terrain
+VEGETATION = 70
+PROTOCOLS = ("patchwork", "patchwork++")
+
+
+def truth_of(scan, protocol):
+    """Which points are ground, and which are scored."""
+    ground = np.isin(scan.classes, GROUND)
+    if protocol == "patchwork":  # low vegetation is ground too; every point counts
+        return ground | ((scan.classes == VEGETATION) & (scan.points[:, 2] < -1.3)), np.ones(len(ground), bool)
+    return ground, ~np.isin(scan.classes, (0, 1, VEGETATION))  # nor do unlabelled points and outliers count
+
+
+def f1_of(found, truth, scored):
+    """Harmonic mean of precision and recall: 2 TP / (2 TP + FP + FN)."""
+    hits = np.count_nonzero(found & truth & scored)
+    return 2 * hits / (np.count_nonzero(found & scored) + np.count_nonzero(truth & scored))
+
+
+def accuracy(contenders, scans):
+    """By contender: mean F1 over scans by protocol, and labels that change with the scans before, all percent."""
+    found = {}
+    for contender in contenders:
+        show_progress(f"accuracy of {contender.title}")
+        kept = made(contender, SENSOR_HEIGHT)
+        rows = []
+        for scan in scans:
+            ground = made(contender, SENSOR_HEIGHT)(scan.points)
+            f1 = [f1_of(ground, *truth_of(scan, protocol)) for protocol in PROTOCOLS]
+            rows.append([*f1, np.mean(ground != kept(scan.points))])
+        found[contender.title] = dict(zip((*PROTOCOLS, "changed"), 100 * np.mean(rows, axis=0), strict=True))
+    return found
+
+
+# %% [markdown]
+# ## Time
+#
+# From the array to the mask, on one core with one thread. The contenders take turns: each segments all scans, then
+# the next one, in another order every round. The segmenters are kept, as on a drive. It is processor time, which
+# other programs on the machine do not lengthen.
+
+
+# %%
+def times(contenders, scans, rounds):
+    """Median over scans and rounds, milliseconds, by contender."""
+    segment = {contender.title: made(contender, SENSOR_HEIGHT) for contender in contenders}
+    taken = {title: [] for title in segment}
+    with one_core():
+        for turn in range(rounds + 1):  # the first is to warm up
+            show_progress(f"time, round {turn} of {rounds}")
+            titles = list(segment)
+            for title in titles[turn % len(titles) :] + titles[: turn % len(titles)]:
+                for scan in scans:
+                    start = time.process_time()
+                    segment[title](scan.points)
+                    taken[title].append(time.process_time() - start)
+    return {title: 1000 * statistics.median(each[len(scans) :]) for title, each in taken.items()}
+
+
+@contextlib.contextmanager
+def one_core():
+    """Keeps this process on one core, where the system can."""
+    if not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {max(before)})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, before)
+
+
+# %% [markdown]
+# ## Input that is not as it should be
+#
+# In a process of their own, since some of it crashes. The function's own source is what runs there. Counted is how
+# many of the points without a place are called ground, and how many of the other points are labelled otherwise than
+# when the bad ones were not there.
+
+
+# %%
+CHILD = """
+import json, sys
+import numpy as np
+
+{source}
+
+make, case, folder = {name}, *sys.argv[1:]
+points = np.load(folder + "/points.npy")
+if case == "empty":
+    outcome = {{"shape": list(make({height})(points[:0]).shape)}}
+else:
+    if case == "lost returns":
+        points[::10] = np.nan
+    else:
+        points[::1000, 0] = points[500::1000, 2] = np.nan
+    bad = np.isnan(points).any(axis=1)
+    ground = make({height})(points)
+    alone = make({height})(points[~bad])
+    outcome = {{"called_ground": int(ground[bad].sum()), "changed": float(np.mean(ground[~bad] != alone))}}
+with open(folder + "/outcome.json", "w") as file:
+    json.dump(outcome, file)
+"""
+
+CASES = {
+    "empty": "empty array, (0, 4)",
+    "lost returns": "every tenth point NaN",
+    "one coordinate": "x or z of every 500th point NaN",
+}
+
+
+def what_happens(contender, scan, case):
+    """The outcome in a few words."""
+    source = textwrap.dedent(inspect.getsource(contender.make))
+    program = CHILD.format(source=source, name=contender.make.__name__, height=SENSOR_HEIGHT)
+    with tempfile.TemporaryDirectory() as folder:
+        np.save(pathlib.Path(folder) / "points.npy", scan.points)
+        done = subprocess.run([sys.executable, "-c", program, case, folder], capture_output=True, text=True)
+        if done.returncode < 0:
+            return f"crashes ({signal.Signals(-done.returncode).name})"
+        if done.returncode > 0:
+            return error_in(done.stderr)
+        outcome = json.loads((pathlib.Path(folder) / "outcome.json").read_text())
+    if case == "empty":
+        return "an empty answer" if outcome["shape"] == [0] else f"an answer of shape {outcome['shape']}"
+    called = f"{outcome['called_ground']:,} of them ground" if outcome["called_ground"] else "none of them ground"
+    changed = f"{max(0.01, 100 * outcome['changed']):.2f} % of the others change"
+    return f"{called}; {changed if outcome['changed'] else 'no other changes'}"
+
+
+def error_in(text):
+    """The exception's type and the end of its message."""
+    plain = re.sub(r"\x1b\[[0-9;]*m", "", text)  # Open3D's are in colour
+    kind, _, message = [line for line in plain.splitlines() if "Error" in line][-1].partition(": ")
+    return f"`{kind}`: {re.sub(r'^.*[.]cpp:[0-9]+: ', '', message)}"
+
+
+def behaviour(contenders, scan):
+    """Outcomes by contender and case."""
+    outcomes = {}
+    for contender in contenders:
+        show_progress(f"input that is not as it should be: {contender.title}")
+        outcomes[contender.title] = {case: what_happens(contender, scan, case) for case in CASES}
+    return outcomes
+
+
+# %% [markdown]
+# ## The order of labels
+#
+# A mask has the order of the points. Indices come as they do: pypatchworkpp's go from bin to bin, and each bin's by
+# height, so that they have to be put back in order before anything else of the scan can be looked up beside them.
+
+
+# %%
+def indices_of_pypatchworkpp(scan):
+    import pypatchworkpp
+
+    with silence():
+        segmenter = pypatchworkpp.patchwork(pypatchworkpp.PatchworkParams())
+        segmenter.estimateGround(scan.points)
+    indices = np.asarray(segmenter.getGroundIndices())
+    others = np.asarray(segmenter.getNongroundIndices())
+    missing = len(scan.points) - len(indices) - len(others)
+    print(
+        f"pypatchworkpp.patchwork: the first indices of ground are {indices[:5].tolist()}; ascending:"
+        f" {bool((np.diff(indices) > 0).all())}; in neither list: {missing} of {len(scan.points):,} points"
+    )
+
+
+# %% [markdown]
+# ## Tables and picture
+
+
+# %%
+def table(head, rows, left=1):
+    """In Markdown; `left` columns are set flush left, the others right."""
+    rule = ["---"] * left + ["---:"] * (len(head) - left)
+    return "\n".join("| " + " | ".join(line) + " |" for line in (head, rule, *rows))
+
+
+def speed_table(contenders, milliseconds, f1):
+    rows = [
+        [
+            contender.title,
+            str(lines_of(contender.make)),
+            f"{milliseconds[contender.title]:.2f}",
+            *(f"{f1[contender.title][figure]:.2f}" for figure in (*PROTOCOLS, "changed")),
+        ]
+        for contender in contenders
+    ]
+    head = ["", "lines", "ms", *(f"F1 `{protocol}`" for protocol in PROTOCOLS), "labels changed by scans before, %"]
+    return table(head, rows)
+
+
+def behaviour_table(contenders, outcomes):
+    rows = [
+        [contender.title, contender.hands_back, *(outcomes[contender.title][case] for case in CASES)]
+        for contender in contenders
+    ]
+    head = ["", "hands back", *CASES.values()]
+    return table(head, rows, left=len(head))
+
+
+CPU = pathlib.Path("/proc/cpuinfo")
+
+
+def made_by(what, scans, rounds):
+    """How the table came about."""
+    processor = dict(re.findall(r"^(model name|cpu family|model)\s*: (.*)", CPU.read_text(), flags=re.MULTILINE))
+    versions = [f"{name} {version_of(name)}" for name in ("flagstone", "pypatchworkpp", "open3d", "numpy")]
+    points = statistics.mean(len(scan.points) for scan in scans)
+    return (
+        f"{what}: {len(scans)} scans of {points:,.0f} points (mean), median of {rounds} rounds;"
+        f" {', '.join(v for v in versions if not v.endswith('None'))}; Python {platform.python_version()};"
+        f" one core of an {processor['model name']}, family {processor['cpu family']}, model {processor['model']};"
+        f" {datetime.date.today()}."
+    )
+
+
+def version_of(package):
+    from importlib.metadata import PackageNotFoundError, version
+
+    if package == "flagstone":  # may lie in a source tree
+        import flagstone
+
+        return flagstone.__version__
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return None
+
+
+def filled(page, found):
+    """The text of a page with what was found between <!-- table NAME --> and <!-- end -->."""
+    for name, text in found.items():
+        page = re.sub(
+            rf"<!-- table {name} -->.*?<!-- end -->",
+            lambda _, name=name, text=text: f"<!-- table {name} -->\n\n{text}\n\n<!-- end -->",
+            page,
+            flags=re.DOTALL,
+        )
+    return page
+
+
+def draw(results, file=None):
+    """F1 against time: filled dots are real scans, hollow ones simulated."""
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(figsize=(7.5, 4.8), layout="constrained")
+    colours = {"flagstone": "#b86a00", "pypatchworkpp": "#2f5f9e", "open3d": "#666666"}
+    for what, (contenders, milliseconds, f1) in results.items():
+        for contender in contenders:
+            colour = colours[contender.package]
+            place = milliseconds[contender.title], f1[contender.title]["patchwork++"]
+            axes.plot(*place, "o", color=colour, markerfacecolor=colour if what == "kitti" else "white", markersize=8)
+            if what == list(results)[-1]:
+                to_the_left = contender.package == "open3d"
+                axes.annotate(
+                    contender.title.replace("`", ""),
+                    place,
+                    xytext=(-12 if to_the_left else 14, 0),
+                    textcoords="offset points",
+                    horizontalalignment="right" if to_the_left else "left",
+                    verticalalignment="center",
+                    color=colour,
+                )
+    for what, face in (("SemanticKITTI", "black"), ("simulated", "white")):
+        axes.plot([], [], "o", color="black", markerfacecolor=face, markersize=8, label=what)
+    axes.legend(loc="lower left", frameon=False)
+    axes.set_xscale("log")
+    axes.set_xlim(0.5, 500)
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.set_xlabel("milliseconds a scan, one core")
+    axes.set_ylabel("F1 of ground, percent (patchwork++)")
+    axes.grid(alpha=0.25)
+    axes.spines[["top", "right"]].set_visible(False)
+    if file:
+        figure.savefig(file, dpi=120)
+        plt.close(figure)
+    return figure
+
+
+# %%
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description="The same scans segmented by several packages.")
+    parser.add_argument("--quick", action="store_true", help="two scans, two rounds")
+    parser.add_argument("--rounds", type=int, help="of timing; 15")
+    parser.add_argument("--write", type=pathlib.Path, help="page whose tables are filled in; draws its picture too")
+    options = parser.parse_args(arguments)
+    rounds = options.rounds or (2 if options.quick else 15)
+    count = 2 if options.quick else len(SCENES)
+
+    contenders = installed()
+    found, results = {}, {}
+    with tempfile.TemporaryDirectory() as folder:
+        sets = {"simulated": simulated_scans(folder, SCENES[:count]), "kitti": real_scans(KITTI[:count])}
+    titles = {"simulated": "Simulated", "kitti": "SemanticKITTI"}
+    for name, scans in sets.items():
+        if not scans:
+            continue
+        f1 = accuracy(contenders, scans)
+        milliseconds = times(contenders, scans, rounds)
+        results[name] = (contenders, milliseconds, f1)
+        found[name] = f"{speed_table(contenders, milliseconds, f1)}\n\n{made_by(titles[name], scans, rounds)}"
+    found["behaviour"] = behaviour_table(contenders, behaviour(contenders, sets["simulated"][0]))
+    show_progress("")
+    if any(contender.package == "pypatchworkpp" for contender in contenders):
+        indices_of_pypatchworkpp(sets["simulated"][0])
+    print("\n\n".join(["", *found.values()]))
+    if options.write:
+        options.write.write_text(filled(options.write.read_text(), found))
+        draw(results, options.write.parent.parent / "images" / "side-by-side.png")
+    return results
+
+
+if __name__ == "__main__":
+    try:
+        results = main([] if "ipykernel" in sys.modules else None)  # in a notebook, draw(results) shows the picture
+    except KeyboardInterrupt:
+        sys.exit("\ninterrupted")
