@@ -97,7 +97,8 @@ class Segmenter:
             ValueError: Their shape is another, or they are more than 2^32 - 1.
             MemoryError: They are more than the memory holds.
         """
-        return Segmentation(self._core.segment(*columns_of(points)))
+        result = self._core.segment_rows(points)  # the usual case
+        return Segmentation(result if result is not None else self._core.segment(*columns_of(points)))
 
     def reset(self) -> None:
         """Forgets all scans: as newly made. Only how the sensor stands, where it is estimated, is ever remembered."""

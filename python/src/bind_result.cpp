@@ -143,7 +143,7 @@ nb::tuple tuple_of(const std::array<float, 3>& v) { return nb::make_tuple(v[0], 
 nb::tuple mount(const Result& result) {
   const Mount& mount = result.mount();
   return nb::make_tuple(mount.sensor_height, tuple_of(mount.up), tuple_of(mount.origin),
-                        mount.scale, result.mount_sentence().c_str());
+                        mount.scale, to_sentence(result.decision()).c_str());
 }
 
 }  // namespace

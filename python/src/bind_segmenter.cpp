@@ -38,21 +38,14 @@ class SharedSegmenter {
                                                      mount_settings_);
   }
 
+  /// None where they are not rows of points; segment() says then whether they are points at all.
+  std::unique_ptr<Result> segment_rows(nb::handle array) {
+    const Rows rows(array);
+    return rows.are_points() ? segment_points(rows) : nullptr;
+  }
+
   std::unique_ptr<Result> segment(nb::handle x, nb::handle y, nb::handle z) {
-    const Points points(x, y, z);
-    Status status;
-    std::unique_ptr<Result> result;
-    {
-      const nb::gil_scoped_release released;
-      // After the lock is free again: others wait for it with the interpreter's lock released.
-      const std::scoped_lock lock(turn_);
-      std::unique_ptr<Segmentation> segmentation = spare_->take();
-      status = segmenter_->segment(points.view(copy_), *segmentation);
-      result = std::make_unique<Result>(std::move(segmentation), spare_, segmenter_->mount(),
-                                        to_sentence(segmenter_->decision()));
-    }
-    raise_if_failed(status);
-    return result;
+    return segment_points(Points(x, y, z));
   }
 
   void reset() {
@@ -65,6 +58,23 @@ class SharedSegmenter {
   [[nodiscard]] MountSettings mount_settings() const { return mount_settings_; }
 
  private:
+  template <class AnyPoints>
+  std::unique_ptr<Result> segment_points(const AnyPoints& points) {
+    Status status;
+    std::unique_ptr<Result> result;
+    {
+      const nb::gil_scoped_release released;
+      // Taken after the interpreter's lock is given up: others wait for their turn without it.
+      const std::scoped_lock lock(turn_);
+      std::unique_ptr<Segmentation> segmentation = spare_->take();
+      status = segmenter_->segment(points.view(copy_), *segmentation);
+      result = std::make_unique<Result>(std::move(segmentation), spare_, segmenter_->mount(),
+                                        segmenter_->decision());
+    }
+    raise_if_failed(status);
+    return result;
+  }
+
   std::mutex turn_;
   std::string method_;
   MountSettings mount_settings_;
@@ -141,6 +151,12 @@ nb::dict settings_dict(const SharedSegmenter& segmenter) {
   return settings;
 }
 
+/// Where the first number of the first row is read by segment_rows(); 0 where they are not points.
+std::uintptr_t address_of_rows(nb::handle array) {
+  const Rows rows(array);
+  return rows.are_points() ? reinterpret_cast<std::uintptr_t>(rows.view({}).data()) : 0;
+}
+
 /// Where the x of the first point is read by segment(); 0 for points that it copies first.
 std::uintptr_t address_of(nb::handle x, nb::handle y, nb::handle z) {
   const Points points(x, y, z);
@@ -156,6 +172,8 @@ void bind_segmenter(nb::module_& module) {
   using Tilt = std::variant<std::monostate, std::array<float, 3>, std::string>;
   module.def("address_of", &address_of, nb::arg("x"), nb::arg("y"), nb::arg("z"),
              nb::sig("def address_of(x: object, y: object, z: object) -> int"));
+  module.def("address_of_rows", &address_of_rows, nb::arg("array").none(),
+             nb::sig("def address_of_rows(array: object) -> int"));
   nb::class_<SharedSegmenter>(module, "Segmenter")
       .def(
           "__init__",
@@ -174,6 +192,8 @@ void bind_segmenter(nb::module_& module) {
           nb::kw_only(), nb::arg("method"), nb::arg("preset"), nb::arg("sensor"),
           nb::arg("config_file"), nb::arg("settings"), nb::arg("sensor_height").none(),
           nb::arg("tilt").none(), nb::arg("threads"))
+      .def("segment_rows", &SharedSegmenter::segment_rows, nb::arg("array").none(),
+           nb::sig("def segment_rows(self, array: object) -> Result | None"))
       .def("segment", &SharedSegmenter::segment, nb::arg("x"), nb::arg("y"), nb::arg("z"),
            nb::sig("def segment(self, x: object, y: object, z: object) -> Result"))
       .def("reset", &SharedSegmenter::reset)

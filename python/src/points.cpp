@@ -19,19 +19,25 @@ void copy_column(const Column& column, float* to) {
   }
 }
 
+/// The type of a buffer's numbers, without their byte order where it is this machine's: NumPy says
+/// "=f" for fields of records that are not aligned.
+std::string_view format_of(const Py_buffer& buffer) {
+  std::string_view format = buffer.format == nullptr ? "B" : buffer.format;
+  constexpr bool is_little = std::endian::native == std::endian::little;
+  if (format.starts_with('=') || format.starts_with('@') ||
+      format.starts_with(is_little ? '<' : '>')) {
+    format.remove_prefix(1);
+  }
+  return format;
+}
+
 }  // namespace
 
 Column::Column(nanobind::handle object) {
   if (PyObject_GetBuffer(object.ptr(), &buffer_, PyBUF_STRIDES | PyBUF_FORMAT) != 0) {
     throw nanobind::python_error();
   }
-  std::string_view format = buffer_.format == nullptr ? "B" : buffer_.format;
-  // NumPy says "=f" for fields of records that are not aligned.
-  constexpr bool is_little = std::endian::native == std::endian::little;
-  if (format.starts_with('=') || format.starts_with('@') ||
-      format.starts_with(is_little ? '<' : '>')) {
-    format.remove_prefix(1);
-  }
+  const std::string_view format = format_of(buffer_);
   if (buffer_.ndim != 1 || (format != "f" && format != "d")) {
     PyBuffer_Release(&buffer_);
     throw nanobind::type_error("a column is one row of float32 or float64");
@@ -39,6 +45,26 @@ Column::Column(nanobind::handle object) {
 }
 
 Column::~Column() { PyBuffer_Release(&buffer_); }
+
+Rows::Rows(nanobind::handle object) noexcept {
+  if (PyObject_GetBuffer(object.ptr(), &buffer_, PyBUF_STRIDES | PyBUF_FORMAT) != 0) {
+    PyErr_Clear();
+    return;
+  }
+  constexpr Py_ssize_t few_rows = 8;
+  constexpr Py_ssize_t many_columns = 8;
+  are_points_ = buffer_.ndim == 2 && format_of(buffer_) == "f" && buffer_.shape[1] >= 3 &&
+                (buffer_.shape[0] > few_rows || buffer_.shape[1] <= many_columns);
+}
+
+Rows::~Rows() { PyBuffer_Release(&buffer_); }
+
+CloudView Rows::view(const std::vector<float>& /*unused*/) const noexcept {
+  const std::ptrdiff_t column = buffer_.strides[1];
+  return {buffer_.buf,
+          static_cast<std::size_t>(buffer_.shape[0]),
+          {buffer_.strides[0], 0, column, 2 * column}};
+}
 
 Points::Points(nanobind::handle x, nanobind::handle y, nanobind::handle z) : x_(x), y_(y), z_(z) {
   if (x_.size() != y_.size() || x_.size() != z_.size()) {

@@ -38,6 +38,29 @@ class Column {
   Py_buffer buffer_{};
 };
 
+/// Points that are rows of an array, read where they lie: the usual case, looked at in one step.
+class Rows {
+ public:
+  /// Looks whether the object speaks the buffer protocol and has N rows of 3 or more 32-bit floats,
+  /// and not so few rows of so many that rows and columns were exchanged. Python holds no error
+  /// afterwards.
+  explicit Rows(nanobind::handle object) noexcept;
+  ~Rows();
+  Rows(const Rows&) = delete;
+  Rows& operator=(const Rows&) = delete;
+  Rows(Rows&&) = delete;
+  Rows& operator=(Rows&&) = delete;
+
+  [[nodiscard]] bool are_points() const noexcept { return are_points_; }
+
+  /// The points; only if they are.
+  [[nodiscard]] CloudView view(const std::vector<float>& unused) const noexcept;
+
+ private:
+  Py_buffer buffer_{};
+  bool are_points_ = false;
+};
+
 /// The points that three columns make. Where they are 32-bit floats with one stride, as columns of
 /// one array are, they are viewed where they lie.
 class Points {

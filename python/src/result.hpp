@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,11 +19,11 @@ namespace flagstone::python {
 class Result {
  public:
   Result(std::unique_ptr<Segmentation> segmentation, std::shared_ptr<SpareResults> spare,
-         const Mount& mount, std::string mount_sentence)
+         const Mount& mount, const MountDecision& decision)
       : segmentation_(std::move(segmentation)),
         spare_(std::move(spare)),
         mount_(mount),
-        mount_sentence_(std::move(mount_sentence)) {}
+        decision_(decision) {}
   ~Result() {
     if (segmentation_) spare_->give_back(std::move(segmentation_));
   }
@@ -35,7 +34,7 @@ class Result {
 
   [[nodiscard]] const Segmentation& segmentation() const noexcept { return *segmentation_; }
   [[nodiscard]] const Mount& mount() const noexcept { return mount_; }
-  [[nodiscard]] const std::string& mount_sentence() const noexcept { return mount_sentence_; }
+  [[nodiscard]] const MountDecision& decision() const noexcept { return decision_; }
 
   /// 1 for each point of the ground, else 0. May throw std::bad_alloc, the first time.
   [[nodiscard]] std::span<const std::uint8_t> ground();
@@ -47,7 +46,7 @@ class Result {
   std::unique_ptr<Segmentation> segmentation_;
   std::shared_ptr<SpareResults> spare_;
   Mount mount_;
-  std::string mount_sentence_;
+  MountDecision decision_;
   std::vector<std::uint8_t> ground_;
   std::vector<float> unknown_heights_;
 };

@@ -80,6 +80,16 @@ def test_float32_is_read_where_it_lies(layout: str, scan: Scan) -> None:
     assert _core.address_of(*columns_of(points)) == first_x.__array_interface__["data"][0]
 
 
+def test_rows_are_looked_at_in_one_step(scan: Scan) -> None:
+    for layout in ("rows of four", "columns one after the other", "inside a wider array", "a memory view"):
+        points = IN_PLACE[layout](scan)
+        assert _core.address_of_rows(points) == np.asarray(points).__array_interface__["data"][0], layout
+    for layout in CONVERTED:
+        assert _core.address_of_rows(CONVERTED[layout](scan)) == 0, layout
+    for what in WRONG:
+        assert _core.address_of_rows(WRONG[what][0]) == 0, what
+
+
 def test_a_tensor_of_the_processor_is_read_where_it_lies(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
     torch = pytest.importorskip("torch")
     tensor = torch.from_numpy(scan)
