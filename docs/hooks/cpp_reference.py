@@ -92,7 +92,8 @@ class Reference:
         self.headers[item.place[0]].append(item)
 
     def doc(self, item: Item | Element) -> str:
-        return description(item.element if isinstance(item, Item) else item, self.links.get)
+        element = item.element if isinstance(item, Item) else item
+        return description(element, lambda refid: None if refid == element.get("id") else self.links.get(refid))
 
     def anchor(self, item: Item) -> str:
         return self.links[item.id].partition("#")[2]
@@ -107,10 +108,11 @@ class Reference:
         for group, pages in groups.items():
             lines += [f"\n## {group}\n", "| name | what it is | header |", "|---|---|---|"]
             for page in pages:
-                for name, items in groupby(self.headers[headers[page]], key=lambda item: item.name):
-                    first = next(items)
+                items = [item for item in self.headers[headers[page]] if item.name != "to_string"]
+                for name, same in groupby(items, key=lambda item: item.name):
+                    first = next(same)
                     link = f"[`{name}`]({self.links[first.id]})"
-                    lines.append(f"| {link} | {first_sentence(self.doc(first))} | [`{headers[page]}`]({page}) |")
+                    lines.append(f"| {link} | {first_sentence(self.doc(first))} | [`{page[:-3]}.hpp`]({page}) |")
         return "\n".join(lines) + "\n"
 
     def page(self, header: str) -> str:
@@ -128,7 +130,7 @@ class Reference:
         parts = [self.bases(item), self.doc(item)]
         fields = [member for member in item.members if member.kind == "variable"]
         if fields:
-            parts.append(self.table("field", "type and default", fields, item))
+            parts.append(self.field_table(fields))
         functions = [member for member in item.members if member.kind == "function"]
         for _, group in groupby(functions, key=lambda member: member.name):
             overloads = list(group)
@@ -147,17 +149,19 @@ class Reference:
         for item in items:
             if item is not items[0]:
                 parts.append(f'<a id="{self.anchor(item)}"></a>')
-            parts += [f"```cpp\n{signature(item)}\n```", self.doc(item)]
+            parts += [f"```cpp\n{signature(item)}\n```"] if item.kind != "concept" else []
+            parts.append(self.doc(item))
             if item.kind == "enum":
                 parts.append(self.enum_table(item))
         return parts
 
-    def table(self, first: str, second: str, fields: list[Item], owner: Item) -> str:
-        lines = [f"| {first} | {second} | |", "|---|---|---|"]
+    def field_table(self, fields: list[Item]) -> str:
+        lines = ["| field | type | default | |", "|---|---|---|---|"]
         for member in fields:
             name = f'<a id="{self.anchor(member)}"></a>`{member.short_name}`'
-            kind = f"{plain(member.element.find('type'))} {plain(member.element.find('initializer'))}".strip()
-            lines.append(f"| {name} | `{kind}` | {in_cell(self.doc(member))} |")
+            kind = tidy(plain(member.element.find("type")))
+            default = plain(member.element.find("initializer")).removeprefix("= ")
+            lines.append(f"| {name} | `{kind}` | {f'`{default}`' if default else ''} | {in_cell(self.doc(member))} |")
         return "\n".join(lines)
 
     def enum_table(self, item: Item) -> str:
@@ -181,8 +185,6 @@ def members_of(compound: Element, scope: str) -> list[Item]:
 def signature(item: Item) -> str:
     """The declaration, with a line for each parameter where it is too long for one."""
     element, name = item.element, item.short_name
-    if item.kind == "concept":
-        return plain(element.find("initializer"))
     if item.kind == "define":
         return f"#define {name} {plain(element.find('initializer'))}"
     if item.kind == "enum":
@@ -222,7 +224,7 @@ def in_cell(markdown: str) -> str:
 
 
 def first_sentence(markdown: str) -> str:
-    return re.split(r"(?<=[.:])\s", markdown.partition("\n\n")[0], maxsplit=1)[0].rstrip(":")
+    return re.split(r"(?<=\.)\s", markdown.partition("\n\n")[0], maxsplit=1)[0]
 
 
 def page_of(header: str) -> str:

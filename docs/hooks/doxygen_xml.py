@@ -34,7 +34,9 @@ WARN_FORMAT = "$file:$line: $text"
 """
 
 # What no comment is asked for: moves, copies, destructors and default constructors do what they always do.
-SPECIAL_MEMBER = re.compile(r"Member (~\w+\(\)|(\w+)\((const )?(\2 &&?)?\)|operator=\((const )?\w+ &&?\))")
+SPECIAL_MEMBER = re.compile(
+    r"Member (~\w+\(\)|operator=\((const )?\w+ &&?\)|(?P<name>\w+)\((const )?((?P=name) &&?)?\).*::(?P=name) is not)"
+)
 
 
 def run_doxygen(include: Path) -> tuple[list[Element], list[str]]:
@@ -88,8 +90,10 @@ def inline(element: Element, link: Callable[[str], str | None]) -> str:
     refs = [element] if element.tag == "ref" else list(element.iter("ref"))
     address = link(refs[0].get("refid", "")) if refs else None
     if element.tag in ("ref", "computeroutput"):
-        code = f"`{plain(element)}`"
-        return f"[{code}]({address})" if address else (code if element.tag == "computeroutput" else escape(plain(element)))
+        # A class's name in a sentence may also be just a word: that becomes a quiet link.
+        is_code = element.tag == "computeroutput" or re.search(r"::|\(", plain(element))
+        text = f"`{plain(element)}`" if is_code else escape(plain(element))
+        return f"[{text}]({address})" if address else text
     mark = {"emphasis": "*", "bold": "**"}.get(element.tag, "")
     return f"{mark}{escape(plain(element))}{mark}"
 
