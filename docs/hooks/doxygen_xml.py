@@ -79,7 +79,10 @@ def paragraph(para: Element, link: Callable[[str], str | None]) -> list[str]:
             text = "".join(child.itertext()).strip("\n")
             blocks += [f"```cpp\n{text}\n```", ""]
         elif child.tag == "simplesect":
-            blocks += [f"*{child.get('kind', '').capitalize()}*: " + " ".join(b for p in child for b in paragraph(p, link)), ""]
+            blocks += [
+                f"*{child.get('kind', '').capitalize()}*: " + " ".join(b for p in child for b in paragraph(p, link)),
+                "",
+            ]
         else:
             blocks[-1] += inline(child, link)
         blocks[-1] += escape(child.tail or "")
@@ -99,7 +102,6 @@ def inline(element: Element, link: Callable[[str], str | None]) -> str:
 
 
 def escape(text: str) -> str:
-    """Text as Markdown that says just this; pages of docs/ that it names become links."""
+    """Text as Markdown that says just this."""
     text = re.sub(r"([\\`*\[\]])", r"\\\1", re.sub(r"\s+", " ", text))
-    text = text.replace("&", "&amp;").replace("<", "&lt;").replace("|", "&#124;")
-    return re.sub(r"\bdocs/([\w/]+)\.md\b", r"[\1](../\1.md)", text)
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace("|", "&#124;")

@@ -3,8 +3,8 @@
 """What the site takes from outside docs/.
 
 Pages link into the source tree, so that they can be followed on a code host. The site holds no sources: there such a
-link becomes the path it leads to. One that leads nowhere is a warning, in both cases, and so fails a strict build.
-CHANGELOG.md and CONTRIBUTING.md become pages.
+link becomes the path it leads to. One that leads nowhere is a warning, and so fails a strict build. CHANGELOG.md and
+CONTRIBUTING.md become pages.
 """
 
 from __future__ import annotations
@@ -26,6 +26,8 @@ log = logging.getLogger("mkdocs.hooks.repository")
 
 ROOT_PAGES = {"changelog.md": "CHANGELOG.md", "contributing.md": "CONTRIBUTING.md"}
 LINK = re.compile(r"(?<!!)\[(?P<text>[^\[\]]*)\]\((?P<target>[^()\s#]+)(?P<anchor>#[^()\s]*)?\)")
+
+NAMED_PAGE = re.compile(r"\bdocs/(?P<page>[\w/]+\.md)\b")
 
 
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:
@@ -53,6 +55,19 @@ def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: 
         return f"`{name}`" if text.startswith("`") else f"{text} (`{name}`)"
 
     return LINK.sub(replace, markdown)
+
+
+def on_page_content(html: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Docstrings and comments name pages as `docs/sensors.md`; here these are links."""
+
+    def replace(named: re.Match[str]) -> str:
+        target = files.get_file_from_path(named["page"])
+        if target is None:
+            log.warning("%s names docs/%s, which is not there", page.file.src_uri, named["page"])
+            return named[0]
+        return f'<a href="{target.url_relative_to(page.file)}">{named["page"].removesuffix(".md")}</a>'
+
+    return NAMED_PAGE.sub(replace, html) if page.file.src_uri.startswith(("reference/", "cpp/")) else html
 
 
 def root(config: MkDocsConfig) -> Path:

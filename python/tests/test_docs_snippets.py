@@ -66,9 +66,7 @@ def blocks_of(page: Path) -> list[Block]:
     return blocks
 
 
-PYTHON = {
-    page: [block for block in blocks_of(page) if block.language == "python" and block.is_run] for page in PAGES
-}
+PYTHON = {page: [block for block in blocks_of(page) if block.language == "python" and block.is_run] for page in PAGES}
 CPP = [(page, block) for page in PAGES for block in blocks_of(page) if block.language == "cpp" and block.is_run]
 
 # What a C++ snippet may take for granted: the headers, and a scan of the reader's.
