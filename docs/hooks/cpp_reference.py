@@ -33,6 +33,7 @@ TITLES = {"concept": "Concept", "enum": "Enumeration", "typedef": "Type", "varia
 
 
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:
+    """Adds the pages."""
     compounds, complaints = run_doxygen(Path(config.config_file_path).parent / "include")
     for complaint in complaints:
         log.warning("%s", complaint)
@@ -69,6 +70,8 @@ class Item:
 
 
 class Reference:
+    """Every header with what it declares, and where each of these stands."""
+
     def __init__(self, compounds: list[Element]) -> None:
         self.headers: dict[str, list[Item]] = defaultdict(list)
         self.links: dict[str, str] = {}  # doxygen's ids -> page#anchor
@@ -82,7 +85,7 @@ class Reference:
         for header, items in self.headers.items():
             items.sort(key=lambda item: item.place)
             taken: set[str] = set()
-            for item in [each for item in items for each in (item, *item.members)]:
+            for item in [each for owner in items for each in (owner, *owner.members)]:
                 anchor = f"cpp-{re.sub('[^a-z0-9]+', '-', item.name.lower())}".strip("-")
                 taken.add(anchor := anchor if anchor not in taken else f"{anchor}-{item.place[1]}")
                 self.links[item.id] = f"{page_of(header)}#{anchor}"
@@ -174,6 +177,7 @@ class Reference:
 
 
 def members_of(compound: Element, scope: str) -> list[Item]:
+    """What is public in a compound and has a comment, in its order."""
     members = [
         Item(member, scope + plain(member.find("name")), member.get("kind", ""))
         for member in compound.iterfind("sectiondef/memberdef")
@@ -208,6 +212,7 @@ def signature(item: Item) -> str:
 
 
 def declared(param: Element) -> str:
+    """A parameter as it is declared."""
     default = plain(param.find("defval"))
     text = f"{plain(param.find('type'))} {plain(param.find('declname'))}".strip()
     return tidy(f"{text} = {default}" if default else text)
@@ -220,14 +225,17 @@ def tidy(code: str) -> str:
 
 
 def in_cell(markdown: str) -> str:
+    """The same for the cell of a table, which has one line."""
     return markdown.replace("\n\n", "<br>").replace("\n", " ")
 
 
 def first_sentence(markdown: str) -> str:
+    """For an overview."""
     return re.split(r"(?<=\.)\s", markdown.partition("\n\n")[0], maxsplit=1)[0]
 
 
 def page_of(header: str) -> str:
+    """The name of a header's page, within `cpp/`."""
     return Path(header).stem + ".md"
 
 

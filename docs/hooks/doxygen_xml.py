@@ -90,6 +90,7 @@ def paragraph(para: Element, link: Callable[[str], str | None]) -> list[str]:
 
 
 def inline(element: Element, link: Callable[[str], str | None]) -> str:
+    """Code, emphasis or a name that links to where it stands."""
     refs = [element] if element.tag == "ref" else list(element.iter("ref"))
     address = link(refs[0].get("refid", "")) if refs else None
     if element.tag in ("ref", "computeroutput"):

@@ -17,5 +17,6 @@ LIST_IN_PARAGRAPH = re.compile(r"<p>(?:(?!</p>).)*?\n(?P<item>(?:[-*]|1\.) [^\n]
 
 
 def on_page_content(html: str, *, page: Page, **_: Any) -> None:
+    """Warns of such a list."""
     for found in LIST_IN_PARAGRAPH.finditer(html):
         log.warning("%s: an empty line is missing before the list at '%s'", page.file.src_uri, found["item"])

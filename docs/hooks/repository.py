@@ -31,12 +31,14 @@ NAMED_PAGE = re.compile(r"\bdocs/(?P<page>[\w/]+\.md)\b")
 
 
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:
+    """Adds the pages of the root."""
     for page, source in ROOT_PAGES.items():
         files.append(File.generated(config, page, abs_src_path=str(root(config) / source)))
     return files
 
 
 def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Replaces links out of docs/."""
     docs = Path(config.docs_dir)
     page_folder = (docs / page.file.src_uri).parent
     link_folder = root(config) if page.file.src_uri in ROOT_PAGES else page_folder
@@ -71,4 +73,5 @@ def on_page_content(html: str, *, page: Page, config: MkDocsConfig, files: Files
 
 
 def root(config: MkDocsConfig) -> Path:
+    """The root of the repository."""
     return Path(config.config_file_path).parent
