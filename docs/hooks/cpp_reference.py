@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 log = logging.getLogger("mkdocs.hooks.cpp_reference")
 
 CLASSES = ("class", "struct")
+LINE = 88  # longer declarations are broken
 TITLES = {"concept": "Concept", "enum": "Enumeration", "typedef": "Type", "variable": "Constant", "define": "Macro"}
 
 
@@ -195,7 +196,8 @@ def signature(item: Item) -> str:
         base = plain(element.find("type"))
         return f"enum class {name}" + (f" : {base}" if base else "")
     if item.kind == "typedef":
-        return f"using {name} {plain(element.find('argsstring'))}= {plain(element.find('type'))};".replace("  ", " ")
+        line = tidy(f"using {name} = {plain(element.find('type'))};")
+        return line if len(line) <= LINE else line.replace("<", "<\n    ", 1).replace(", ", ",\n    ")
     words = [word for word in ("static", "explicit") if element.get(word) == "yes"]
     words += ["virtual"] if element.get("virt") == "pure-virtual" else []
     words += [plain(element.find("type")), name]
@@ -206,7 +208,7 @@ def signature(item: Item) -> str:
     params = [declared(param) for param in element.iterfind("param")]
     tail = plain(element.find("argsstring")).rpartition(")")[2].replace("=", " = ").replace("  ", " ")
     line = f"{head}({', '.join(params)}){tail};"
-    if len(line) > 88 and params:
+    if len(line) > LINE and params:
         line = f"{head}(\n    " + ",\n    ".join(params) + f"){tail};"
     return (f"template <{', '.join(template)}>\n" if template else "") + tidy(line)
 
