@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Every snippet of README.md and of docs/ works.
 
-The Python of a page runs from top to bottom in an empty folder. C++ compiles. Commands run, but not on what they name:
-most of that is a data set, or hours of work. The data are one small simulated scan, whatever a command calls them, and
-what is simulated has one frame. So all options, their values and what goes with what are tested, but no figure.
+The Python of a page runs from top to bottom, in an empty folder or after the page's `flagstone demo`. C++ compiles.
+Commands run, but not on what they name: most of that is a data set, or hours of work. The data are one small simulated
+scan, whatever a command calls them, and what is simulated has one frame. So all options, their values and what goes
+with what are tested, but no figure.
 """
 
 from __future__ import annotations
@@ -76,6 +77,9 @@ CPP_FUNCTION = "[[maybe_unused]] void snippet([[maybe_unused]] const float* poin
 
 @pytest.mark.parametrize("page", [page for page, blocks in PYTHON.items() if blocks], ids=name_of)
 def test_python_of_a_page_runs_from_top_to_bottom(page: Path, tmp_path: Path) -> None:
+    last = PYTHON[page][-1].first_line
+    if any("flagstone demo" in line for block in blocks_of(page) if block.first_line < last for line in block.lines):
+        run_command(["demo"], tmp_path)  # what the page begins with
     lines = [""] * len(page.read_text(encoding="utf-8").splitlines())
     for block in PYTHON[page]:
         lines[block.first_line - 1 : block.first_line - 1 + len(block.lines)] = block.lines
@@ -146,7 +150,7 @@ def stand_ins(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with all that a command may be run on."""
     folder = tmp_path_factory.mktemp("stand-ins")
     scan = ["--scene", "flat_street", "--sensor", "vlp-16", "--sensor-height", "1.73", "--frames", "1"]
-    run(["simulate", *scan, "--output", "dataset"], folder)
+    run_command(["simulate", *scan, "--output", "dataset"], folder)
     sequences = folder / "dataset" / "sequences"
     (folder / "labels").mkdir()
     (folder / "labels" / "sequences").symlink_to(sequences)
@@ -154,14 +158,14 @@ def stand_ins(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "scan.bin").symlink_to(sequences / "00" / "velodyne" / "000000.bin")
     (folder / "scan.label").symlink_to(sequences / "00" / "labels" / "000000.label")
     for method in ("surface", "patchwork"):
-        (folder / f"{method}.toml").write_text(run(["config", "--method", method], folder), encoding="utf-8")
+        (folder / f"{method}.toml").write_text(run_command(["config", "--method", method], folder), encoding="utf-8")
     (folder / "sensor.toml").write_text(
         "beams = 16\nelevation_top = 15\nelevation_bottom = -15\nheight = 0.6\n", encoding="utf-8"
     )
     return folder
 
 
-def run(arguments: list[str], folder: Path) -> str:
+def run_command(arguments: list[str], folder: Path) -> str:
     done = subprocess.run(
         [_command.path(), *arguments], cwd=folder, capture_output=True, text=True, timeout=120, check=False
     )
@@ -171,7 +175,7 @@ def run(arguments: list[str], folder: Path) -> str:
 
 @pytest.mark.parametrize("command", COMMANDS, ids=[f"{place} {text[:60]}" for text, place in COMMANDS.items()])
 def test_command_runs_on_stand_ins(command: str, stand_ins: Path, tmp_path: Path) -> None:
-    run(on_stand_ins(command, stand_ins), tmp_path)
+    run_command(on_stand_ins(command, stand_ins), tmp_path)
 
 
 def on_stand_ins(command: str, folder: Path) -> list[str]:
