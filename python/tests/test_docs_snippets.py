@@ -5,7 +5,7 @@
 The Python of a page runs from top to bottom, in an empty folder or after the page's `flagstone demo`. C++ compiles.
 Commands run, but not on what they name: most of that is a data set, or hours of work. The data are one small simulated
 scan, whatever a command calls them, and what is simulated has one frame. So all options, their values and what goes
-with what are tested, but no figure.
+with what are tested, but no figure. Commands for Ray, which may ask for a cluster, are only read.
 """
 
 from __future__ import annotations
@@ -131,20 +131,21 @@ FLAGS = ("--json", "--peers", "--picture", "--tint-patches", "--heights", "--sur
 SHORTEST = {"simulate": ("--frames", "1"), "bench": ("--rounds", "1")}
 
 
-def commands() -> dict[str, str]:
-    """Each different command, with the place it stands at first."""
+def commands(program: str) -> dict[str, str]:
+    """Each different command of a program, with the place it stands at first."""
     found: dict[str, str] = {}
     for page in PAGES:
         for block in blocks_of(page):
             if block.language not in ("", "sh", "bash", "console") or not block.is_run:
                 continue
             text = "\n".join(block.lines).replace("\\\n", " ")
-            for match in re.finditer(r"^\s*(?:\$ )?(flagstone .*)$", text, re.MULTILINE):
+            for match in re.finditer(rf"^\s*(?:\$ )?({program} .*)$", text, re.MULTILINE):
                 found.setdefault(match[1], f"{name_of(page)}:{block.first_line}")
     return found
 
 
-COMMANDS = commands()
+COMMANDS = commands("flagstone")
+RAY_COMMANDS = commands("flagstone-ray")
 
 
 @pytest.fixture(scope="module")
@@ -178,6 +179,12 @@ def run_command(arguments: list[str], folder: Path) -> str:
 @pytest.mark.parametrize("command", COMMANDS, ids=[f"{place} {text[:60]}" for text, place in COMMANDS.items()])
 def test_command_runs_on_stand_ins(command: str, stand_ins: Path, tmp_path: Path) -> None:
     run_command(on_stand_ins(command, stand_ins), tmp_path)
+
+
+@pytest.mark.parametrize("command", RAY_COMMANDS, ids=[f"{place} {text[:60]}" for text, place in RAY_COMMANDS.items()])
+def test_command_for_ray_is_understood(command: str) -> None:
+    of_ray = pytest.importorskip("flagstone.ray.command")
+    of_ray.make_parser().parse_args(shlex.split(command, comments=True)[1:])
 
 
 def on_stand_ins(command: str, folder: Path) -> list[str]:
