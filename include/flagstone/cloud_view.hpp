@@ -12,15 +12,19 @@ namespace flagstone {
 
 /// One point in the sensor frame: metres, x forward, y left, z up, origin in the sensor.
 struct Point {
-  float x, y, z;
+  float x;  ///< metres, forward
+  float y;  ///< metres, to the left
+  float z;  ///< metres, up
 };
 
 /// Where x, y and z of point i lie: `data + i * stride + offset`, in bytes. Any alignment is fine.
 /// Offsets may exceed the stride, so planar storage works too: N x-values, then N y-values, then N
 /// z-values is {4, 0, 4 * N, 8 * N}.
 struct CloudLayout {
-  std::ptrdiff_t stride;
-  std::ptrdiff_t x, y, z;
+  std::ptrdiff_t stride;  ///< from one point to the next, bytes
+  std::ptrdiff_t x;       ///< offset of x, bytes
+  std::ptrdiff_t y;       ///< offset of y, bytes
+  std::ptrdiff_t z;       ///< offset of z, bytes
 };
 
 /// A struct of the user's with float members x, y and z (PCL's point types, for one).
@@ -63,9 +67,13 @@ class CloudView {
     }
   }
 
+  /// Number of points.
   [[nodiscard]] constexpr std::size_t size() const noexcept { return count_; }
+  /// Has it no points?
   [[nodiscard]] constexpr bool empty() const noexcept { return count_ == 0; }
+  /// Where the memory begins that the offsets count from.
   [[nodiscard]] constexpr const void* data() const noexcept { return data_; }
+  /// Where the coordinates lie in it.
   [[nodiscard]] constexpr const CloudLayout& layout() const noexcept { return layout_; }
 
   /// Point `i`, 0 <= i < size(); not checked.

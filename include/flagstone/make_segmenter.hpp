@@ -29,7 +29,8 @@ using MethodConfig = std::variant<PatchworkConfig, SurfaceConfig, RansacConfig, 
 /// - `r_gpf+u`: R-GPF judged by uprightness alone;
 /// - `czm+u`, `czm+u+e`, `czm+u+e+f`: Patchwork's zones and fit with one, two and all three terms
 ///   of the ground likelihood;
-/// - `patchwork`.
+/// - `patchwork`;
+/// - `surface`, which is not in that table.
 std::span<const std::string_view> method_names() noexcept;
 
 /// The settings a method has if nobody says otherwise: those published, and for Patchwork the

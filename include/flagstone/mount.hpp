@@ -43,8 +43,9 @@ enum class TiltSource : std::uint8_t {
   estimate,  ///< from the scans, as the height is, looked for around the given mount's
 };
 
-/// Names as configurations spell them, e.g. "estimate".
+/// Name as configurations spell it, e.g. "estimate".
 const char* to_string(HeightSource height) noexcept;
+/// Name as configurations spell it, e.g. "given".
 const char* to_string(TiltSource tilt) noexcept;
 
 /// What is believed of an estimate.
@@ -65,9 +66,10 @@ struct MountLimits {
 /// full, the k-th with 1 / k, and once there are `memory` of them each with 1 / `memory`.
 struct MountTracking {
   int memory = 20;  ///< scans, 1 to 10,000
-  /// What differs by more from the state is an outlier and not followed: metres, above 0, up to
-  /// 100, and degrees, above 0, up to 90.
+  /// A height that differs by more from the state is an outlier and not followed; metres, above 0,
+  /// up to 100.
   float most_jump = 0.25f;
+  /// The same for the direction of `up`; degrees, above 0, up to 90.
   float most_turn = 5;
   /// So many outliers on end, all within `most_jump` and `most_turn` of the one before, are the new
   /// state; 1 to 10,000.
@@ -76,11 +78,11 @@ struct MountTracking {
 
 /// How the mount is known.
 struct MountSettings {
-  HeightSource height = HeightSource::fixed;
-  TiltSource tilt = TiltSource::off;
-  Mount mount{};  ///< what is given
-  MountLimits limits{};
-  MountTracking tracking{};
+  HeightSource height = HeightSource::fixed;  ///< where the height is taken from
+  TiltSource tilt = TiltSource::off;          ///< where `up` is taken from
+  Mount mount{};                              ///< what is given
+  MountLimits limits{};                       ///< what is believed of an estimate
+  MountTracking tracking{};                   ///< how `track` smooths
 
   /// Is anything to be found out from scans?
   [[nodiscard]] bool estimates() const noexcept {
@@ -113,7 +115,7 @@ const char* to_string(MountVerdict verdict) noexcept;
 
 /// The decision about one scan and the numbers it stands on.
 struct MountDecision {
-  MountVerdict verdict = MountVerdict::given;
+  MountVerdict verdict = MountVerdict::given;  ///< what was decided, and why
   /// What the scan says, if `accepted`; what it seems to say, if refused for another reason than
   /// too few points; else the given mount.
   Mount mount{};
@@ -129,6 +131,7 @@ struct MountDecision {
   int directions = 0;       ///< of sixteen around the sensor, how many show ground
   int seen = 0;             ///< and how many show anything
 
+  /// Does the scan tell the mount?
   [[nodiscard]] bool accepted() const noexcept { return verdict == MountVerdict::accepted; }
 };
 

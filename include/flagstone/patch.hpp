@@ -45,7 +45,7 @@ struct Patch {
   std::uint16_t zone = 0;    ///< m - 1: 0 is the zone nearest the sensor
   std::uint16_t ring = 0;    ///< i - 1: ring within the zone, 0 is the innermost
   std::uint16_t sector = 0;  ///< j - 1: counted counter-clockwise from -x, i.e. from theta = -pi
-  Verdict verdict = Verdict::too_few_points;
+  Verdict verdict = Verdict::too_few_points;  ///< what became of it, and why
 
   std::uint32_t point_count = 0;  ///< points of the bin, |S_n|
   std::uint32_t ground_count =

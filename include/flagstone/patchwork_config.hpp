@@ -41,6 +41,7 @@ struct FieldOfView {
 
 /// phi, eq. (8): the patch's normal must stand up.
 struct UprightnessTerm {
+  /// Where false, phi is 1 for every patch.
   bool enabled = true;
   /// theta_tau: smallest angle between the normal and the x-y plane, degrees, 0 to 90. The larger,
   /// the stricter.
@@ -50,6 +51,7 @@ struct UprightnessTerm {
 /// psi, eq. (9): near the sensor the ground cannot be high.
 /// psi = 1 / (1 + exp((mean z - kappa(r)) / scale)), kappa(r) = -h_s + base * exp(growth * r).
 struct ElevationTerm {
+  /// Where false, psi is 1 for every patch.
   bool enabled = true;
   /// Height above -h_s at which psi is 0.5, extrapolated to r = 0; metres, 0 to 100.
   float base = 0.333f;
@@ -65,6 +67,7 @@ struct ElevationTerm {
 /// varphi, eq. (10): brings back patches that are too high but definitely even: steep slopes.
 /// varphi = gain * exp(-(sigma - threshold) / scale) where psi < 0.5, else 1.
 struct FlatnessTerm {
+  /// Where false, varphi is 1 for every patch.
   bool enabled = true;
   /// zeta: above 1, up to 1,000.
   float gain = 1.2f;
@@ -96,6 +99,7 @@ struct PatchworkConfig {
   /// m; at most 65,535 bins in all.
   std::vector<Zone> zones = default_zones();
 
+  /// Points outside it are out of range.
   FieldOfView field_of_view{};
 
   // Points below any ground
@@ -153,9 +157,9 @@ struct PatchworkConfig {
   /// more fit, or the set that the last plane was fitted to, as the public code does.
   bool judge_final_set = false;
 
-  UprightnessTerm uprightness{};
-  ElevationTerm elevation{};
-  FlatnessTerm flatness{};
+  UprightnessTerm uprightness{};  ///< phi, eq. (8)
+  ElevationTerm elevation{};      ///< psi, eq. (9)
+  FlatnessTerm flatness{};        ///< varphi, eq. (10)
 
   /// The preset of that name. Throws std::invalid_argument naming the presets there are.
   static PatchworkConfig preset(std::string_view name);

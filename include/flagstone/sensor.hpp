@@ -29,7 +29,7 @@ struct Sensor {
   /// Edges of the field of view, degrees counter-clockwise from straight ahead, -180 to 360; from
   /// begin to end are at most 360. A spinning sensor sees 0 to 360.
   double azimuth_begin = 0;
-  double azimuth_end = 360;
+  double azimuth_end = 360;  ///< above azimuth_begin, degrees as it
 
   /// Turns that each of two prisms makes in a scan, negative against the clock, for sensors that
   /// draw a rosette; empty for those with beams.

@@ -65,14 +65,17 @@ class Surface {
 
   /// @name For those who write a Segmenter
   /// @{
+
   /// Empty from now on; memory is kept.
   void clear() noexcept { filled_ = false; }
+
   /// The grids to fill: coarsest first, each inside the one before. They hold what they held before
   /// the surface was cleared.
   [[nodiscard]] std::vector<Grid>& start() noexcept {
     filled_ = true;
     return grids_;
   }
+
   /// @}
 
  private:

@@ -89,9 +89,9 @@ struct SurfaceConfig {
   /// 10.
   float noise_slope = 0.35f;
 
-  PatchAcceptance acceptance{};
-  Refinement refinement{};
-  PointRule point{};
+  PatchAcceptance acceptance{};  ///< which patches the surface is made of
+  Refinement refinement{};       ///< how it follows the points
+  PointRule point{};             ///< which points are ground
 
   /// Settings derived from a sensor: its height and its range; see docs/sensors.md. Throws
   /// std::invalid_argument where the sensor's check() does.

@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""What the site takes from outside docs/.
+
+Pages link into the source tree, so that they can be followed on a code host. The site holds no sources: there such a
+link becomes the path it leads to. One that leads nowhere is a warning, and so fails a strict build. CHANGELOG.md and
+CONTRIBUTING.md become pages.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mkdocs.structure.files import File
+
+if TYPE_CHECKING:
+    from mkdocs.config.defaults import MkDocsConfig
+    from mkdocs.structure.files import Files
+    from mkdocs.structure.pages import Page
+
+log = logging.getLogger("mkdocs.hooks.repository")
+
+ROOT_PAGES = {"changelog.md": "CHANGELOG.md", "contributing.md": "CONTRIBUTING.md"}
+LINK = re.compile(r"(?<!!)\[(?P<text>[^\[\]]*)\]\((?P<target>[^()\s#]+)(?P<anchor>#[^()\s]*)?\)")
+
+NAMED_PAGE = re.compile(r"\bdocs/(?P<page>[\w/]+\.md)\b")
+
+
+def on_files(files: Files, *, config: MkDocsConfig) -> Files:
+    """Adds the pages of the root."""
+    for page, source in ROOT_PAGES.items():
+        files.append(File.generated(config, page, abs_src_path=str(root(config) / source)))
+    return files
+
+
+def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Replaces links out of docs/."""
+    docs = Path(config.docs_dir)
+    page_folder = (docs / page.file.src_uri).parent
+    link_folder = root(config) if page.file.src_uri in ROOT_PAGES else page_folder
+
+    def replace(link: re.Match[str]) -> str:
+        target = link["target"]
+        if "://" in target or target.startswith("mailto:"):
+            return link[0]
+        path = Path(os.path.normpath(link_folder / target))
+        if path.is_relative_to(docs):  # MkDocs looks whether it is there
+            return f"[{link['text']}]({os.path.relpath(path, page_folder)}{link['anchor'] or ''})"
+        name = path.relative_to(root(config)).as_posix() if path.is_relative_to(root(config)) else str(path)
+        if not path.exists():
+            log.warning("%s links to %s, which is not in the source tree", page.file.src_uri, name)
+        text = link["text"]
+        return f"`{name}`" if text.startswith("`") else f"{text} (`{name}`)"
+
+    return LINK.sub(replace, markdown)
+
+
+def on_page_content(html: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Docstrings and comments name pages as `docs/sensors.md`; here these are links."""
+
+    def replace(named: re.Match[str]) -> str:
+        target = files.get_file_from_path(named["page"])
+        if target is None:
+            log.warning("%s names docs/%s, which is not there", page.file.src_uri, named["page"])
+            return named[0]
+        return f'<a href="{target.url_relative_to(page.file)}">{named["page"].removesuffix(".md")}</a>'
+
+    return NAMED_PAGE.sub(replace, html) if page.file.src_uri.startswith(("reference/", "cpp/")) else html
+
+
+def root(config: MkDocsConfig) -> Path:
+    """The root of the repository."""
+    return Path(config.config_file_path).parent

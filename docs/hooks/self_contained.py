@@ -1,0 +1,22 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""The site asks no other server for anything: whatever a page would load from elsewhere is a warning."""
+
+from __future__ import annotations
+
+import logging
+import re
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from mkdocs.structure.pages import Page
+
+log = logging.getLogger("mkdocs.hooks.self_contained")
+
+LOADED = re.compile(r"<(?!a\b)\w+\b[^>]*?\b(?:src|href|srcset|data)=[\"']?(?P<address>(?:https?:)?//[^\"'\s>]+)")
+
+
+def on_post_page(output: str, *, page: Page, **_: Any) -> None:
+    """Warns of what is not a link but loaded with the page."""
+    for found in LOADED.finditer(output):
+        log.warning("%s loads %s from another server", page.file.src_uri, found["address"])
