@@ -6,7 +6,7 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test test-python sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
+.PHONY: help build demo test test-python docs sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
         edges soak bench-compare surface-study surface-figures worlds-study contact-sheet install clean
 .DEFAULT_GOAL := build
 
@@ -20,7 +20,7 @@ demo: build ## build, then simulate a street, segment it and score the result
 	@build/flagstone demo
 
 test: ## install what is missing, build and run every test, short fuzz runs included
-	@scripts/setup build test python && scripts/test
+	@scripts/setup build test python docs && scripts/test
 
 test-python: ## build and test the Python package alone; PYTHON names another interpreter
 	@scripts/setup build python && scripts/test-python
@@ -30,6 +30,9 @@ sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 
 sanitize-thread: ## run the tests under ThreadSanitizer
 	@scripts/setup build test && scripts/test sanitize-thread
+
+docs: ## build all documentation as one site, warnings are errors: build/site/index.html
+	@scripts/setup python docs && scripts/docs
 
 format: ## format the C++ sources
 	@scripts/setup format && scripts/format -i
