@@ -233,7 +233,7 @@ def _add_legends(axes: Axes, legends: list[tuple[str, list[Artist]]]) -> None:
         if title != legends[-1][0]:
             axes.add_artist(legend)  # or the next one would take its place
             legend.set_clip_on(False)  # so that it counts where figures are laid out
-        below += 14 * (1 + -(-len(entries) // columns)) + 4
+        below += 12 * (1 + -(-len(entries) // columns)) + 6
 
 
 def _percent(part: int, whole: int) -> str:
