@@ -61,7 +61,7 @@ def suitable_range(surface: GroundSurface) -> float:
 
 
 def suitable_look(surface: GroundSurface, range_: float) -> Look:
-    """Colours for nearly all of the heights within `range_` metres, about ten lines, shading that shows gentle slopes."""
+    """Colours for nearly all heights within `range_` metres, about ten lines, shading that shows gentle slopes."""
     samples = _samples(surface, range_)
     lowest = _quantile(samples.height, samples.weight, 0.02, -1)
     highest = _quantile(samples.height, samples.weight, 0.98, 1)
@@ -107,7 +107,8 @@ def _shaded(color: Floats, exaggeration: float, along_x: Floats, along_y: Floats
     bright = ((1 - (steep_x + steep_y) / np.sqrt(2)) / np.sqrt(1 + steep_x**2 + steep_y**2))[..., None]
     dark = _DARKEST * (1 - np.clip(bright, 0, 1))
     light = np.clip(_BRIGHTEST * (bright - 1), 0, 1)
-    return np.where(bright < 1, color + dark * (_SHADOW - color), color + light * (_SUNLIGHT - color))
+    shaded: Floats = np.where(bright < 1, color + dark * (_SHADOW - color), color + light * (_SUNLIGHT - color))
+    return shaded
 
 
 def _slope(before: npt.ArrayLike, here: Floats, after: npt.ArrayLike, cell: npt.ArrayLike) -> Floats:
@@ -115,7 +116,8 @@ def _slope(before: npt.ArrayLike, here: Floats, after: npt.ArrayLike, cell: npt.
     before, after = np.asarray(before, np.float64), np.asarray(after, np.float64)
     sides = 2.0 - np.isnan(before) - np.isnan(after)
     before, after = np.where(np.isnan(before), here, before), np.where(np.isnan(after), here, after)
-    return np.nan_to_num((after - before) / (np.maximum(sides, 1) * cell))
+    slope: Floats = np.nan_to_num((after - before) / (np.maximum(sides, 1) * cell))
+    return slope
 
 
 class _Samples(NamedTuple):

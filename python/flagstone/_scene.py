@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from flagstone._level_frame import level_frame
 from flagstone._optional import needs
 from flagstone._palette import LABELS, PANEL, TINT, VERDICTS
 from flagstone._patch_quads import patch_quads
@@ -76,9 +75,7 @@ def log_scan(recording: rerun.RecordingStream, number: int, points: PointsLike, 
     """
     x, y, z = columns_of(points)
     if len(result) != len(x):
-        raise ValueError(
-            f"result: {len(result)} labels for {len(x)} points; pass what segmenting these points gave"
-        )
+        raise ValueError(f"result: {len(result)} labels for {len(x)} points; pass what segmenting these points gave")
     recording.set_time(TIMELINE, sequence=number)
     _log_points(recording, np.stack([x, y, z], axis=1).astype(np.float32, copy=False), result)
     _log_patches(recording, result)

@@ -86,7 +86,7 @@ def _log_all(recording: rerun.RecordingStream, scans: Any) -> None:
             points = result = None
         if not isinstance(result, Segmentation):
             raise TypeError(
-                f"points: {type(scan).__name__} in place of a pair of points and result; wanted is show(points, result), "
+                f"points: {type(scan).__name__} where a pair of points and result is wanted: show(points, result), "
                 "or show([(points, result), ...])"
             )
         log_scan(recording, number, points, result)
@@ -113,6 +113,7 @@ def _show_in_notebook(recording: rerun.RecordingStream, scans: Any) -> None:
         width="auto", height=600, recording=recording, blueprint=blueprint()
     )
     _log_all(recording, scans)
+    recording.flush()
     viewer.display()
 
 

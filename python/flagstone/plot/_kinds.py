@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -36,7 +36,7 @@ def labels_of(result: Segmentation | npt.ArrayLike, points: int) -> npt.NDArray[
         raise ValueError(
             f"result: labels of shape {labels.shape} for {points} points; pass what segmenting these points gave"
         )
-    if labels.dtype.kind not in "bui" or (points and not (0 <= int(labels.min()) and int(labels.max()) < len(Label))):
+    if labels.dtype.kind not in "bui" or not np.isin(labels, list(Label)).all():
         raise ValueError(f"result: {labels.dtype} that are no labels; wanted are codes of 0 to 4, or a mask of ground")
     return labels.astype(np.uint8)
 
@@ -56,7 +56,7 @@ def by_truth(labels: npt.NDArray[np.uint8], reference: npt.ArrayLike) -> list[Ki
     Raises:
         ValueError: The reference is no mask of as many points.
     """
-    truth = np.ma.asarray(reference)
+    truth: np.ma.MaskedArray[Any, np.dtype[Any]] = np.ma.asarray(reference)
     if truth.shape != labels.shape or truth.dtype.kind != "b":
         raise ValueError(
             f"reference: {truth.dtype} of shape {truth.shape} for {len(labels)} points; wanted is a mask (N,), "

@@ -56,7 +56,7 @@ def surface(result: Segmentation, *, axes: Axes | None = None, range: float | No
 
 
 def _lines(range_: float, count: int) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32]]:
-    """x as a column from the farthest ahead, y as a row from the left: middles of squares that fill the view."""
+    """Middles of squares that fill the view: x as a column, farthest ahead first, y as a row, leftmost first."""
     line = (range_ * (1 - (2 * np.arange(count) + 1) / count)).astype(np.float32)
     return line[:, None], line[None, :]
 
