@@ -29,10 +29,10 @@ class LevelFrame(NamedTuple):
         scan: Floats = (np.asarray(places, np.float64) @ self.axes + self.origin) / self.scale
         return scan
 
-    def turned_to_scan(self, directions: npt.ArrayLike) -> Floats:
-        """Directions of shape (..., 3) in the frame of the scan, as long as they are."""
-        scan: Floats = np.asarray(directions, np.float64) @ self.axes
-        return scan
+    def to_level(self, places: npt.ArrayLike) -> Floats:
+        """Places of shape (..., 3) of the scan, in metres in this frame."""
+        level: Floats = (np.asarray(places, np.float64) * self.scale - self.origin) @ self.axes.T
+        return level
 
 
 def level_frame(mount: Mount) -> LevelFrame:

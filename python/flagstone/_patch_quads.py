@@ -35,7 +35,7 @@ def _quad(patch: Any, bin_: Floats, frame: LevelFrame) -> Floats:
     normal = frame.axes @ patch["normal"].astype(np.float64)
     if not normal.any():
         return np.empty((0, 3, 3))
-    mean = frame.axes @ (frame.scale * patch["mean"].astype(np.float64) - frame.origin)
+    mean = frame.to_level(patch["mean"])
     steepness = max(normal[2], 1e-3)
     heights = mean[2] - ((bin_ - mean[:2]) @ normal[:2]) / steepness
     near, far = np.concatenate([bin_, heights[..., None]], axis=-1)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 Where = Literal["notebook", "browser", "window"]
 
+_SERVER_MEMORY = "25%"  # of the machine's; of what is more, the earliest scans are forgotten
 _served: list[Any] = []  # recordings that browsers may still ask for
 
 
@@ -43,7 +44,7 @@ def show(
 
     Args:
         points: (N, >=3), as `Segmenter.segment` takes them, metres; or, without `result`, pairs of points and result,
-            one a scan, which may be made one by one while they are shown.
+            one a scan; a generator may make them one by one.
         result: What segmenting the points gave.
         save: Path of a recording to write, ending in `.rrd`, instead of showing anything: open it later with
             `rerun FILE.rrd`, or drag it into the viewer on the web. It appears whole or not at all.
@@ -119,7 +120,9 @@ def _show_in_notebook(recording: rerun.RecordingStream, scans: Any) -> None:
 
 def _show_in_browser(recording: rerun.RecordingStream, scans: Any) -> None:
     rr = needs("rerun", extra="viewer")
-    address = recording.serve_grpc(grpc_port=_free_port(), default_blueprint=blueprint())
+    address = recording.serve_grpc(
+        grpc_port=_free_port(), default_blueprint=blueprint(), server_memory_limit=_SERVER_MEMORY
+    )
     _log_all(recording, scans)
     recording.flush()
     rr.serve_web_viewer(web_port=_free_port(), connect_to=address)

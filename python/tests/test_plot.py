@@ -99,7 +99,7 @@ def test_any_programs_mask_can_be_drawn(scan: Scan) -> None:
 
 def test_reference_colours_right_and_wrong() -> None:
     points = np.array([[1.0, 0, 0], [2, 0, 0], [3, 0, 0], [4, 0, 0], [5, 0, 0]])
-    truth = np.ma.array([True, False, True, False, True], mask=[0, 0, 0, 0, 1])
+    truth = np.ma.array([True, False, True, False, True], mask=[False] * 4 + [True])
     drawn = places_by_color(birds_eye(points, [1, 1, 0, 2, 1], reference=truth))
     x_of = {color: places[:, 0].tolist() for color, places in drawn.items()}
     assert x_of[shares(GREEN)] == [1], "true positive"
@@ -150,18 +150,20 @@ def test_patches_are_tinted_by_verdict(scan: Scan, method: str) -> None:
 @pytest.mark.parametrize("method", ["surface", "patchwork", "r_gpf"])
 @pytest.mark.parametrize("tilt", [None, (0.2, -0.1, 1.0)])
 def test_patches_are_drawn_around_their_points(scan: Scan, method: str, tilt: Any) -> None:
-    result = flagstone.make_segmenter(method, tilt=tilt).segment(scan)
-    axes = birds_eye(scan, result, patches=True)
+    ahead_and_left = scan[(scan[:, 1] > 0) & (scan[:, 1] < scan[:, 0] / 2)]
+    result = flagstone.make_segmenter(method, tilt=tilt).segment(ahead_and_left)
+    axes = birds_eye(ahead_and_left, result, patches=True)
     outlines = [path for collection in axes.collections for path in collection.get_paths()]
     with_plane = result.patches[result.patches["normal"].any(axis=1)]
-    for patch in with_plane[with_plane["ground_count"] > 50]:
+    assert len(with_plane) > 10
+    for patch in with_plane:
         x, y, _ = patch["mean"]
         assert any(path.contains_point((y, x)) for path in outlines), f"no bin around {patch}"
 
 
 def test_surface_is_drawn_where_it_is_known(scan: Scan, result: flagstone.Segmentation) -> None:
     axes = surface(result, range=60)
-    opacity = axes.get_images()[0].get_array()[..., 3]
+    opacity = np.asarray(axes.get_images()[0].get_array())[..., 3]
     line = 60 * (1 - (2 * np.arange(len(opacity)) + 1) / len(opacity))
     known = np.isfinite(result.surface.height(line[:, None], line[None, :]))
     np.testing.assert_array_equal(opacity > 0, known)
@@ -190,7 +192,8 @@ def test_pictures_go_on_the_axes_that_are_given(scan: Scan, result: flagstone.Se
 
 
 def test_points_are_rasters_in_a_pdf(scan: Scan, result: flagstone.Segmentation, tmp_path: Path) -> None:
-    birds_eye(scan, result).figure.savefig(tmp_path / "scan.pdf")
+    birds_eye(scan, result)
+    plt.savefig(tmp_path / "scan.pdf")
     document = (tmp_path / "scan.pdf").read_bytes()
     assert b"/Subtype /Image" in document
     assert len(document) < 2_000_000

@@ -130,8 +130,11 @@ def _bins(result: Segmentation | npt.ArrayLike | None) -> list[npt.NDArray[np.fl
     if not isinstance(result, Segmentation) or len(bins) != len(result.patches):
         raise ValueError("patches: their bins are not known; segment with flagstone.Surface or flagstone.Patchwork")
     frame = level_frame(result.mount)
-    on_ground = [np.pad(outline(bin_), ((0, 0), (0, 1)), constant_values=-result.mount.sensor_height) for bin_ in bins]
-    return [frame.to_scan(corners)[:, 1::-1] for corners in on_ground]
+    # Of a sensor that leans it matters how high a bin is drawn: where its ground is, if that is known.
+    heights = frame.to_level(result.patches["mean"])[:, 2]
+    heights[~result.patches["normal"].any(axis=1)] = -result.mount.sensor_height
+    corners = [np.insert(outline(bin_), 2, z, axis=1) for bin_, z in zip(bins, heights, strict=True)]
+    return [frame.to_scan(places)[:, 1::-1] for places in corners]
 
 
 def _suitable_range(x: _Floats, y: _Floats) -> float:
