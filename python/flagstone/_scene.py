@@ -83,17 +83,16 @@ def log_scan(recording: rerun.RecordingStream, number: int, points: PointsLike, 
 
 
 def _log_points(recording: rerun.RecordingStream, points: npt.NDArray[np.float32], result: Segmentation) -> None:
-    """An entity a label, so that each can be switched off, and with each point its height."""
+    """An entity a label, so that each can be switched off; with each point its height, of methods that know it."""
     rr = needs("rerun", extra="viewer")
     placed = np.isfinite(points).all(axis=1)
     for label in _DRAWN:
         shown = placed & (result.labels == label)
-        recording.log(
-            f"points/{label.name.lower()}",
-            rr.Points3D(points[shown], colors=[LABELS[label]], radii=[rr.Radius.ui_points(1.2)]),
-            rr.DynamicArchetype("flagstone.Point", components={"height_above_ground": result.heights[shown]}),
-            strict=True,
-        )
+        parts = [rr.Points3D(points[shown], colors=[LABELS[label]], radii=[rr.Radius.ui_points(1.2)])]
+        if result.surface:
+            heights = {"height_above_ground": result.heights[shown]}
+            parts.append(rr.DynamicArchetype("flagstone.Point", components=heights))
+        recording.log(f"points/{label.name.lower()}", *parts, strict=True)
 
 
 def _log_patches(recording: rerun.RecordingStream, result: Segmentation) -> None:

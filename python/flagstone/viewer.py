@@ -47,7 +47,7 @@ def show(
             one a scan; a generator may make them one by one.
         result: What segmenting the points gave.
         save: Path of a recording to write, ending in `.rrd`, instead of showing anything: open it later with
-            `rerun FILE.rrd`, or drag it into the viewer on the web. It appears whole or not at all.
+            `rerun FILE.rrd`. It appears whole or not at all.
         where: "notebook": below the cell; "browser": in the default browser, served by this process; "window": in a
             window of its own, which outlives this process. Without it, in a notebook there, else in the browser. A
             script that shows in the browser goes on when interrupted with Ctrl-C.

@@ -208,7 +208,11 @@ def _tint(axes: Axes, bins: list[npt.NDArray[np.float64]], verdicts: npt.NDArray
         look = {"facecolor": (*shares(VERDICTS[verdict]), TINT), "edgecolor": (*shares(ZONE_LINE), 0.35)}
         axes.add_collection(collections.PolyCollection(chosen, linewidths=0.4, zorder=2, **look), autolim=False)
         label = f"{in_words(verdict)} {_percent(len(chosen), len(bins))}"
-        entries.append(patches.Patch(facecolor=shares(VERDICTS[verdict]), label=label))
+        on_panel = [
+            (1 - TINT) * under + TINT * over
+            for under, over in zip(shares(PANEL), shares(VERDICTS[verdict]), strict=True)
+        ]
+        entries.append(patches.Patch(facecolor=on_panel, edgecolor=shares(VERDICTS[verdict]), label=label))
     return entries
 
 
