@@ -99,11 +99,11 @@ def seen(recording: Path, *, click_on: Any = None, point_at: Any = None) -> Any:
 def wait_until_still(page: Any) -> None:
     """Software rendering takes its time, and meshes come one after the other."""
     before, still = b"", 0
-    for _ in range(60):
+    for _ in range(100):
         time.sleep(4)
         now = page.screenshot(clip={"x": 0, "y": BAR + 40, "width": WIDTH, "height": HEIGHT - BAR - TIME_LINE - 40})
         still = still + 1 if now == before else 0
-        if still == 3:
+        if still == 7:
             return
         before = now
     raise TimeoutError("the viewer did not come to rest")

@@ -126,7 +126,7 @@ def _log_patches(recording: rerun.RecordingStream, result: Segmentation) -> None
             radii=[_ARROW_RADIUS / result.mount.scale],
         ),
         rr.DynamicArchetype(
-            "flagstone.Patch", components={"verdict": [verdict.name.lower() for verdict in verdicts], **numbers}
+            "flagstone.Patches", components={"verdict": [verdict.name.lower() for verdict in verdicts], **numbers}
         ),
         strict=True,
     )
@@ -137,7 +137,7 @@ def in_one_line(patch: Any) -> dict[str, str]:
     points = f"ground {patch['ground_count']}/{patch['point_count']}"
     if patch["uprightness"] or patch["elevation"] or patch["flatness"]:
         terms = " · ".join(f"{name} {patch[name]:.2g}" for name in ("uprightness", "elevation", "flatness"))
-        return {"ground_likelihood": f"{patch['likelihood']:.2g} = {terms}; {points}"}
+        return {"likelihood": f"{patch['likelihood']:.2g} = {terms}; {points}"}
     slope = np.degrees(np.arccos(np.clip(patch["normal"][2], -1, 1)))
     spread = 100 * np.sqrt(max(patch["eigenvalues"][2], 0))
     return {"plane": f"slope {slope:.1f} degrees, spread {spread:.1f} cm; {points}"}

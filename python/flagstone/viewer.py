@@ -38,7 +38,7 @@ def show(
 
     Points are coloured by label, patches are tinted by verdict, each on its plane with its normal, and the ground is a
     shaded surface. The mouse over a point says its height above the ground, over a patch why it has its verdict; a
-    click on a normal lists all of the patch's numbers. Patches without a plane are not drawn.
+    click on a normal lists all of the patch's numbers in the selection panel. Patches without a plane are not drawn.
 
     Several scans become a time line.
 

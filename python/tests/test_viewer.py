@@ -132,9 +132,9 @@ def test_normals_carry_every_number_of_their_patch(
     np.testing.assert_array_equal(np.array(row["Arrows3D:origins"], np.float32), with_plane["mean"])
     np.testing.assert_allclose(np.array(row["Arrows3D:vectors"]), with_plane["normal"], atol=1e-6)
     for name in ("zone", "ring", "sector", "point_count", "ground_count", "uprightness", "elevation", "flatness"):
-        np.testing.assert_array_equal(np.array(row[f"flagstone.Patch:{name}"], np.float32), with_plane[name])
+        np.testing.assert_array_equal(np.array(row[f"flagstone.Patches:{name}"], np.float32), with_plane[name])
     names = [flagstone.Verdict(code).name.lower() for code in with_plane["verdict"]]
-    assert row["flagstone.Patch:verdict"] == names
+    assert row["flagstone.Patches:verdict"] == names
 
 
 def test_surface_is_a_mesh_on_the_surface(result: flagstone.Segmentation, recorded: dict[str, list[Row]]) -> None:
