@@ -41,15 +41,13 @@ def draw_birds_eye(points: Any) -> None:
 
     mpl.use("Agg")
     import matplotlib.pyplot as plt
-    from PIL import Image
 
     figure, (left, right) = plt.subplots(1, 2, figsize=(13, 7.2), layout="constrained")
     result = flagstone.Surface(sensor="hdl-64e").segment(points)
     flagstone.plot.birds_eye(points, result, axes=left, range=40, patches=True)
     flagstone.plot.surface(result, axes=right, range=40)
-    picture = io.BytesIO()
-    figure.savefig(picture, dpi=100)
-    save(Image.open(picture), IMAGES / "birds-eye.png")
+    figure.savefig(IMAGES / "birds-eye.png", dpi=95, pil_kwargs={"optimize": True})
+    report(IMAGES / "birds-eye.png")
 
 
 def draw_viewer(points: Any, folder: Path) -> None:
@@ -62,7 +60,8 @@ def draw_viewer(points: Any, folder: Path) -> None:
     both = Image.new("RGB", (2 * WIDTH + 10, halves[0].height), "white")
     both.paste(halves[0], (0, 0))
     both.paste(halves[1], (WIDTH + 10, 0))
-    save(both, IMAGES / "viewer.png")
+    both.quantize(256).save(IMAGES / "viewer.png", optimize=True)
+    report(IMAGES / "viewer.png")
 
 
 def seen(recording: Path, *, click_on: Any = None, point_at: Any = None) -> Any:
@@ -109,11 +108,7 @@ def wait_until_still(page: Any) -> None:
     raise TimeoutError("the viewer did not come to rest")
 
 
-def save(picture: Any, path: Path) -> None:
-    from PIL import Image
-
-    # The octree keeps small areas of a colour of their own, such as a legend's.
-    picture.convert("RGB").quantize(256, method=Image.Quantize.FASTOCTREE).save(path, optimize=True)
+def report(path: Path) -> None:
     print(f"{path}: {path.stat().st_size / 1000:.0f} kB")
 
 
