@@ -13,7 +13,9 @@ from __future__ import annotations
 
 import argparse
 import io
+import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -46,7 +48,7 @@ def draw_birds_eye(points: Any) -> None:
     result = flagstone.Surface(sensor="hdl-64e").segment(points)
     flagstone.plot.birds_eye(points, result, axes=left, range=40, patches=True)
     flagstone.plot.surface(result, axes=right, range=40)
-    figure.savefig(IMAGES / "birds-eye.png", dpi=95, pil_kwargs={"optimize": True})
+    figure.savefig(IMAGES / "birds-eye.png", dpi=92, pil_kwargs={"optimize": True})
     report(IMAGES / "birds-eye.png")
 
 
@@ -70,7 +72,8 @@ def seen(recording: Path, *, click_on: Any = None, point_at: Any = None) -> Any:
     from playwright.sync_api import sync_playwright
 
     command = [sys.executable, "-m", "rerun", "--serve-web", "--web-viewer-port", "9393", "--port", "9394", recording]
-    server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    # In a session of its own, since it is a script that starts the program.
+    server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=SOFTWARE)
@@ -91,7 +94,7 @@ def seen(recording: Path, *, click_on: Any = None, point_at: Any = None) -> Any:
             browser.close()
             return picture.crop((0, BAR, WIDTH, HEIGHT - TIME_LINE))
     finally:
-        server.terminate()
+        os.killpg(server.pid, signal.SIGTERM)
         server.wait()
 
 
@@ -102,7 +105,7 @@ def wait_until_still(page: Any) -> None:
         time.sleep(4)
         now = page.screenshot(clip={"x": 0, "y": BAR + 40, "width": WIDTH, "height": HEIGHT - BAR - TIME_LINE - 40})
         still = still + 1 if now == before else 0
-        if still == 7:
+        if still == 4:
             return
         before = now
     raise TimeoutError("the viewer did not come to rest")
