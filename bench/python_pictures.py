@@ -30,7 +30,7 @@ SOFTWARE = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swifts
 WIDTH, HEIGHT = 900, 640
 BAR, TIME_LINE = 36, 30  # pixels of the viewer's own that are cut off
 SURFACE_TAB = (132, 50)  # pixels
-OVER_A_PATCH = (210, 545)
+OVER_A_PATCH = (90, 440)
 
 
 def scan(folder: Path) -> Any:

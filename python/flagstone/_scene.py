@@ -134,7 +134,7 @@ def _log_patches(recording: rerun.RecordingStream, result: Segmentation) -> None
 
 def in_one_line(patch: Any) -> dict[str, str]:
     """The numbers that say most of a patch, under a name for them: as many as a tip has room for, 70 characters."""
-    points = f"ground {patch['ground_count']}/{patch['point_count']}"
+    points = f"{patch['ground_count']}/{patch['point_count']} ground"
     if patch["uprightness"] or patch["elevation"] or patch["flatness"]:
         terms = " · ".join(f"{name} {patch[name]:.2g}" for name in ("uprightness", "elevation", "flatness"))
         return {"likelihood": f"{patch['likelihood']:.2g} = {terms}; {points}"}

@@ -120,7 +120,7 @@ def test_a_tip_over_a_patch_shows_its_numbers(recorded: dict[str, list[Row]]) ->
         assert len(components) <= 3, f"{path}: a tip shows no values of an entity that has more"
         (line,) = next(row[name] for name in components if name.startswith("flagstone.Patch:"))
         assert 20 < len(line) <= 75
-        assert "ground " in line
+        assert line.endswith(" ground")
 
 
 def test_normals_carry_every_number_of_their_patch(
