@@ -14,7 +14,7 @@ of ground comes back with its plane, and the ground itself as one continuous sur
 Coordinates are metres in the sensor's frame: x forward, y left, z up.
 """
 
-from flagstone import io
+from flagstone import io, plot
 from flagstone._core import version as __version__
 from flagstone._evaluate import Evaluation, evaluate
 from flagstone._score import Score, score
@@ -24,6 +24,7 @@ from flagstone.ground_surface import Grid, GroundAt, GroundSurface
 from flagstone.segmentation import Mount, Segmentation
 from flagstone.segmenters import Patchwork, Segmenter, Surface, make_segmenter, method_names
 from flagstone.sensors import Sensor, sensors
+from flagstone.viewer import show
 
 __all__ = [
     "Evaluation",
@@ -44,7 +45,9 @@ __all__ = [
     "io",
     "make_segmenter",
     "method_names",
+    "plot",
     "score",
     "sensors",
+    "show",
     "simulate",
 ]

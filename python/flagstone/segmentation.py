@@ -57,8 +57,9 @@ class Segmentation:
     held. Once nobody holds any of them, the memory serves a later scan of the same segmenter.
     """
 
-    def __init__(self, result: _core.Result) -> None:
+    def __init__(self, result: _core.Result, segmenter: _core.Segmenter) -> None:
         self._result = result
+        self._segmenter = segmenter
 
     def __len__(self) -> int:
         """Number of points, N."""
@@ -121,6 +122,11 @@ class Segmentation:
     def mount(self) -> Mount:
         """How the sensor stands, as given or as found out from scans."""
         return Mount(*self._result.mount())
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Every setting the scan was segmented with, as `Segmenter.settings`: the zones of `patches` among them."""
+        return self._segmenter.settings()
 
     def to_pandas(self) -> pandas.DataFrame:
         """The patches as a data frame: a row a patch, a column a field.

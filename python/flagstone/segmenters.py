@@ -98,7 +98,9 @@ class Segmenter:
             MemoryError: They are more than the memory holds.
         """
         result = self._core.segment_rows(points)  # the usual case
-        return Segmentation(result if result is not None else self._core.segment(*columns_of(points)))
+        if result is None:
+            result = self._core.segment(*columns_of(points))
+        return Segmentation(result, self._core)
 
     def reset(self) -> None:
         """Forgets all scans: as newly made. Only how the sensor stands, where it is estimated, is ever remembered."""

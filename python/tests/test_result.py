@@ -149,3 +149,9 @@ def test_a_result_says_what_is_in_it(scan: Scan) -> None:
 def test_every_method_labels_every_point(method: str, scan: Scan) -> None:
     result = flagstone.make_segmenter(method).segment(scan[:4000])
     assert len(result.labels) == 4000 and result.counts["ground"] > 0
+
+
+def test_result_says_the_settings_it_was_made_with(scan: Scan) -> None:
+    result = flagstone.Patchwork(distance_margin=0.25).segment(scan)
+    assert result.settings["distance_margin"] == 0.25
+    assert result.settings == flagstone.Patchwork(distance_margin=0.25).settings

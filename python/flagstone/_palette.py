@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""The colours of all pictures: those of the command."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from flagstone.codes import Label, Verdict
+
+Color = tuple[int, int, int]
+"""sRGB, each 0 to 255."""
+
+# A dark panel, since the yellow and cyan of the paper's figures are too pale to read on white.
+PANEL: Color = (16, 19, 24)
+PANEL_TEXT: Color = (232, 236, 240)
+RANGE_RING: Color = (150, 160, 172)
+ZONE_LINE: Color = (235, 240, 245)
+CONTOUR: Color = (88, 58, 38)
+
+# Yellow and cyan as in Fig. 7 of the paper.
+LABELS: Mapping[Label, Color] = {
+    Label.GROUND: (246, 201, 58),
+    Label.NONGROUND: (58, 196, 226),
+    Label.NOISE: (214, 104, 158),
+    Label.OUT_OF_RANGE: (112, 121, 133),
+    Label.INVALID: (112, 121, 133),
+}
+
+VERDICTS: Mapping[Verdict, Color] = {
+    Verdict.GROUND: (0, 158, 115),
+    Verdict.GROUND_FLAT: (166, 214, 42),
+    Verdict.TOO_FEW_POINTS: (118, 126, 138),
+    Verdict.NO_PLANE: (66, 110, 214),
+    Verdict.NOT_UPRIGHT: (176, 92, 206),
+    Verdict.TOO_HIGH: (226, 94, 30),
+    Verdict.MIXED: (236, 160, 62),
+    Verdict.OFF_SURFACE: (222, 70, 90),
+}
+
+TINT = 0.42
+"""How much of what lies below a tinted patch its colour covers, 0 to 1."""
+
+
+def in_words(member: Label | Verdict) -> str:
+    """The name as a legend has it: "out of range"."""
+    return member.name.lower().replace("_", " ")
+
+
+def shares(color: Color) -> tuple[float, float, float]:
+    """The colour with parts of 0 to 1, as Matplotlib has them."""
+    red, green, blue = color
+    return red / 255, green / 255, blue / 255

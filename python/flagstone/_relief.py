@@ -1,0 +1,149 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""How the ground is coloured: by height, shaded as if light fell from ahead and the left."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from flagstone.ground_surface import GroundSurface
+
+Floats = npt.NDArray[np.float64]
+
+# Greens, yellows and browns of atlases, all of them light, so that shade and lines stand out.
+TONES = np.array(
+    [
+        [0.53, 0.70, 0.61],
+        [0.69, 0.81, 0.64],
+        [0.89, 0.89, 0.68],
+        [0.93, 0.82, 0.60],
+        [0.83, 0.66, 0.49],
+        [0.73, 0.55, 0.46],
+    ]
+)
+_SHADOW = np.array([0.16, 0.17, 0.30])  # bluish, as under an open sky
+_SUNLIGHT = np.array([1, 0.99, 0.93])
+_DARKEST = 0.72  # share of shadow in what no light falls on
+_BRIGHTEST = 1.5  # share of sunlight a unit above level ground
+_FAINTEST = 0.25  # opacity of ground that nobody is sure of
+
+_SAMPLES = 200  # along a side
+_LEAST_SPAN = 1.0  # metres; colours do not make mountains of a level road
+_WELL_SHADED = 0.3  # metres a metre
+_MOST_EXAGGERATION = 5.0
+_MOST_LINES = 14
+_STEPS = ((0.25, 2), (0.5, 2), (1.0, 2), (2.0, 5), (5.0, 2), (10.0, 2), (20.0, 5), (50.0, 2), (100.0, 2))
+
+
+class Look(NamedTuple):
+    """How a surface is drawn."""
+
+    lowest: float
+    """Metres; what lies below has the first colour."""
+    highest: float
+    """Metres; what lies above has the last one."""
+    step: float
+    """From one contour line to the next, metres."""
+    per_index: int
+    """Every so many-th line is bold, with its height."""
+    exaggeration: float
+    """How much steeper than it is ground is shaded."""
+
+
+def suitable_range(surface: GroundSurface) -> float:
+    """Half the side of the square that shows nearly all of the ground, metres."""
+    samples = _samples(surface, surface.extent)
+    range_ = 10 * np.ceil(_quantile(samples.distance, samples.weight, 0.98, surface.extent) / 10)
+    return float(min(max(range_, 1), surface.extent))
+
+
+def suitable_look(surface: GroundSurface, range_: float) -> Look:
+    """Colours for nearly all heights within `range_` metres, about ten lines, shading that shows gentle slopes."""
+    samples = _samples(surface, range_)
+    lowest = _quantile(samples.height, samples.weight, 0.02, -1)
+    highest = _quantile(samples.height, samples.weight, 0.98, 1)
+    step, per_index = next((s for s in _STEPS if highest - lowest <= _MOST_LINES * s[0]), _STEPS[-1])
+    middle, half = (lowest + highest) / 2, max(highest - lowest, _LEAST_SPAN) / 2
+    steep = _quantile(samples.steepness, samples.weight, 0.85, 0)
+    return Look(
+        lowest=float(step * np.floor((middle - half) / step)),
+        highest=float(step * np.ceil((middle + half) / step)),
+        step=step,
+        per_index=per_index,
+        exaggeration=float(np.clip(round(_WELL_SHADED / max(steep, 1e-3)), 1, _MOST_EXAGGERATION)),
+    )
+
+
+def relief(surface: GroundSurface, x: npt.ArrayLike, y: npt.ArrayLike, look: Look) -> Floats:
+    """The ground's colour at places of shape S: (*S, 4), red, green, blue and opacity, 0 to 1.
+
+    Paler where the surface is less sure, transparent where it is not known.
+    """
+    x, y = np.broadcast_arrays(np.asarray(x, np.float32), np.asarray(y, np.float32))
+    ground = surface.at(x, y)
+    height = ground.height.astype(np.float64)
+    cell = surface.resolution(x, y)
+    along_x = _slope(surface.height(x - cell, y), height, surface.height(x + cell, y), cell)
+    along_y = _slope(surface.height(x, y - cell), height, surface.height(x, y + cell), cell)
+    color = _shaded(tones((height - look.lowest) / (look.highest - look.lowest)), look.exaggeration, along_x, along_y)
+    confidence = np.clip(ground.confidence, 0, 1)
+    opacity = np.where(np.isnan(height), 0, _FAINTEST + (1 - _FAINTEST) * np.sqrt(confidence))
+    return np.concatenate([color, opacity[..., None]], axis=-1)
+
+
+def tones(share: npt.ArrayLike) -> Floats:
+    """Colours (*S, 3) of heights of shape S, from 0, the lowest, to 1, the highest; NaN as the lowest."""
+    place = np.nan_to_num(np.clip(share, 0, 1)) * (len(TONES) - 1)
+    stops = np.arange(len(TONES))
+    return np.stack([np.interp(place, stops, TONES[:, part]) for part in range(3)], axis=-1)
+
+
+def _shaded(color: Floats, exaggeration: float, along_x: Floats, along_y: Floats) -> Floats:
+    """The light stands 45 degrees high where both x and y grow; 1 is as bright as level ground."""
+    steep_x, steep_y = exaggeration * along_x, exaggeration * along_y
+    bright = ((1 - (steep_x + steep_y) / np.sqrt(2)) / np.sqrt(1 + steep_x**2 + steep_y**2))[..., None]
+    dark = _DARKEST * (1 - np.clip(bright, 0, 1))
+    light = np.clip(_BRIGHTEST * (bright - 1), 0, 1)
+    shaded: Floats = np.where(bright < 1, color + dark * (_SHADOW - color), color + light * (_SUNLIGHT - color))
+    return shaded
+
+
+def _slope(before: npt.ArrayLike, here: Floats, after: npt.ArrayLike, cell: npt.ArrayLike) -> Floats:
+    """From heights a cell to either side; to one side alone at the rim of what is known."""
+    before, after = np.asarray(before, np.float64), np.asarray(after, np.float64)
+    sides = 2.0 - np.isnan(before) - np.isnan(after)
+    before, after = np.where(np.isnan(before), here, before), np.where(np.isnan(after), here, after)
+    slope: Floats = np.nan_to_num((after - before) / (np.maximum(sides, 1) * cell))
+    return slope
+
+
+class _Samples(NamedTuple):
+    distance: Floats  # from the sensor, the larger of |x| and |y|, metres
+    height: Floats
+    steepness: Floats  # metres a metre
+    weight: Floats  # as much as the surface is sure of it
+
+
+def _samples(surface: GroundSurface, range_: float) -> _Samples:
+    line = range_ * ((2 * np.arange(_SAMPLES) + 1) / _SAMPLES - 1)
+    x, y = np.meshgrid(line, line)
+    ground = surface.at(x, y)
+    known = np.isfinite(ground.height) & np.isfinite(ground.slope)
+    return _Samples(
+        distance=np.maximum(np.abs(x), np.abs(y))[known],
+        height=ground.height[known].astype(np.float64),
+        steepness=np.tan(ground.slope[known].astype(np.float64)),
+        weight=1e-3 + ground.confidence[known].astype(np.float64),
+    )
+
+
+def _quantile(values: Floats, weights: Floats, share: float, none: float) -> float:
+    """The least value that `share` of the weight lies at or below; `none` without values."""
+    if not len(values):
+        return none
+    order = np.argsort(values)
+    sums = np.cumsum(weights[order])
+    return float(values[order][np.searchsorted(sums, share * sums[-1])])

@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Axes that look down on the ground: metres, x forward up, y left to the left."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from flagstone._optional import needs
+from flagstone._palette import PANEL, PANEL_TEXT, RANGE_RING, Color, shares
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.colors import LinearSegmentedColormap
+
+_MOST_RINGS = 100
+
+
+def view_from_above(axes: Axes | None, range_: float, *, background: Color) -> Axes:
+    """These axes, or those of a new figure, showing |x|, |y| <= `range_` metres.
+
+    Raises:
+        ValueError: There is no such range.
+    """
+    if not (np.isfinite(range_) and range_ > 0):
+        raise ValueError(f"range: {range_}; wanted are metres, above 0")
+    if axes is None:
+        _, axes = needs("matplotlib.pyplot", extra="plot").subplots(figsize=(7, 7.4), layout="constrained")
+    axes.set_aspect("equal")
+    axes.set_xlim(range_, -range_)
+    axes.set_ylim(-range_, range_)
+    axes.set_xlabel("y, metres (left)")
+    axes.set_ylabel("x, metres (forward)")
+    axes.set_facecolor(shares(background))
+    return axes
+
+
+def width_in_points(axes: Axes) -> float:
+    """How wide the axes are on paper, in points of 1/72 inch."""
+    return 72 * axes.get_window_extent().width / axes.figure.dpi
+
+
+def draw_rings(axes: Axes, range_: float) -> None:
+    """Circles at round distances from the sensor, with captions where a straight road leaves the fewest points."""
+    patches, effects = needs("matplotlib.patches", extra="plot"), needs("matplotlib.patheffects", extra="plot")
+    step = _ring_step(range_)
+    for ring in range(1, min(int(1.42 * range_ / step), _MOST_RINGS) + 1):
+        radius = ring * step
+        axes.add_patch(
+            patches.Circle(
+                (0, 0), radius, fill=False, color=shares(RANGE_RING), alpha=0.55, linewidth=0.6, linestyle=(0, (5, 5))
+            )
+        )
+        along = radius / np.sqrt(2)
+        if along < 0.93 * range_:
+            axes.text(
+                -along,
+                along,
+                f"{radius:g} m",
+                color=shares(PANEL_TEXT),
+                fontsize=7,
+                ha="center",
+                va="center",
+                zorder=5,
+                path_effects=[effects.withStroke(linewidth=2, foreground=shares(PANEL))],
+            )
+
+
+def draw_sensor(axes: Axes) -> None:
+    """An arrowhead at the sensor, pointing forward."""
+    arrow = [(0, 0.9), (0.65, -0.75), (0, -0.42), (-0.65, -0.75), (0, 0.9)]
+    axes.plot(
+        [0],
+        [0],
+        marker=arrow,
+        markersize=9,
+        markerfacecolor="white",
+        markeredgecolor=shares(PANEL),
+        markeredgewidth=0.8,
+        linestyle="none",
+        zorder=6,
+    )
+
+
+def color_map(stops: Sequence[tuple[float, Sequence[float]]]) -> LinearSegmentedColormap:
+    """Colours between those that stand at shares of 0 to 1, each red, green and blue of 0 to 1."""
+    colors = needs("matplotlib.colors", extra="plot")
+    map_: LinearSegmentedColormap = colors.LinearSegmentedColormap.from_list("flagstone", list(stops))
+    return map_
+
+
+def add_color_bar(axes: Axes, map_: LinearSegmentedColormap, between: tuple[float, float], caption: str) -> None:
+    """A bar of the colours beside the axes, as high as they are, from one value to another."""
+    cm, colors = needs("matplotlib.cm", extra="plot"), needs("matplotlib.colors", extra="plot")
+    scale = cm.ScalarMappable(colors.Normalize(*between), map_)
+    axes.figure.colorbar(scale, cax=axes.inset_axes((1.03, 0, 0.03, 1)), label=caption)
+
+
+def _ring_step(range_: float) -> float:
+    """1, 2 or 5 times a power of ten, such that at least three rings fit."""
+    largest = range_ / 3
+    power = 10.0 ** np.floor(np.log10(largest))
+    return float(next(factor * power for factor in (5, 2, 1) if factor * power <= largest))
