@@ -36,8 +36,8 @@ std::vector<float> xyzi_of(const io::Cloud& cloud) {
   return values;
 }
 
-// The command lies in the build folder of its source tree, which has what is compared with. Carried off, with the Python
-// package, it finds neither.
+// The command lies in the build folder of its source tree, which has what is compared with. Carried
+// off, with the Python package, it finds neither.
 std::string beside_this_program(const char* place) {
   std::error_code ignored;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);

@@ -6,8 +6,8 @@
 
 namespace flagstone::render {
 
-/// Ok where this build has Cairo. Without it, what to do about it; that is also what each function here that draws
-/// then returns, writing nothing.
+/// Ok where this build has Cairo. Without it, what to do about it; that is also what each function
+/// here that draws then returns, writing nothing.
 [[nodiscard]] Status can_draw();
 
 }  // namespace flagstone::render

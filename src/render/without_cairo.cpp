@@ -12,9 +12,7 @@
 namespace flagstone::render {
 namespace {
 
-Status refuse() noexcept try {
-  return can_draw();
-} catch (const std::bad_alloc&) {
+Status refuse() noexcept try { return can_draw(); } catch (const std::bad_alloc&) {
   return Status(StatusCode::out_of_memory);
 }
 
