@@ -16,6 +16,7 @@ function(flagstone_dependency name url sha256)
   endif()
   set(CMAKE_UNITY_BUILD OFF) # not every project's files can be compiled together
   set(BUILD_SHARED_LIBS OFF)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON) # what is static here may become part of the Python module
   FetchContent_Declare(
     ${name}
     SYSTEM # first: after URL_HASH, CMake 3.25 takes it for a part of the checksum
