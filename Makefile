@@ -6,7 +6,7 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test test-python docs sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
+.PHONY: help build demo test test-python wheel docs sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
         edges soak bench-compare surface-study surface-figures worlds-study contact-sheet install clean
 .DEFAULT_GOAL := build
 
@@ -24,6 +24,9 @@ test: ## install what is missing, build and run every test, short fuzz runs incl
 
 test-python: ## build and test the Python package alone; PYTHON names another interpreter
 	@scripts/setup build python && scripts/test-python
+
+wheel: ## build the Python package's wheel into dist/, and use it in an empty environment; PYTHON names another interpreter
+	@scripts/setup build python && wheel=$$(scripts/wheel) && scripts/check-wheel "$$wheel"
 
 sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@scripts/setup build test && scripts/test sanitize

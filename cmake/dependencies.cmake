@@ -11,8 +11,12 @@ function(flagstone_dependency name url sha256)
   set(CMAKE_POLICY_DEFAULT_CMP0077 NEW) # options set here count for the fetched project
   set(CMAKE_POLICY_DEFAULT_CMP0126 NEW)
   set(CMAKE_POLICY_VERSION_MINIMUM 3.5) # CMake 4 refuses projects that ask for less
-  set(CMAKE_WARN_DEPRECATED OFF)
+  if(CMAKE_VERSION VERSION_LESS 4.4)
+    set(CMAKE_WARN_DEPRECATED OFF)
+  endif()
+  set(CMAKE_UNITY_BUILD OFF) # not every project's files can be compiled together
   set(BUILD_SHARED_LIBS OFF)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON) # what is static here may become part of the Python module
   FetchContent_Declare(
     ${name}
     SYSTEM # first: after URL_HASH, CMake 3.25 takes it for a part of the checksum
@@ -124,14 +128,37 @@ if(needs_command)
     set(FLAGSTONE_CHART_JS ${chart_js_SOURCE_DIR}/dist/chart.min.js)
   endif()
 
-  # Cairo and what it stands on are the system's business.
+  # Cairo and what it stands on are the system's business. Without it the command draws no pictures.
   find_package(PkgConfig QUIET)
   if(PkgConfig_FOUND)
     pkg_check_modules(cairo QUIET IMPORTED_TARGET cairo)
   endif()
-  if(NOT cairo_FOUND)
-    message(FATAL_ERROR "Cairo not found: install pkg-config and Cairo's development files "
+  add_library(flagstone_cairo INTERFACE)
+  if(cairo_FOUND)
+    target_link_libraries(flagstone_cairo INTERFACE PkgConfig::cairo)
+  elseif(FLAGSTONE_BUILD_TESTS)
+    message(FATAL_ERROR "Cairo not found, which the tests need: install pkg-config and Cairo's development files "
                         "(Debian: apt-get install pkg-config libcairo2-dev)")
+  else()
+    message(STATUS "Cairo: not on this system, the command is built without pictures "
+                   "(Debian: apt-get install pkg-config libcairo2-dev)")
+  endif()
+  # The package's command goes to machines without Cairo. What Cairo's shared library stands on includes X11, which
+  # wheels may not bring; of its archive only what draws into memory is linked.
+  if(cairo_FOUND AND FLAGSTONE_BUILD_PYTHON)
+    set(archives "")
+    foreach(library IN LISTS cairo_STATIC_LIBRARIES)
+      if(NOT library MATCHES "^(m|pthread|dl|rt)$")
+        find_library(archive lib${library}.a HINTS ${cairo_STATIC_LIBRARY_DIRS} NO_CACHE)
+        list(APPEND archives ${archive})
+        unset(archive)
+      endif()
+    endforeach()
+    if(NOT archives MATCHES "NOTFOUND")
+      message(STATUS "Cairo: linked statically")
+      set_target_properties(flagstone_cairo PROPERTIES INTERFACE_LINK_LIBRARIES "${archives}")
+      target_include_directories(flagstone_cairo SYSTEM INTERFACE ${cairo_INCLUDE_DIRS})
+    endif()
   endif()
 endif()
 

@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 from typing import NoReturn
 
+from flagstone import _core
+
 
 def path() -> Path:
     """Where the program is.
@@ -14,7 +16,8 @@ def path() -> Path:
     Raises:
         FileNotFoundError: The package was put together without it.
     """
-    program = Path(__file__).parent / "bin" / "flagstone"
+    # It is where CMake put the compiled module; in an editable installation that is not where this file is.
+    program = Path(_core.__file__).parent / "bin" / "flagstone"
     if not program.is_file():
         raise FileNotFoundError(f"{program}: the command is not part of this installation: install flagstone again")
     return program

@@ -36,23 +36,35 @@ std::vector<float> xyzi_of(const io::Cloud& cloud) {
   return values;
 }
 
-PeerCommand python_peer(const PeerPlaces& places, const std::string& name, float sensor_height) {
-  const std::string worker = places.worker.empty() ? FLAGSTONE_PEER_WORKER : places.worker;
-  PeerCommand peer{name, {places.python, worker, name, fmt::format("{}", sensor_height)}, ""};
+// The command lies in the build folder of its source tree, which has what is compared with. Carried
+// off, with the Python package, it finds neither.
+std::string beside_this_program(const char* place) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(worker, ignored)) {
-    peer.missing = fmt::format("{}: no such file; name bench/peer_worker.py of flagstone's sources",
-                               io::printable(worker));
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  return (program.parent_path() / place).lexically_normal().string();
+}
+
+bool is_file(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
+PeerCommand python_peer(const PeerPlaces& places, const std::string& name, float sensor_height) {
+  const std::string worker =
+      places.worker.empty() ? beside_this_program("../bench/peer_worker.py") : places.worker;
+  PeerCommand peer{name, {places.python, worker, name, fmt::format("{}", sensor_height)}, ""};
+  if (!is_file(worker)) {
+    peer.missing = fmt::format(
+        "{}: no such file; name bench/peer_worker.py of flagstone's sources with --peer-worker",
+        io::printable(worker));
   }
   return peer;
 }
 
 PeerCommand pcl_peer() {
-#ifdef FLAGSTONE_PCL_RANSAC
-  return {"pcl-ransac", {FLAGSTONE_PCL_RANSAC}, ""};
-#else
+  const std::string worker = beside_this_program("bench/pcl_ransac");
+  if (is_file(worker)) return {"pcl-ransac", {worker}, ""};
   return {"pcl-ransac", {}, "not built, since CMake found no PCL (Debian: libpcl-dev)"};
-#endif
 }
 
 /// The two numbers of "NANOSECONDS GROUND"; what it says instead is why it failed.

@@ -17,7 +17,7 @@ namespace flagstone::bench {
 /// Where other people's programs are found.
 struct PeerPlaces {
   std::string python = "python3";  ///< an interpreter that has the packages
-  std::string worker = {};         ///< bench/peer_worker.py; empty for the source tree's
+  std::string worker = {};         ///< bench/peer_worker.py; empty for that around the command
 };
 
 /// A program to compare with.

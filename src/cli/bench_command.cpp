@@ -146,7 +146,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->type_name("COMMAND");
   command
       ->add_option("--peer-worker", options->places.worker,
-                   "bench/peer_worker.py. Default: that of the source tree")
+                   "bench/peer_worker.py. Default: that of the source tree around the command")
       ->needs(peers)
       ->type_name("FILE");
   command->add_flag("--json", options->json, "Print one JSON object instead of tables");

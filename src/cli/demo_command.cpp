@@ -27,6 +27,7 @@
 #include "io/label_files.hpp"
 #include "io/write_cloud.hpp"
 #include "render/birds_eye.hpp"
+#include "render/can_draw.hpp"
 #include "render/surface_picture.hpp"
 #include "sim/simulate_street.hpp"
 
@@ -127,9 +128,12 @@ void run_demo(const DemoOptions& options) {
 
   const DemoFiles files(options.output);
   write_files(files, scan, cloud, result);
-  draw_pictures(files, cloud, result, truth, scores,
-                fmt::format("median error {:.1f} cm within 20 m, where the ground was seen",
-                            100 * heights.median));
+  const Status can_draw = render::can_draw();
+  if (can_draw.ok()) {
+    draw_pictures(files, cloud, result, truth, scores,
+                  fmt::format("median error {:.1f} cm within 20 m, where the ground was seen",
+                              100 * heights.median));
+  }
 
   const double share =
       static_cast<double>(result.count(Label::ground)) / static_cast<double>(cloud.size());
@@ -144,9 +148,13 @@ void run_demo(const DemoOptions& options) {
       "  heights      {:.1f} cm   (median error of ground within 20 m, 95 % below {:.1f} cm)\n",
       100 * heights.median, 100 * heights.percentile95);
   fmt::print("  time         {:.2f} ms  (one core, median of 21 runs)\n\n", ms);
-  fmt::print("  picture      {}\n", files.picture.string());
-  fmt::print("  compared     {}\n", files.comparison.string());
-  fmt::print("  surface      {}\n", files.surface.string());
+  if (can_draw.ok()) {
+    fmt::print("  picture      {}\n", files.picture.string());
+    fmt::print("  compared     {}\n", files.comparison.string());
+    fmt::print("  surface      {}\n", files.surface.string());
+  } else {
+    fmt::print("  pictures     none: {}\n", can_draw.message());
+  }
   fmt::print("  labels       {}\n", files.labels.string());
   fmt::print("  scan, truth  {}, {}\n", files.scan.string(), files.truth.string());
 }

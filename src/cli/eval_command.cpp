@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@
 #include "eval/results_json.hpp"
 #include "eval/results_text.hpp"
 #include "io/message.hpp"
+#include "render/can_draw.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -78,6 +80,9 @@ void print_tables(const eval::Results& results, bool speed) {
 }
 
 int evaluate(const EvalOptions& options) {
+  if (const Status can_draw = render::can_draw(); options.pictures > 0 && !can_draw.ok()) {
+    throw std::invalid_argument("--pictures: " + can_draw.message());
+  }
   EvaluationOptions how = options.evaluation;
   if (options.speed) how.threads = 1;
   Evaluation evaluation(how, options.methods.resolve(), options.files.journal());

@@ -17,6 +17,7 @@
 #include "io/npy.hpp"
 #include "io/write_cloud.hpp"
 #include "render/birds_eye.hpp"
+#include "render/can_draw.hpp"
 #include "render/surface_picture.hpp"
 
 namespace flagstone::cli {
@@ -244,7 +245,7 @@ Status ScanWorker::score_and_draw(const ScanInput& input, ScanReport& report) {
   Stopwatch watch;
   Status status;
   if (job_.picture) status = draw_birds_eye(input, report, truth);
-  if (status.ok() && job_.surface) status = draw_surface(input, report);
+  if (status.ok() && job_.surface && render::can_draw().ok()) status = draw_surface(input, report);
   if (job_.picture || job_.surface) report.picture_ms = watch.lap();
   return status;
 }

@@ -31,6 +31,7 @@
 #include "cli/throughput.hpp"
 #include "core/stopwatch.hpp"
 #include "flagstone/surface_config.hpp"
+#include "render/can_draw.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -147,6 +148,14 @@ void check_surface(const SegmentOptions& options, const MethodConfig& config) {
   }
 }
 
+/// Of the surface only the map is a picture: its grid is written all the same.
+void check_pictures(const SegmentOptions& options) {
+  const Status can_draw = render::can_draw();
+  if (can_draw.ok()) return;
+  if (options.picture) throw std::invalid_argument("--picture: " + can_draw.message());
+  if (options.surface) print_error("--surface: grids without maps: " + can_draw.message());
+}
+
 /// What is tracked goes from scan to scan, in their order.
 void check_threads(const SegmentOptions& options, const MountSettings& mount) {
   if (!mount.tracks() || options.threads <= 1) return;
@@ -176,6 +185,7 @@ int segment(const SegmentOptions& options) {
               .reference = options.reference};
   check_tint(options, job.config);
   check_surface(options, job.config);
+  check_pictures(options);
   const std::vector<ScanInput> scans = list_scans(options.scans);
 
   catch_interrupts();

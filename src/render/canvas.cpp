@@ -5,6 +5,8 @@
 #include <new>
 #include <numbers>
 
+#include "render/can_draw.hpp"
+
 namespace flagstone::render {
 namespace {
 
@@ -20,6 +22,8 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
 }
 
 }  // namespace
+
+Status can_draw() { return {}; }
 
 Canvas::Canvas(int width, int height)
     : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)),

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <new>
+#include <utility>
 
 namespace flagstone::render {
 namespace {
@@ -51,6 +53,24 @@ void select(cairo_t* context, const Font& font) noexcept {
   cairo_font_options_destroy(options);
 }
 
+// Where the system has no font, Cairo writes with strokes of its own, which only ASCII has. `room`
+// holds the text then; where there is no memory for it, boxes stand for other characters.
+const char* shown(cairo_t* context, const std::string& text, std::string& room) noexcept try {
+  if (cairo_scaled_font_get_type(cairo_get_scaled_font(context)) != CAIRO_FONT_TYPE_USER) {
+    return text.c_str();
+  }
+  using Pair = std::pair<std::string_view, std::string_view>;
+  room = text;
+  for (const auto& [sign, ascii] : {Pair("\u2212", "-"), Pair("\u2026", "...")}) {
+    for (std::size_t at = 0; (at = room.find(sign, at)) != std::string::npos;) {
+      room.replace(at, sign.size(), ascii);
+    }
+  }
+  return room.c_str();
+} catch (const std::bad_alloc&) {
+  return text.c_str();
+}
+
 double aligned_left(cairo_t* context, double x, const std::string& text, const Font& font,
                     Align align) noexcept {
   switch (align) {
@@ -90,7 +110,8 @@ std::string printable(std::string_view text) {
 double text_width(cairo_t* context, const std::string& text, const Font& font) noexcept {
   select(context, font);
   cairo_text_extents_t extents;
-  cairo_text_extents(context, text.c_str(), &extents);
+  std::string room;
+  cairo_text_extents(context, shown(context, text, room), &extents);
   return extents.x_advance;
 }
 
@@ -121,7 +142,8 @@ void draw_text(cairo_t* context, double x, double baseline, const std::string& t
   select(context, font);
   set_color(context, font.color);
   cairo_move_to(context, left, baseline);
-  cairo_show_text(context, text.c_str());
+  std::string room;
+  cairo_show_text(context, shown(context, text, room));
   cairo_new_path(context);
 }
 
@@ -130,7 +152,8 @@ void draw_edged_text(cairo_t* context, double x, double baseline, const std::str
   const double left = aligned_left(context, x, text, font, align);
   select(context, font);
   cairo_move_to(context, left, baseline);
-  cairo_text_path(context, text.c_str());
+  std::string room;
+  cairo_text_path(context, shown(context, text, room));
   cairo_set_line_width(context, font.size / 3.5);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   set_color(context, edge, 0.85);

@@ -3,7 +3,12 @@
 #include "render/text.hpp"
 
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
+#include <cstdlib>
+
+#include "io/file_contents.hpp"
+#include "io/temporary_folder.hpp"
 #include "render/picture.hpp"
 
 namespace flagstone::render {
@@ -30,6 +35,20 @@ TEST(PrintableText, ReplacesEveryByteThatIsNotUtf8) {
   EXPECT_EQ(printable("\xed\xa0\x80"), "???");       // surrogate
   EXPECT_EQ(printable("\xf4\x90\x80\x80"), "????");  // above U+10FFFF
   EXPECT_EQ(printable("\xff"), "?");
+}
+
+TEST(Text, OfASystemWithoutFontsKeepsToAscii) {
+  const auto is_ascii_without_fonts = [] {
+    const io::TemporaryFolder folder;
+    io::put_file(folder / "no-fonts.conf", "<fontconfig/>");
+    ::setenv("FONTCONFIG_FILE", (folder / "no-fonts.conf").c_str(), 1);
+    const Canvas canvas(100, 100);
+    const Font font{.size = 20, .bold = false, .color = text_color};
+    const auto width = [&](const char* text) { return text_width(canvas.context(), text, font); };
+    return width("\u22121.5") == width("-1.5") && width("a\u2026") == width("a...");
+  };
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // fonts are looked for once a process
+  EXPECT_EXIT(std::_Exit(is_ascii_without_fonts() ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
 class FittedText : public testing::Test {
