@@ -4,20 +4,22 @@
 
 from __future__ import annotations
 
+import json
 import os
 import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import flagstone
-from flagstone.ray.engine import connected, core_count, import_ray, send
-from flagstone.ray.place import Place, place
-from flagstone.ray.plan import check_names, find_scans, make_plan
+from flagstone._optional import needs
+from flagstone.ray.engine import connected, core_count, send
+from flagstone.ray.place import place
+from flagstone.ray.plan import Scans, check_names, find_scans, finished_scans, forget
 from flagstone.ray.progress import Progress
 from flagstone.ray.scan_names import LABEL_ENDINGS
 from flagstone.ray.statistics import FOLDER, StatisticsWriter, schema
 from flagstone.ray.summary import Failure, Interrupted, Summary
-from flagstone.ray.worker import Task
+from flagstone.ray.worker import LabelMap, Task
 
 if TYPE_CHECKING:
     import pyarrow
@@ -25,7 +27,6 @@ if TYPE_CHECKING:
 LABEL_MAPS = ("flagstone", "semantic_kitti")
 LARGEST_BATCH = 256  # scans: half a second of work, against milliseconds that sending it takes
 BATCHES_A_WORKER = 16  # at least, where there are scans enough: workers finish together
-WAITING_BATCHES = 2  # at each worker: one under work, one next
 
 
 def segment(
@@ -34,7 +35,7 @@ def segment(
     *,
     segmenter: flagstone.Segmenter | None = None,
     format: str = "label",
-    label_map: str = "flagstone",
+    label_map: LabelMap = "flagstone",
     columns: int | None = None,
     filesystem: Any = None,
     again: bool = False,
@@ -83,29 +84,38 @@ def segment(
     check_number("columns", columns, 3, 1024)
     check_number("workers", workers, 1, 100_000)
     segmenter = segmenter if segmenter is not None else flagstone.Surface()
-    import_ray()
+    tilt = known_tilt(segmenter)
+    needs("ray.data", "ray")
+    made_with = json.loads(  # as it is read again
+        json.dumps(
+            {
+                "version": flagstone.__version__,
+                "method": segmenter.method,
+                "settings": segmenter.settings,
+                "tilt": tilt,
+                "format": format,
+                "label_map": label_map,
+                "columns": columns,
+            }
+        )
+    )
     bar = Progress(progress)
     try:
         bar.note("listing scans")
         folder, scans = find_scans(place(source, filesystem))
         check_names(folder, scans, format)
         target = folder if destination is None else place(destination, filesystem)
-        made_with = {
-            "version": flagstone.__version__,
-            "method": segmenter.method,
-            "settings": segmenter.settings,
-            "format": format,
-            "label_map": label_map,
-            "columns": columns,
-        }
-        plan = make_plan(scans, target, format, made_with, again)
-        tally = Tally(len(scans), plan.finished, target.at(FOLDER))
-        if plan.scans.num_rows:
-            task = Task(segmenter, folder, target, format, label_map, columns)
-            writer = StatisticsWriter(Place(target.at(FOLDER), target.filesystem), made_with)
+        if again:
+            forget(target)
+        finished = finished_scans(scans, target, format, made_with)
+        tally = Tally(len(scans), len(finished), target.at(FOLDER))
+        todo = as_table({name: size for name, size in scans.items() if name not in finished})
+        if todo.num_rows:
+            task = Task(segmenter.method, segmenter.settings, tilt, folder, target, format, label_map, columns)
+            writer = StatisticsWriter(target.below(FOLDER), made_with)
             bar.note("starting Ray")
             with connected(address):
-                run(task, plan.scans, workers or core_count(), writer, tally, bar)
+                run(task, todo, workers or core_count(), writer, tally, bar)
         return tally.summary()
     finally:
         bar.clear()
@@ -127,10 +137,6 @@ class Tally:
     read_ms: float = 0
     segment_ms: float = 0
     write_ms: float = 0
-
-    @property
-    def done(self) -> int:
-        return self.finished_before + self.labelled + len(self.failures)
 
     def add(self, rows: pyarrow.Table) -> None:
         import pyarrow.compute as pc
@@ -162,51 +168,45 @@ class Tally:
 def run(
     task: Task, scans: pyarrow.Table, workers: int, writer: StatisticsWriter, tally: Tally, bar: Progress
 ) -> None:
-    """Sends all scans, then those whose batch was lost, one by one: what kills a worker is known then."""
-    tally.workers = min(workers, scans.num_rows)
+    """Sends the scans and takes their rows; what came until an interrupt or error is kept."""
+    size = min(LARGEST_BATCH, max(1, scans.num_rows // (workers * BATCHES_A_WORKER)))
+    batches = [scans.slice(first, size) for first in range(0, scans.num_rows, size)]
+    tally.workers = min(workers, len(batches))
     begun = time.monotonic()
     bar.begin()
-    batch = min(LARGEST_BATCH, max(1, scans.num_rows // (workers * BATCHES_A_WORKER)))
-
-    def gather(todo: pyarrow.Table, batch: int, at_once: int) -> pyarrow.Table:
-        """Sends scans and returns those that no row came back of."""
-        import pyarrow as pa
-        import pyarrow.compute as pc
-
-        seen = []
-        batches = [todo.slice(first, batch) for first in range(0, todo.num_rows, batch)]
-        for rows in send(task, batches, min(workers, len(batches)), at_once=at_once):
-            seen.append(rows["path"].combine_chunks())
+    bar.show(0, scans.num_rows)
+    try:
+        for rows in send(task, batches, tally.workers):
             writer.add(rows)
             tally.add(rows)
             tally.seconds = time.monotonic() - begun
-            bar.show(tally.done, tally.scans)
-        if sum(len(part) for part in seen) == todo.num_rows:
-            return todo.slice(0, 0)
-        return todo.filter(pc.invert(pc.is_in(todo["path"], pa.chunked_array(seen, pa.string()))))
-
-    try:
-        bar.show(tally.done, tally.scans)
-        lost = gather(scans, batch, WAITING_BATCHES)
-        if lost.num_rows:
-            lost = gather(lost, 1, 1)
-        if lost.num_rows:
-            rows = died(lost)
-            writer.add(rows)
-            tally.add(rows)
-    except (KeyboardInterrupt, SystemExit):
+            bar.show(tally.labelled + len(tally.failures), scans.num_rows)
+    except (KeyboardInterrupt, SystemExit):  # the latter is how Ray answers SIGTERM
         raise Interrupted(tally.summary()) from None
     finally:
         writer.flush()
 
 
-def died(scans: pyarrow.Table) -> pyarrow.Table:
-    """Rows of scans that no worker survives."""
+def as_table(scans: Scans) -> pyarrow.Table:
     import pyarrow as pa
 
-    error = "every worker that took it died, alone with it too (killed, out of memory?)"
-    rows = [{**scan, "error": f"{scan['path']}: {error}"} for scan in scans.to_pylist()]
-    return pa.Table.from_pylist(rows, schema=schema())
+    return pa.table({"path": pa.array(scans.keys(), pa.string()), "bytes": pa.array(scans.values(), pa.int64())})
+
+
+def known_tilt(segmenter: flagstone.Segmenter) -> Any:
+    """Where up is, as the segmenter was told.
+
+    Raises:
+        ValueError: The segmenter is to find out from scans how the sensor stands.
+    """
+    made_of = segmenter._made_of
+    for name in ("sensor_height", "tilt"):
+        if made_of[name] in ("estimate", "track"):
+            raise ValueError(
+                f"{name}={made_of[name]!r}: workers see scans in any order, and each would find something else; find it "
+                "with `flagstone doctor` and name it"
+            )
+    return made_of["tilt"]
 
 
 def check_choice(name: str, value: object, allowed: tuple[str, ...]) -> None:

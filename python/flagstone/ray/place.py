@@ -4,18 +4,20 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import posixpath
 import uuid
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import pyarrow.fs
 
 # A put of an object store is whole or not there. Elsewhere a file is written under another name and moved.
-OBJECT_STORES = frozenset({"s3", "s3a", "gcs", "gs", "abfs", "abfss", "az", "oss", "oci", "r2", "memory"})
+OBJECT_STORES = frozenset({"s3", "s3a", "gcs", "gs", "abfs", "abfss", "az", "oss", "oci", "r2"})
 
 
 @dataclass(frozen=True)
@@ -33,19 +35,20 @@ class Place:
         """The path of the file that is `name` here."""
         return posixpath.join(self.path, name)
 
-    def parent(self) -> Place:
-        return Place(posixpath.dirname(self.path.rstrip("/")) or ("." if self.is_local else ""), self.filesystem)
+    def below(self, name: str) -> Place:
+        """A folder in this one."""
+        return Place(self.at(name), self.filesystem)
 
-    def size(self, name: str = "") -> int | None:
-        """The bytes of a file, or None where it is none."""
-        path = self.at(name) if name else self.path
+    def size(self, name: str) -> int | None:
+        """The bytes of a file, or None where there is no such file."""
         if self.filesystem is None:
-            return os.path.getsize(path) if os.path.isfile(path) else None
-        info = self.filesystem.get_file_info(path)
+            path = Path(self.at(name))
+            return path.stat().st_size if path.is_file() else None
+        info = self.filesystem.get_file_info(self.at(name))
         return int(info.size) if info.is_file else None
 
     def files(self) -> Iterator[tuple[str, int]]:
-        """Name and bytes of every file in this folder and below it; nothing where there is no such folder."""
+        """Name and bytes of every file in this folder and below it; none where there is no such folder."""
         if self.filesystem is None:
             yield from _local_files(self.path)
             return
@@ -57,30 +60,38 @@ class Place:
                 yield posixpath.relpath(info.path, self.path), int(info.size or 0)
 
     def read(self, name: str) -> bytes:
-        path = self.at(name)
         if self.filesystem is None:
-            with open(path, "rb") as file:
-                return file.read()
-        with self.filesystem.open_input_file(path) as stream:
+            return Path(self.at(name)).read_bytes()
+        with self.filesystem.open_input_file(self.at(name)) as stream:
             return bytes(stream.read())
 
     def write(self, name: str, data: bytes) -> None:
-        """Writes a file whole or not at all, and the folders it needs."""
+        """Writes a file whole or not at all, and makes the folders it needs."""
         path = self.at(name)
+        folder, _ = posixpath.split(path)
+        beside = posixpath.join(folder, f".flagstone-{uuid.uuid4().hex}.tmp")
         if self.filesystem is None:
-            os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
-            _write_and_move_local(path, data)
-        elif _is_object_store(self.filesystem):
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            try:
+                Path(beside).write_bytes(data)
+                Path(beside).replace(path)
+            finally:
+                Path(beside).unlink(missing_ok=True)
+        elif is_object_store(self.filesystem):
             _put(self.filesystem, path, data)
         else:
-            self.filesystem.create_dir(posixpath.dirname(path), recursive=True)
-            beside = posixpath.join(posixpath.dirname(path), f".flagstone-{uuid.uuid4().hex}.tmp")
-            _put(self.filesystem, beside, data)
-            self.filesystem.move(beside, path)
+            self.filesystem.create_dir(folder, recursive=True)
+            try:
+                _put(self.filesystem, beside, data)
+                self.filesystem.move(beside, path)
+            except BaseException:
+                with contextlib.suppress(OSError):
+                    self.filesystem.delete_file(beside)
+                raise
 
     def remove(self, name: str) -> None:
         if self.filesystem is None:
-            os.unlink(self.at(name))
+            Path(self.at(name)).unlink()
         else:
             self.filesystem.delete_file(self.at(name))
 
@@ -93,29 +104,35 @@ def place(location: str | os.PathLike[str], filesystem: Any = None) -> Place:
 
     Args:
         location: A local path, or a URL that PyArrow or fsspec knows (`s3://`, `gs://`, `hdfs://`, `abfs://`, ...).
-        filesystem: A PyArrow or fsspec filesystem that `location` is a path of; None: the one the URL names.
+        filesystem: A PyArrow or fsspec filesystem that `location` is a path of; None: the one it names.
 
     Raises:
         ValueError: No filesystem is known for the URL.
     """
     text = os.fspath(location)
+    found = None
     if filesystem is not None:
-        return Place(text.rstrip("/"), _as_arrow(filesystem))
-    if "://" not in text:
-        return Place(text.rstrip("/") or "/")
-    import pyarrow
+        found = _as_arrow(filesystem)
+    elif "://" in text:
+        found, text = _from_url(text)
     import pyarrow.fs
 
-    try:
-        found, path = pyarrow.fs.FileSystem.from_uri(text)
-    except pyarrow.ArrowInvalid:  # not one of Arrow's own
-        found, path = _from_fsspec(text)
-    if isinstance(found, pyarrow.fs.LocalFileSystem):
-        return Place(path.rstrip("/") or "/")
-    return Place(path.rstrip("/"), found)
+    if found is None or isinstance(found, pyarrow.fs.LocalFileSystem):
+        return Place(str(Path(text).absolute()))  # workers run in other folders
+    return Place(text.rstrip("/"), found)
 
 
-def _from_fsspec(url: str) -> tuple[pyarrow.fs.FileSystem, str]:
+def is_object_store(filesystem: pyarrow.fs.FileSystem) -> bool:
+    """By its name, which is such as `s3`, or `py::fsspec+('s3', 's3a')` where fsspec has it."""
+    name = filesystem.type_name.removeprefix("py::fsspec+")
+    return not OBJECT_STORES.isdisjoint(name.translate(str.maketrans("'(),", "    ")).split())
+
+
+def _from_url(url: str) -> tuple[pyarrow.fs.FileSystem, str]:
+    import pyarrow.fs
+
+    with contextlib.suppress(pyarrow.ArrowInvalid):  # Arrow's own come first; the others are fsspec's
+        return pyarrow.fs.FileSystem.from_uri(url)
     import fsspec.core
 
     try:
@@ -133,27 +150,9 @@ def _as_arrow(filesystem: Any) -> pyarrow.fs.FileSystem:
     return pyarrow.fs.PyFileSystem(pyarrow.fs.FSSpecHandler(filesystem))
 
 
-def _is_object_store(filesystem: pyarrow.fs.FileSystem) -> bool:
-    """By the names that filesystems have: `s3`, or `py::fsspec+('s3', 's3a')` of one that fsspec has."""
-    name = filesystem.type_name.removeprefix("py::fsspec+")
-    return any(word in OBJECT_STORES for word in name.replace("'", " ").replace("(", " ").replace(",", " ").split())
-
-
 def _put(filesystem: pyarrow.fs.FileSystem, path: str, data: bytes) -> None:
     with filesystem.open_output_stream(path) as stream:
         stream.write(data)
-
-
-def _write_and_move_local(path: str, data: bytes) -> None:
-    beside = os.path.join(os.path.dirname(path), f".flagstone-{uuid.uuid4().hex}.tmp")
-    try:
-        with open(beside, "xb") as file:
-            file.write(data)
-        os.replace(beside, path)
-    except BaseException:
-        if os.path.exists(beside):
-            os.unlink(beside)
-        raise
 
 
 def _local_files(top: str) -> Iterator[tuple[str, int]]:
@@ -162,11 +161,11 @@ def _local_files(top: str) -> Iterator[tuple[str, int]]:
     while folders:
         folder = folders.pop()
         try:
-            entries = list(os.scandir(os.path.join(top, folder) if folder else top))
-        except (FileNotFoundError, PermissionError):
+            entries = list(os.scandir(posixpath.join(top, folder)))
+        except (FileNotFoundError, NotADirectoryError, PermissionError):
             continue
         for entry in entries:
-            name = posixpath.join(folder, entry.name) if folder else entry.name
+            name = posixpath.join(folder, entry.name)
             if entry.is_dir(follow_symlinks=False):
                 folders.append(name)
             elif entry.is_file():

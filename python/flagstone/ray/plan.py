@@ -4,63 +4,51 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from flagstone.ray.place import Place
 from flagstone.ray.scan_names import is_scan, label_bytes, label_name
 from flagstone.ray.statistics import FOLDER, is_part, read_rows
 
-if TYPE_CHECKING:
-    import pyarrow
+Scans = dict[str, int]  # bytes, by name below the source
 
 
-@dataclass(frozen=True)
-class Plan:
-    """The scans to be labelled, `path` and `bytes` of each, by path, and how many need not be."""
-
-    scans: pyarrow.Table
-    finished: int
-
-
-def find_scans(source: Place) -> tuple[Place, list[tuple[str, int]]]:
-    """The folder that names are relative to, and name and bytes of each scan, sorted by name.
+def find_scans(location: Place) -> tuple[Place, Scans]:
+    """The folder that names are below, and the scans in it, sorted by name.
 
     Raises:
         FileNotFoundError: There is no scan.
     """
-    size = source.size()
-    if size is not None:  # a single file
-        folder = source.parent()
-        return folder, [(source.path.rsplit("/", 1)[-1], size)]
-    scans = sorted(found for found in source.files() if is_scan(found[0]))
+    folder, _, name = location.path.rpartition("/")
+    size = location.size("")
+    if size is not None:
+        return Place(folder or "/", location.filesystem), {name: size}
+    scans = dict(sorted(found for found in location.files() if is_scan(found[0])))
     if not scans:
         raise FileNotFoundError(
-            f"{source}: no scan in this folder or below it; scans end in .bin, .pcd.bin, .pcd, .ply or .npy"
+            f"{location}: no scan in this folder or below it; scans end in .bin, .pcd.bin, .pcd, .ply or .npy"
         )
-    return source, scans
+    return location, scans
 
 
-def check_names(source: Place, scans: list[tuple[str, int]], format: str) -> None:
-    """Refuses scans that would write to one file.
+def check_names(source: Place, scans: Scans, format: str) -> None:
+    """Refuses scans whose labels would be one file.
 
     Raises:
-        ValueError: Two of them would.
+        ValueError: Two are such.
     """
     taken: dict[str, str] = {}
-    for name, _ in scans:
-        other = taken.setdefault(label_name(name, format), name)
+    for name in scans:
+        label = label_name(name, format)
+        other = taken.setdefault(label, name)
         if other is not name:
             raise ValueError(
-                f"{source.at(other)} and {source.at(name)} would both write to {label_name(name, format)}; "
-                f"move one of them elsewhere"
+                f"{source.at(other)} and {source.at(name)} would both write to {label}; move one of them elsewhere"
             )
 
 
-def make_plan(
-    scans: list[tuple[str, int]], destination: Place, format: str, made_with: dict[str, Any], again: bool
-) -> Plan:
-    """Leaves out what is finished.
+def finished_scans(scans: Scans, destination: Place, format: str, made_with: dict[str, Any]) -> set[str]:
+    """The scans that need not be done.
 
     A scan is finished where the statistics have its row, without an error and of a scan of as many bytes, and the file
     of its labels has the size that so many labels have.
@@ -68,53 +56,46 @@ def make_plan(
     Raises:
         ValueError: The destination holds labels that were made with other settings.
     """
-    import pyarrow as pa
-
-    finished: set[str] = set()
-    folder = Place(destination.at(FOLDER), destination.filesystem)
-    if again:
-        for name, _ in list(folder.files()):
-            if is_part(name):
-                folder.remove(name)
-    else:
-        rows, before = read_rows(folder, ["path", "bytes", "points", "error"])
-        check_same(destination, before, made_with)
-        if rows.num_rows:
-            finished = finished_scans(dict(scans), rows, dict(destination.files()), format)
-    left = [scan for scan in scans if scan[0] not in finished]
-    return Plan(
-        pa.table(
-            {
-                "path": pa.array([name for name, _ in left], pa.string()),
-                "bytes": pa.array([size for _, size in left], pa.int64()),
-            }
-        ),
-        len(scans) - len(left),
-    )
+    rows, before = read_rows(destination.below(FOLDER), ["path", "bytes", "points", "error"])
+    check_same(destination, before, made_with)
+    if rows.num_rows == 0:
+        return set()
+    outputs = dict(destination.files())
+    finished = set()
+    for path, size, points, error in zip(*(column.to_pylist() for column in rows.columns), strict=True):
+        finished.discard(path)  # of several rows the last counts
+        has_labels = error is None and outputs.get(label_name(path, format)) == label_bytes(points, format)
+        if has_labels and scans.get(path) == size:
+            finished.add(path)
+    return finished
 
 
 def check_same(destination: Place, before: list[dict[str, Any]], now: dict[str, Any]) -> None:
+    """Refuses to mix labels of different settings.
+
+    Raises:
+        ValueError: There are labels of other settings.
+    """
     for made in before:
-        if made == now:
-            continue
-        other = next(key for key in [*now, *made] if made.get(key) != now.get(key))
-        raise ValueError(
-            f"{destination}: its labels were made with another {other} ({shortly(made.get(other))}, "
-            f"now {shortly(now.get(other))}); name another destination, or do all of it anew with again=True (--again)"
-        )
+        for key in now:
+            if made.get(key) != now[key]:
+                raise ValueError(
+                    f"{destination}: its labels were made with another {difference(key, made.get(key), now[key])}; "
+                    "name another destination, or do them all anew with again=True (--again)"
+                )
 
 
-def shortly(value: Any) -> str:
-    text = str(value)
-    return text if len(text) <= 60 else text[:57] + "..."
+def difference(key: str, before: Any, now: Any) -> str:
+    """The first setting that is another, with its values."""
+    if isinstance(before, dict) and isinstance(now, dict):
+        inner = next(name for name in [*now, *before] if before.get(name) != now.get(name))
+        return difference(f"{key}.{inner}", before.get(inner), now.get(inner))
+    return f"{key}, {before} instead of {now}"
 
 
-def finished_scans(scans: dict[str, int], rows: pyarrow.Table, outputs: dict[str, int], format: str) -> set[str]:
-    finished = set()
-    for row in zip(*(column.to_pylist() for column in rows.columns), strict=True):
-        path, size, points, error = row
-        finished.discard(path)  # of several rows the last counts
-        if error is None and scans.get(path) == size:
-            if outputs.get(label_name(path, format)) == label_bytes(points, format):
-                finished.add(path)
-    return finished
+def forget(destination: Place) -> None:
+    """Takes the statistics away, so that no scan is finished."""
+    folder = destination.below(FOLDER)
+    for name, _ in list(folder.files()):
+        if is_part(name):
+            folder.remove(name)

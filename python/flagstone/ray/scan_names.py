@@ -6,15 +6,15 @@ from __future__ import annotations
 
 import posixpath
 
-SCAN_ENDINGS = (".bin", ".pcd", ".ply", ".npy")
-BESIDE_SCANS = ("_lidarseg.bin", ".label.npy", ".heights.npy", ".surface.npy", ".ground.npy", ".echo.npy")
+from flagstone import io
+
 LABEL_ENDINGS = {"label": ".label", "u8": ".label.npy"}
+NPY_HEADER = 128  # bytes; what NumPy pads the header of an array of one dimension to
 
 
 def is_scan(name: str) -> bool:
     """Whether a file is taken for a scan, by its name alone."""
-    base = posixpath.basename(name).lower()
-    return base.endswith(SCAN_ENDINGS) and not base.startswith(".") and not base.endswith(BESIDE_SCANS)
+    return io.is_scan_name(name)
 
 
 def label_name(scan: str, format: str) -> str:
@@ -26,8 +26,5 @@ def label_name(scan: str, format: str) -> str:
 
 
 def label_bytes(points: int, format: str) -> int:
-    """The size of a file of so many labels: four bytes each, or one each after a header of 128 bytes."""
+    """The size of a file of so many labels: four bytes each, or one each after a header."""
     return 4 * points if format == "label" else NPY_HEADER + points
-
-
-NPY_HEADER = 128  # NumPy pads the header of any one-dimensional array to this

@@ -119,7 +119,7 @@ def statistics(destination: str | os.PathLike[str], *, filesystem: Any = None) -
         ValueError: A file among them is none of ours.
     """
     where = place(destination, filesystem)
-    rows, _ = read_rows(Place(where.at(FOLDER), where.filesystem))
+    rows, _ = read_rows(where.below(FOLDER))
     if rows.num_rows == 0:
         raise FileNotFoundError(f"{where.at(FOLDER)}: no statistics; is {where} what flagstone-ray wrote to?")
     frame = rows.to_pandas().drop_duplicates("path", keep="last")

@@ -1,12 +1,11 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What runs in each Ray actor: read, segment, write, a scan at a time."""
+"""What runs in each Ray actor: scans read, segmented, their labels written."""
 
 from __future__ import annotations
 
 import contextlib
 import io
-import os
 import socket
 import threading
 import time
@@ -14,43 +13,59 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from datetime import datetime, timezone
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import numpy.typing as npt
 
 import flagstone
+from flagstone._optional import needs
 from flagstone.ray.place import Place
 from flagstone.ray.scan_names import label_name
 from flagstone.ray.statistics import LABELS, schema
+from flagstone.ray.under_work import UnderWork
 
 if TYPE_CHECKING:
-    import numpy as np
     import pyarrow
 
-# Waiting for a remote filesystem takes longer than segmenting: so many scans are on their way at once.
+LabelMap = Literal["flagstone", "semantic_kitti"]
+
+# A remote filesystem answers late, not slowly: so many scans are on their way at once.
 REMOTE_SCANS_AT_ONCE = 32
+# One more might be chance: a node out of memory, somebody's kill.
+DEATHS_ALLOWED = 1
 
 
 @dataclass(frozen=True)
 class Task:
     """What all workers of a run have in common."""
 
-    segmenter: flagstone.Segmenter
+    method: str
+    settings: dict[str, Any]  # all of them, so that no file of settings is needed on the worker's node
+    tilt: Any
     source: Place
     destination: Place
     format: str  # label, u8
-    label_map: str  # flagstone, semantic_kitti
+    label_map: LabelMap
     columns: int | None
+
+    def segmenter(self) -> flagstone.Segmenter:
+        return flagstone.make_segmenter(self.method, tilt=self.tilt, **self.settings)
 
 
 class ScanWorker:
-    """Labels batches of scans; keeps its segmenter, so that buffers are made once."""
+    """Labels batches of scans; keeps its segmenter, whose buffers are made once."""
 
     def __init__(self, task: Task) -> None:
         self._task = task
+        self._segmenter = task.segmenter()
         self._turn = threading.Lock()
         self._folders: set[str] = set()  # made already
-        self._node = node_name()
-        at_once = 1 if task.source.is_local and task.destination.is_local else REMOTE_SCANS_AT_ONCE
-        self._threads = ThreadPoolExecutor(at_once) if at_once > 1 else None
+        self._node, notes = identity()
+        self._under_work = UnderWork(notes)
+        is_local = task.source.is_local and task.destination.is_local
+        self._threads = None if is_local else ThreadPoolExecutor(REMOTE_SCANS_AT_ONCE)
 
     def __call__(self, batch: pyarrow.Table) -> pyarrow.Table:
         """Labels scans.
@@ -61,59 +76,62 @@ class ScanWorker:
         Returns:
             Their rows of the statistics.
         """
-        import pyarrow as pa
-
         scans = batch.to_pylist()
-        rows = self._threads.map(self._work, scans) if self._threads else map(self._work, scans)
-        return pa.Table.from_pylist(list(rows), schema=schema())
+        suspects = [scan for scan in scans if self._under_work.deaths(scan["path"])]
+        others = [scan for scan in scans if not self._under_work.deaths(scan["path"])]
+        rows = list(self._threads.map(self._work, others) if self._threads else map(self._work, others))
+        rows += map(self._work, suspects)  # alone, so that it is plain who did it
+        return needs("pyarrow", "ray").Table.from_pylist(rows, schema=schema())
 
     def _work(self, scan: dict[str, Any]) -> dict[str, Any]:
+        name = scan["path"]
         row = {**scan, "begun": datetime.now(timezone.utc), "node": self._node}
+        deaths = self._under_work.deaths(name)
+        if deaths > DEATHS_ALLOWED:
+            where = self._task.source.at(name)
+            return {**row, "error": f"{where}: {deaths} workers died while they had it under work (out of memory?)"}
+        self._under_work.begin(name)
         try:
-            with took(row, "read_ms"):
-                points = self._read(scan["path"])
-            with self._turn, took(row, "segment_ms"):
-                result = self._task.segmenter.segment(points)
-            row["points"] = len(result.labels)
-            row.update({label: result.counts[label] for label in LABELS})
-            with took(row, "write_ms"):
-                self._write(label_name(scan["path"], self._task.format), result.labels)
-        except Exception as error:  # one scan, whatever is wrong with it; the others are done
-            row["error"] = one_line(error, self._task.source.at(scan["path"]))
+            self._label(name, row)
+        except Exception as error:  # whatever is wrong with one scan, the others are done
+            row["error"] = one_line(error, self._task.source.at(name))
+        self._under_work.end(name)
         return row
 
-    def _read(self, name: str) -> np.ndarray:
-        source = self._task.source
-        path = source.at(name)
+    def _label(self, name: str, row: dict[str, Any]) -> None:
+        with took(row, "read_ms"):
+            points = self._read(name)
+        with self._turn, took(row, "segment_ms"):
+            result = self._segmenter.segment(points)
+        row["points"] = len(result)
+        row.update({label: result.counts[label] for label in LABELS})
+        with took(row, "write_ms"):
+            self._write(label_name(name, self._task.format), result.labels)
+
+    def _read(self, name: str) -> npt.NDArray[np.void]:
+        source, columns = self._task.source, self._task.columns
         if source.is_local:
-            return flagstone.io.read(path, columns=self._task.columns)
-        format = flagstone.io.format_of(name)
-        assert format is not None
-        return flagstone.io.parse(source.read(name), format, columns=self._columns_of(name))
+            return flagstone.io.read(source.at(name), columns=columns)
+        if columns is None:
+            columns = 5 if name.lower().endswith(".pcd.bin") else 4
+        return flagstone.io.parse(source.read(name), flagstone.io.format_of(name) or "raw", columns=columns)
 
-    def _columns_of(self, name: str) -> int | None:
-        if self._task.columns is None and name.lower().endswith(".pcd.bin"):
-            return 5
-        return self._task.columns
-
-    def _write(self, name: str, labels: np.ndarray) -> None:
-        destination = self._task.destination
+    def _write(self, name: str, labels: npt.NDArray[np.uint8]) -> None:
+        destination, label_map = self._task.destination, self._task.label_map
         if not destination.is_local:
-            destination.write(name, label_file(labels, self._task.format, self._task.label_map))
+            destination.write(name, label_file(labels, self._task.format, label_map))
             return
         path = destination.at(name)
-        folder = os.path.dirname(path)
+        folder, _, _ = path.rpartition("/")
         if folder not in self._folders:
-            os.makedirs(folder or ".", exist_ok=True)
+            Path(folder).mkdir(parents=True, exist_ok=True)
             self._folders.add(folder)
-        flagstone.io.write_labels(path, labels, label_map=self._task.label_map)
+        flagstone.io.write_labels(path, labels, label_map=label_map)
 
 
-def label_file(labels: np.ndarray, format: str, label_map: str) -> bytes:
+def label_file(labels: npt.NDArray[np.uint8], format: str, label_map: LabelMap) -> bytes:
     """The bytes that `flagstone.io.write_labels` writes, for filesystems it cannot write to."""
-    import numpy as np
-
-    codes = labels if label_map == "flagstone" else np.where(labels == 1, np.uint8(40), np.uint8(0))
+    codes = labels if label_map == "flagstone" else np.where(labels == flagstone.Label.GROUND, 40, 0)
     if format == "label":
         return codes.astype("<u4").tobytes()
     file = io.BytesIO()
@@ -122,21 +140,19 @@ def label_file(labels: np.ndarray, format: str, label_map: str) -> bytes:
 
 
 def one_line(error: Exception, path: str) -> str:
-    """What went wrong, with the scan's path, once."""
+    """What is wrong, in one line that begins with the scan's path."""
     text = " ".join(str(error).split()) or type(error).__name__
     if isinstance(error, OSError) and error.strerror:
-        where = error.filename or path
-        return f"{where}: {error.strerror}" if str(where) not in error.strerror else error.strerror
-    if isinstance(error, MemoryError):
-        text = "out of memory"
+        text = f"{error.filename or path}: {error.strerror}"
     return text if path in text else f"{path}: {text}"
 
 
-def node_name() -> str:
-    """Host and the beginning of Ray's id of the node: several nodes may be on one host."""
-    import ray
-
-    return f"{socket.gethostname()}/{ray.get_runtime_context().get_node_id()[:8]}"
+def identity() -> tuple[str, Path]:
+    """The node's name, and where an actor that is restarted there finds its notes again."""
+    context = needs("ray", "ray").get_runtime_context()
+    node = f"{socket.gethostname()}/{context.get_node_id()[:8]}"  # several nodes may be on one host
+    folder = Path(context.get_temp_dir()) / context.get_session_name()
+    return node, folder / f"flagstone-{context.get_actor_id()}.notes"
 
 
 @contextlib.contextmanager
