@@ -36,11 +36,16 @@ def connected(address: str | None) -> Iterator[None]:
             yield
             return
         address = address or os.environ.get("RAY_ADDRESS") or "local"
+        alone = {"num_cpus": len(os.sched_getaffinity(0)), "object_store_memory": OBJECT_STORE_BYTES}
         try:
-            if address == "local":
-                start(ray)
-            else:
-                ray.init(address=address, log_to_driver=False, logging_level=logging.ERROR)
+            with quiet_start():
+                ray.init(
+                    address=address,
+                    include_dashboard=False,
+                    log_to_driver=False,
+                    logging_level=logging.ERROR,
+                    **(alone if address == "local" else {}),
+                )
         except (ConnectionError, RuntimeError, ValueError) as error:
             reason = " ".join(str(error).split())
             raise ConnectionError(f"Ray at {address}: cannot be had: {reason}") from error
@@ -50,22 +55,9 @@ def connected(address: str | None) -> Iterator[None]:
             ray.shutdown()
 
 
-def start(ray) -> None:  # type: ignore[no-untyped-def]
-    ray.init(
-        address="local",
-        num_cpus=len(os.sched_getaffinity(0)),
-        object_store_memory=OBJECT_STORE_BYTES,
-        include_dashboard=False,
-        log_to_driver=False,
-        logging_level=logging.ERROR,
-    )
-
-
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
-    """Ray's own messages and progress bars turned off; nothing is reported to its makers."""
-    os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
-    os.environ.setdefault("RAY_BACKEND_LOG_LEVEL", "fatal")
+    """Ray Data's own messages and progress bars turned off."""
     context = needs("ray.data", "ray").DataContext.get_current()
     logger = logging.getLogger("ray.data")
     bars, level = context.enable_progress_bars, logger.level
@@ -76,6 +68,29 @@ def quiet() -> Iterator[None]:
     finally:
         context.enable_progress_bars = bars
         logger.setLevel(level)
+
+
+@contextlib.contextmanager
+def quiet_start() -> Iterator[None]:
+    """What Ray's C++ parts read from the environment when they start: to say what is fatal, and report to nobody.
+
+    They write to file descriptor 2 what they were told, which is not to be seen either.
+    """
+    before = dict(os.environ)
+    os.environ.setdefault("RAY_BACKEND_LOG_LEVEL", "fatal")
+    os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
+    kept = os.dup(2)
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nowhere)
+        for name in ("RAY_BACKEND_LOG_LEVEL", "RAY_USAGE_STATS_ENABLED"):
+            if name not in before:
+                del os.environ[name]
 
 
 def core_count() -> int:
