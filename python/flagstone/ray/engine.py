@@ -7,6 +7,7 @@ from __future__ import annotations
 import contextlib
 import logging
 import os
+import socket
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,11 @@ if TYPE_CHECKING:
     import pyarrow
 
 OBJECT_STORE_BYTES = 256 * 2**20  # only paths and statistics go through it
+START_ENVIRONMENT = {
+    "RAY_BACKEND_LOG_LEVEL": "fatal",
+    "RAY_enable_output_error_log_if_still_retry": "0",
+    "RAY_USAGE_STATS_ENABLED": "0",
+}
 WAITING_BATCHES = 2  # at each worker: one under work, one next
 
 
@@ -38,6 +44,7 @@ def connected(address: str | None) -> Iterator[None]:
         address = address or os.environ.get("RAY_ADDRESS") or "local"
         alone = {"num_cpus": len(os.sched_getaffinity(0)), "object_store_memory": OBJECT_STORE_BYTES}
         try:
+            check_answers(address)
             with quiet_start():
                 ray.init(
                     address=address,
@@ -46,13 +53,24 @@ def connected(address: str | None) -> Iterator[None]:
                     logging_level=logging.ERROR,
                     **(alone if address == "local" else {}),
                 )
-        except (ConnectionError, RuntimeError, ValueError) as error:
+        except (OSError, RuntimeError, ValueError) as error:
             reason = " ".join(str(error).split())
             raise ConnectionError(f"Ray at {address}: cannot be had: {reason}") from error
         try:
             yield
         finally:
             ray.shutdown()
+
+
+def check_answers(address: str) -> None:
+    """Tries host and port, for which Ray itself would wait for minutes.
+
+    Raises:
+        OSError: Nobody answers there.
+    """
+    host, _, port = address.removeprefix("ray://").rpartition(":")
+    if host and port.isdecimal():
+        socket.create_connection((host.strip("[]"), int(port)), timeout=10).close()
 
 
 @contextlib.contextmanager
@@ -77,8 +95,8 @@ def quiet_start() -> Iterator[None]:
     They write to file descriptor 2 what they were told, which is not to be seen either.
     """
     before = dict(os.environ)
-    os.environ.setdefault("RAY_BACKEND_LOG_LEVEL", "fatal")
-    os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
+    for name, value in START_ENVIRONMENT.items():
+        os.environ.setdefault(name, value)
     kept = os.dup(2)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     try:
@@ -88,9 +106,8 @@ def quiet_start() -> Iterator[None]:
         os.dup2(kept, 2)
         os.close(kept)
         os.close(nowhere)
-        for name in ("RAY_BACKEND_LOG_LEVEL", "RAY_USAGE_STATS_ENABLED"):
-            if name not in before:
-                del os.environ[name]
+        for name in START_ENVIRONMENT.keys() - before.keys():
+            del os.environ[name]
 
 
 def core_count() -> int:
