@@ -1,18 +1,21 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What the tests of flagstone.ray share: scans to label, and the command to compare with."""
+"""What the tests of flagstone.ray share: scans to label, the command to compare with, files that kill."""
 
 from __future__ import annotations
 
+import os
+import signal
 import subprocess
 from pathlib import Path
+from typing import Any
 
+import fsspec.implementations.local
 import numpy as np
 import numpy.typing as npt
 
 import flagstone
-
-COMMAND = Path(flagstone.__file__).parent / "bin" / "flagstone"
+from flagstone import _command
 
 
 def street(seed: int, points: int = 4000) -> npt.NDArray[np.void]:
@@ -44,7 +47,9 @@ def write_scans(folder: Path, names: list[str]) -> None:
 
 def label_with_command(source: Path, output: Path, *options: str) -> None:
     """What the labels are compared with."""
-    subprocess.run([COMMAND, "segment", source, "--output", output, *options], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [_command.path(), "segment", source, "--output", output, *options], check=True, stdout=subprocess.DEVNULL
+    )
 
 
 def files(folder: Path) -> dict[str, bytes]:
@@ -54,3 +59,14 @@ def files(folder: Path) -> dict[str, bytes]:
         for path in sorted(folder.rglob("*"))
         if path.is_file() and path.suffix != ".parquet"
     }
+
+
+class DeadlyFiles(fsspec.implementations.local.LocalFileSystem):
+    """Whoever opens a scan named deadly is killed, as by a system that is out of memory."""
+
+    protocol = "deadly"
+
+    def _open(self, path: str, *arguments: Any, **options: Any) -> Any:
+        if path.endswith("deadly.bin"):
+            os.kill(os.getpid(), signal.SIGKILL)
+        return super()._open(path, *arguments, **options)

@@ -72,12 +72,15 @@ def test_workers_segment_as_the_segmenter_that_was_given(method: str) -> None:
 class TestPlace:
     def test_of_a_path_is_local_and_absolute(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.chdir(tmp_path)
-        assert place("scans/") == place(tmp_path / "scans") == place(f"file://{tmp_path}/scans") == Place(
-            str(tmp_path / "scans")
+        assert (
+            place("scans/")
+            == place(tmp_path / "scans")
+            == place(f"file://{tmp_path}/scans")
+            == Place(str(tmp_path / "scans"))
         )
 
     def test_of_an_unknown_url_is_refused_in_one_line(self) -> None:
-        with pytest.raises(ValueError, match="^nowhere://a/b: no filesystem for this URL") as caught:
+        with pytest.raises(ValueError, match=r"^nowhere://a/b: no filesystem for this URL") as caught:
             place("nowhere://a/b")
         assert "\n" not in str(caught.value)
 
@@ -160,6 +163,20 @@ class TestStatistics:
             read_rows(Place(str(tmp_path)))
 
 
+class TestFindScans:
+    def test_finds_them_in_folders_sorted(self, tmp_path: Path) -> None:
+        for name in ("b.bin", "a/c.npy", "a/c.label.npy", ".hidden.bin", "note.txt"):
+            (tmp_path / name).parent.mkdir(exist_ok=True)
+            (tmp_path / name).write_bytes(b"123")
+        source, scans = plan.find_scans(Place(str(tmp_path)))
+        assert source == Place(str(tmp_path))
+        assert list(scans.items()) == [("a/c.npy", 3), ("b.bin", 3)]
+
+    def test_takes_a_single_one(self, tmp_path: Path) -> None:
+        (tmp_path / "b.bin").write_bytes(b"123")
+        assert plan.find_scans(Place(str(tmp_path / "b.bin"))) == (Place(str(tmp_path)), {"b.bin": 3})
+
+
 class TestFinishedScans:
     def finished(self, tmp_path: Path, scans: plan.Scans, **row: object) -> set[str]:
         writer = StatisticsWriter(Place(str(tmp_path / "flagstone-statistics")), {})
@@ -181,6 +198,13 @@ class TestFinishedScans:
     def test_are_not_those_that_have_changed(self, tmp_path: Path) -> None:
         (tmp_path / "a.label").write_bytes(bytes(40))
         assert self.finished(tmp_path, {"a.bin": 176}) == set()
+
+    def test_are_none_once_the_statistics_are_forgotten(self, tmp_path: Path) -> None:
+        (tmp_path / "a.label").write_bytes(bytes(40))
+        assert self.finished(tmp_path, {"a.bin": 160}) == {"a.bin"}
+        plan.forget(Place(str(tmp_path)))
+        assert plan.finished_scans({"a.bin": 160}, Place(str(tmp_path)), "label", {}) == set()
+        assert (tmp_path / "a.label").exists()
 
     def test_are_not_those_that_failed(self, tmp_path: Path) -> None:
         (tmp_path / "a.label").write_bytes(bytes(40))

@@ -112,7 +112,7 @@ def fail(error: object, code: int) -> int:
     return code
 
 
-def up(text: str) -> tuple[float, float, float] | str:
+def up(text: str) -> Any:
     """Where up is, of X,Y,Z; a word as it stands, for the segmenter to judge.
 
     Raises:

@@ -17,7 +17,7 @@ from flagstone.ray.place import place
 from flagstone.ray.plan import Scans, check_names, find_scans, finished_scans, forget
 from flagstone.ray.progress import Progress
 from flagstone.ray.scan_names import LABEL_ENDINGS
-from flagstone.ray.statistics import FOLDER, StatisticsWriter, schema
+from flagstone.ray.statistics import FOLDER, StatisticsWriter
 from flagstone.ray.summary import Failure, Interrupted, Summary
 from flagstone.ray.worker import LabelMap, Task
 
@@ -165,9 +165,7 @@ class Tally:
         )
 
 
-def run(
-    task: Task, scans: pyarrow.Table, workers: int, writer: StatisticsWriter, tally: Tally, bar: Progress
-) -> None:
+def run(task: Task, scans: pyarrow.Table, workers: int, writer: StatisticsWriter, tally: Tally, bar: Progress) -> None:
     """Sends the scans and takes their rows; what came until an interrupt or error is kept."""
     size = min(LARGEST_BATCH, max(1, scans.num_rows // (workers * BATCHES_A_WORKER)))
     batches = [scans.slice(first, size) for first in range(0, scans.num_rows, size)]
@@ -188,6 +186,7 @@ def run(
 
 
 def as_table(scans: Scans) -> pyarrow.Table:
+    """What workers are sent."""
     import pyarrow as pa
 
     return pa.table({"path": pa.array(scans.keys(), pa.string()), "bytes": pa.array(scans.values(), pa.int64())})
@@ -203,17 +202,19 @@ def known_tilt(segmenter: flagstone.Segmenter) -> Any:
     for name in ("sensor_height", "tilt"):
         if made_of[name] in ("estimate", "track"):
             raise ValueError(
-                f"{name}={made_of[name]!r}: workers see scans in any order, and each would find something else; find it "
-                "with `flagstone doctor` and name it"
+                f"{name}={made_of[name]!r}: workers see scans in any order, and each would find something "
+                "else; find it with `flagstone doctor` and name it"
             )
     return made_of["tilt"]
 
 
 def check_choice(name: str, value: object, allowed: tuple[str, ...]) -> None:
+    """Raises ValueError where the value is none of those allowed."""
     if value not in allowed:
         raise ValueError(f"{name}={value!r}: allowed are {', '.join(allowed)}")
 
 
 def check_number(name: str, value: int | None, least: int, most: int) -> None:
+    """Raises ValueError where there is a value and it is not within the range."""
     if value is not None and not (isinstance(value, int) and least <= value <= most):
         raise ValueError(f"{name}={value!r}: not a whole number within {least} to {most}")

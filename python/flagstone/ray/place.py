@@ -132,7 +132,8 @@ def _from_url(url: str) -> tuple[pyarrow.fs.FileSystem, str]:
     import pyarrow.fs
 
     with contextlib.suppress(pyarrow.ArrowInvalid):  # Arrow's own come first; the others are fsspec's
-        return pyarrow.fs.FileSystem.from_uri(url)
+        found, path = pyarrow.fs.FileSystem.from_uri(url)
+        return found, path
     import fsspec.core
 
     try:

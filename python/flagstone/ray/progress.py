@@ -9,6 +9,7 @@ import time
 
 
 def duration_text(seconds: float) -> str:
+    """Seconds as people say them: 5 s, 3 min 04 s, 2 h 10 min."""
     whole = round(seconds)
     if whole < 60:
         return f"{whole} s"

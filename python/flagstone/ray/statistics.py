@@ -99,6 +99,7 @@ def read_rows(folder: Place, columns: list[str] | None = None) -> tuple[pyarrow.
 
 
 def is_part(name: str) -> bool:
+    """Whether a file in the folder of statistics is a part of them: not hidden, not half written."""
     return name.endswith(".parquet") and "/" not in name and not name.startswith(".")
 
 
@@ -122,5 +123,5 @@ def statistics(destination: str | os.PathLike[str], *, filesystem: Any = None) -
     rows, _ = read_rows(where.below(FOLDER))
     if rows.num_rows == 0:
         raise FileNotFoundError(f"{where.at(FOLDER)}: no statistics; is {where} what flagstone-ray wrote to?")
-    frame = rows.to_pandas().drop_duplicates("path", keep="last")
+    frame: pandas.DataFrame = rows.to_pandas().drop_duplicates("path", keep="last")
     return frame.sort_values("path", ignore_index=True)

@@ -157,6 +157,7 @@ def identity() -> tuple[str, Path]:
 
 @contextlib.contextmanager
 def took(row: dict[str, Any], name: str) -> Iterator[None]:
+    """Puts the milliseconds that the context took into the row."""
     begun = time.perf_counter()
     yield
     row[name] = 1000 * (time.perf_counter() - begun)
