@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import errno
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -129,13 +130,15 @@ class TestPlace:
 
 class TestUnderWork:
     def test_knows_what_predecessors_died_of(self, tmp_path: Path) -> None:
+        held = []
         for _ in range(2):  # two predecessors, each killed in the midst of scan b
             killed = UnderWork(tmp_path / "notes")
-            killed.begin("a")
-            killed.end("a")
-            killed.begin("b\udce9")  # a name that is no UTF-8
+            with killed.on("a"):
+                pass
+            held.append(killed.on("b\nc"))
+            held[-1].__enter__()
         successor = UnderWork(tmp_path / "notes")
-        assert [successor.deaths(scan) for scan in ("a", "b\udce9", "c")] == [0, 2, 0]
+        assert [successor.deaths(scan) for scan in ("a", "b\nc", "c")] == [0, 2, 0]
 
     def test_begins_without_deaths(self, tmp_path: Path) -> None:
         assert UnderWork(tmp_path / "notes").deaths("a") == 0
@@ -220,9 +223,9 @@ def test_errors_are_one_line_that_names_the_scan_once() -> None:
 
 
 def test_progress_says_how_long_the_rest_takes() -> None:
-    assert progress_text(0, 100, 5) == f"[{' ' * 30}] 0 of 100 scans"
-    assert progress_text(50, 100, 90) == f"[{'#' * 15}{' ' * 15}] 50 of 100 scans, 1 min 30 s left"
-    assert progress_text(100, 100, 90) == f"[{'#' * 30}] 100 of 100 scans"
+    assert progress_text(0, 100, None) == f"[{' ' * 30}] 0 of 100 scans"
+    assert progress_text(50, 100, 1.8) == f"[{'#' * 15}{' ' * 15}] 50 of 100 scans, 1 min 30 s left"
+    assert progress_text(100, 100, 1.8) == f"[{'#' * 30}] 100 of 100 scans"
 
 
 def test_a_summary_lists_what_failed_and_why() -> None:
@@ -279,6 +282,11 @@ class TestUsage:
     def test_scans_that_would_share_labels_are_refused(self, scan: Path) -> None:
         flagstone.io.write(scan / "a.npy", np.zeros((5, 4), np.float32))
         with pytest.raises(ValueError, match=r"a\.bin and .*a\.npy would both write to a\.label"):
+            flagstone.ray.segment(scan)
+
+    def test_names_that_are_not_utf8_are_refused(self, scan: Path) -> None:
+        Path(os.fsdecode(bytes(scan) + b"/\xe9.bin")).write_bytes(b"")
+        with pytest.raises(ValueError, match=r"the name '\\udce9\.bin' is not UTF-8; rename it"):
             flagstone.ray.segment(scan)
 
     def test_a_destination_of_other_settings_is_refused(self, scan: Path) -> None:

@@ -7,7 +7,9 @@ from __future__ import annotations
 import contextlib
 import logging
 import os
+import signal
 import socket
+import threading
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -92,9 +94,11 @@ def quiet() -> Iterator[None]:
 def quiet_start() -> Iterator[None]:
     """What Ray's C++ parts read from the environment when they start: to say what is fatal, and report to nobody.
 
-    They write to file descriptor 2 what they were told, which is not to be seen either.
+    They write to file descriptor 2 what they were told, which is not to be seen either. SIGTERM stays the caller's.
     """
     before = dict(os.environ)
+    is_main = threading.current_thread() is threading.main_thread()
+    on_terminate = signal.getsignal(signal.SIGTERM)
     for name, value in START_ENVIRONMENT.items():
         os.environ.setdefault(name, value)
     kept = os.dup(2)
@@ -106,6 +110,8 @@ def quiet_start() -> Iterator[None]:
         os.dup2(kept, 2)
         os.close(kept)
         os.close(nowhere)
+        if is_main and on_terminate is not None:
+            signal.signal(signal.SIGTERM, on_terminate)
         for name in START_ENVIRONMENT.keys() - before.keys():
             del os.environ[name]
 

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import json
 import os
-import time
 from dataclasses import dataclass, field
+from datetime import datetime
 from typing import TYPE_CHECKING, Any
 
 import flagstone
@@ -132,7 +132,8 @@ class Tally:
     labelled: int = 0
     points: int = 0
     bytes: int = 0
-    seconds: float = 0
+    begun: datetime | None = None  # when the first scan was begun, by the clocks of the workers' nodes
+    ended: datetime | None = None  # when the last one was done
     workers: int = 0
     read_ms: float = 0
     segment_ms: float = 0
@@ -145,6 +146,9 @@ class Tally:
         self.labelled += good.num_rows
         for name in ("points", "bytes", "read_ms", "segment_ms", "write_ms"):
             setattr(self, name, getattr(self, name) + (pc.sum(good[name]).as_py() or 0))
+        first, last = pc.min(rows["begun"]).as_py(), pc.max(rows["ended"]).as_py()
+        self.begun = min(first, self.begun or first)
+        self.ended = max(last, self.ended or last)
         for row in rows.filter(pc.is_valid(rows["error"])).select(["path", "error"]).to_pylist():
             self.failures.append(Failure(row["path"], row["error"]))
 
@@ -156,7 +160,7 @@ class Tally:
             failures=tuple(sorted(self.failures)),
             points=self.points,
             bytes=self.bytes,
-            seconds=self.seconds,
+            seconds=(self.ended - self.begun).total_seconds() if self.begun and self.ended else 0,
             workers=self.workers,
             read_ms=self.read_ms,
             segment_ms=self.segment_ms,
@@ -170,14 +174,11 @@ def run(task: Task, scans: pyarrow.Table, workers: int, writer: StatisticsWriter
     size = min(LARGEST_BATCH, max(1, scans.num_rows // (workers * BATCHES_A_WORKER)))
     batches = [scans.slice(first, size) for first in range(0, scans.num_rows, size)]
     tally.workers = min(workers, len(batches))
-    begun = time.monotonic()
-    bar.begin()
-    bar.show(0, scans.num_rows)
+    bar.note("starting workers")
     try:
         for rows in send(task, batches, tally.workers):
             writer.add(rows)
             tally.add(rows)
-            tally.seconds = time.monotonic() - begun
             bar.show(tally.labelled + len(tally.failures), scans.num_rows)
     except (KeyboardInterrupt, SystemExit):  # the latter is how Ray answers SIGTERM
         raise Interrupted(tally.summary()) from None

@@ -32,13 +32,17 @@ def find_scans(location: Place) -> tuple[Place, Scans]:
 
 
 def check_names(source: Place, scans: Scans, format: str) -> None:
-    """Refuses scans whose labels would be one file.
+    """Refuses scans whose labels would be one file, and names that the statistics cannot hold.
 
     Raises:
-        ValueError: Two are such.
+        ValueError: There are such.
     """
     taken: dict[str, str] = {}
     for name in scans:
+        try:
+            name.encode()
+        except UnicodeEncodeError:
+            raise ValueError(f"{source}: the name {name!r} is not UTF-8; rename it") from None
         label = label_name(name, format)
         other = taken.setdefault(label, name)
         if other is not name:

@@ -18,13 +18,13 @@ def duration_text(seconds: float) -> str:
     return f"{whole // 3600} h {whole // 60 % 60:02} min"
 
 
-def progress_text(done: int, total: int, seconds: float) -> str:
-    """A bar, how many are done, and how long the rest takes where that is known."""
+def progress_text(done: int, total: int, seconds_each: float | None) -> str:
+    """A bar, how many are done, and how long the rest takes where it is known how long each does."""
     width = 30
     filled = width * done // total if total else width
     text = f"[{'#' * filled}{' ' * (width - filled)}] {done} of {total} scans"
-    if 0 < done < total:
-        text += f", {duration_text(seconds / done * (total - done))} left"
+    if seconds_each is not None and done < total:
+        text += f", {duration_text(seconds_each * (total - done))} left"
     return text
 
 
@@ -33,22 +33,20 @@ class Progress:
 
     def __init__(self, wanted: bool = True) -> None:
         self._is_shown = wanted and sys.stderr.isatty()
-        self._begun = time.monotonic()
+        self._first: tuple[int, float] | None = None  # how many were done when the first came, and when that was
         self._next = 0.0
 
     def note(self, text: str) -> None:
         """What is done before the first scan."""
         self._draw(text)
 
-    def begin(self) -> None:
-        """The time left is reckoned from now."""
-        self._begun = time.monotonic()
-
     def show(self, done: int, total: int) -> None:
+        """How far it is; the time left is reckoned from the first scans done on, so that no start is in it."""
         now = time.monotonic()
+        first, since = self._first = self._first or (done, now)
         if now >= self._next or done == total:
             self._next = now + 0.1
-            self._draw(progress_text(done, total, now - self._begun))
+            self._draw(progress_text(done, total, (now - since) / (done - first) if done > first else None))
 
     def clear(self) -> None:
         self._draw("")

@@ -14,7 +14,7 @@ NPY_HEADER = 128  # bytes; what NumPy pads the header of an array of one dimensi
 
 def is_scan(name: str) -> bool:
     """Whether a file is taken for a scan, by its name alone."""
-    return io.is_scan_name(name)
+    return io.is_scan_name(name.encode(errors="replace").decode())  # of names that are not UTF-8 the ending says it
 
 
 def label_name(scan: str, format: str) -> str:

@@ -36,6 +36,7 @@ def schema() -> pyarrow.Schema:
             ("segment_ms", pa.float64()),
             ("write_ms", pa.float64()),
             ("begun", pa.timestamp("us", tz="UTC")),
+            ("ended", pa.timestamp("us", tz="UTC")),
             ("node", pa.string()),
             ("error", pa.string()),  # null where all went well
         ]
@@ -112,8 +113,8 @@ def statistics(destination: str | os.PathLike[str], *, filesystem: Any = None) -
 
     Returns:
         A frame with the columns `path` (below the source), `bytes`, `points`, one for each of the five labels with
-        its points, `read_ms`, `segment_ms`, `write_ms`, `begun` (UTC), `node` and `error` (missing where all
-        went well). Of a scan that was done several times, the last.
+        its points, `read_ms`, `segment_ms`, `write_ms`, `begun` and `ended` (UTC), `node` and `error` (missing where
+        all went well). Of a scan that was done several times, the last.
 
     Raises:
         FileNotFoundError: There are no statistics.
@@ -123,5 +124,7 @@ def statistics(destination: str | os.PathLike[str], *, filesystem: Any = None) -
     rows, _ = read_rows(where.below(FOLDER))
     if rows.num_rows == 0:
         raise FileNotFoundError(f"{where.at(FOLDER)}: no statistics; is {where} what flagstone-ray wrote to?")
-    frame: pandas.DataFrame = rows.to_pandas().drop_duplicates("path", keep="last")
-    return frame.sort_values("path", ignore_index=True)
+    frame: pandas.DataFrame = rows.to_pandas()
+    frame.drop_duplicates("path", keep="last", inplace=True)
+    frame.sort_values("path", ignore_index=True, inplace=True)
+    return frame

@@ -33,7 +33,7 @@ class Summary:
         failures: Those that it could not label, and why.
         points: Points labelled in this run.
         bytes: Bytes of scans read for that.
-        seconds: From the first batch sent to the last row back; starting Ray and listing scans not counted.
+        seconds: From the first scan begun to the last one done; listing scans and starting Ray are not in it.
         workers: Actors at work, a core each.
         read_ms: Milliseconds of reading, added up over the scans of this run.
         segment_ms: Milliseconds of segmenting, added up.

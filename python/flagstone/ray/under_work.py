@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 
 
@@ -18,19 +20,22 @@ class UnderWork:
     def __init__(self, notes: Path) -> None:
         self._deaths = Counter[str]()
         if notes.exists():
-            for line in notes.read_text(encoding="utf-8", errors="surrogateescape").splitlines():
+            for line in notes.read_text(encoding="ascii").splitlines():
                 self._deaths[line[1:]] += 1 if line.startswith("+") else -1
         self._file = notes.open("ab", buffering=0)  # each line is with the system before the next step
 
-    def begin(self, scan: str) -> None:
+    @contextlib.contextmanager
+    def on(self, scan: str) -> Iterator[None]:
+        """While a scan is under work."""
         self._note("+", scan)
-
-    def end(self, scan: str) -> None:
-        self._note("-", scan)
+        try:
+            yield
+        finally:
+            self._note("-", scan)
 
     def deaths(self, scan: str) -> int:
         """How many of this worker's predecessors died while they had the scan under work."""
-        return self._deaths[scan]
+        return self._deaths[ascii(scan)]
 
     def _note(self, sign: str, scan: str) -> None:
-        self._file.write(f"{sign}{scan}\n".encode(errors="surrogateescape"))
+        self._file.write(f"{sign}{scan!a}\n".encode("ascii"))

@@ -85,18 +85,20 @@ class ScanWorker:
 
     def _work(self, scan: dict[str, Any]) -> dict[str, Any]:
         name = scan["path"]
-        row = {**scan, "begun": datetime.now(timezone.utc), "node": self._node}
-        deaths = self._under_work.deaths(name)
-        if deaths > DEATHS_ALLOWED:
-            where = self._task.source.at(name)
-            return {**row, "error": f"{where}: {deaths} workers died while they had it under work (out of memory?)"}
-        self._under_work.begin(name)
+        row = {**scan, "begun": now(), "node": self._node}
         try:
-            self._label(name, row)
+            self._check_survivable(name)
+            with self._under_work.on(name):
+                self._label(name, row)
         except Exception as error:  # whatever is wrong with one scan, the others are done
             row["error"] = one_line(error, self._task.source.at(name))
-        self._under_work.end(name)
+        row["ended"] = now()
         return row
+
+    def _check_survivable(self, name: str) -> None:
+        deaths = self._under_work.deaths(name)
+        if deaths > DEATHS_ALLOWED:
+            raise RuntimeError(f"{deaths} workers died while they had it under work (out of memory?)")
 
     def _label(self, name: str, row: dict[str, Any]) -> None:
         with took(row, "read_ms"):
@@ -153,6 +155,11 @@ def identity() -> tuple[str, Path]:
     node = f"{socket.gethostname()}/{context.get_node_id()[:8]}"  # several nodes may be on one host
     folder = Path(context.get_temp_dir()) / context.get_session_name()
     return node, folder / f"flagstone-{context.get_actor_id()}.notes"
+
+
+def now() -> datetime:
+    """The time in UTC."""
+    return datetime.now(timezone.utc)
 
 
 @contextlib.contextmanager
