@@ -21,6 +21,7 @@ import pyarrow.fs  # noqa: E402
 
 import flagstone.ray  # noqa: E402
 from flagstone.ray import command, plan  # noqa: E402
+from flagstone.ray.job import as_table, in_batches  # noqa: E402
 from flagstone.ray.place import Place, is_object_store, place  # noqa: E402
 from flagstone.ray.progress import progress_text  # noqa: E402
 from flagstone.ray.scan_names import label_bytes, label_name  # noqa: E402
@@ -303,3 +304,14 @@ class TestUsage:
         error = capsys.readouterr().err
         assert error.startswith("flagstone-ray: Ray at 127.0.0.1:1: cannot be had: ")
         assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize(("scans", "workers"), [(1, 8), (17, 2), (2000, 2), (5000, 3)])
+def test_batches_hold_every_scan_once_and_grow_smaller(scans: int, workers: int) -> None:
+    names = {f"{i}.bin": 16 for i in range(scans)}
+    batches = in_batches(as_table(names), workers)
+    assert [name for batch in batches for name in batch["path"].to_pylist()] == list(names)
+    sizes = [batch.num_rows for batch in batches]
+    assert sizes == sorted(sizes, reverse=True)
+    assert sizes[0] <= 256
+    assert sizes[-1] <= 16

@@ -20,10 +20,11 @@ if TYPE_CHECKING:
     import pyarrow
 
 OBJECT_STORE_BYTES = 256 * 2**20  # only paths and statistics go through it
-START_ENVIRONMENT = {
+ENVIRONMENT = {
     "RAY_BACKEND_LOG_LEVEL": "fatal",
     "RAY_enable_output_error_log_if_still_retry": "0",
     "RAY_USAGE_STATS_ENABLED": "0",
+    "RAY_DATA_USAGE_DISABLED": "1",
 }
 WAITING_BATCHES = 2  # at each worker: one under work, one next
 
@@ -77,30 +78,28 @@ def check_answers(address: str) -> None:
 
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
-    """Ray Data's own messages and progress bars turned off."""
+    """Ray's messages and progress bars turned off, and its reports to its makers."""
     context = needs("ray.data", "ray").DataContext.get_current()
     logger = logging.getLogger("ray.data")
     bars, level = context.enable_progress_bars, logger.level
     context.enable_progress_bars = False
     logger.setLevel(logging.CRITICAL)
+    added = {name: value for name, value in ENVIRONMENT.items() if name not in os.environ}
+    os.environ.update(added)
     try:
         yield
     finally:
+        for name in added:
+            del os.environ[name]
         context.enable_progress_bars = bars
         logger.setLevel(level)
 
 
 @contextlib.contextmanager
 def quiet_start() -> Iterator[None]:
-    """What Ray's C++ parts read from the environment when they start: to say what is fatal, and report to nobody.
-
-    They write to file descriptor 2 what they were told, which is not to be seen either. SIGTERM stays the caller's.
-    """
-    before = dict(os.environ)
+    """File descriptor 2 turned away, to which Ray's C++ parts say how loud they will be; SIGTERM stays the caller's."""
     is_main = threading.current_thread() is threading.main_thread()
     on_terminate = signal.getsignal(signal.SIGTERM)
-    for name, value in START_ENVIRONMENT.items():
-        os.environ.setdefault(name, value)
     kept = os.dup(2)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     try:
@@ -112,8 +111,6 @@ def quiet_start() -> Iterator[None]:
         os.close(nowhere)
         if is_main and on_terminate is not None:
             signal.signal(signal.SIGTERM, on_terminate)
-        for name in START_ENVIRONMENT.keys() - before.keys():
-            del os.environ[name]
 
 
 def core_count() -> int:

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     import pyarrow
 
 LABEL_MAPS = ("flagstone", "semantic_kitti")
-LARGEST_BATCH = 256  # scans: half a second of work, against milliseconds that sending it takes
-BATCHES_A_WORKER = 16  # at least, where there are scans enough: workers finish together
+LARGEST_BATCH = 256  # scans: half a second of work, against some 15 milliseconds that sending it takes
+SMALLEST_BATCH = 16
 
 
 def segment(
@@ -171,8 +171,7 @@ class Tally:
 
 def run(task: Task, scans: pyarrow.Table, workers: int, writer: StatisticsWriter, tally: Tally, bar: Progress) -> None:
     """Sends the scans and takes their rows; what came until an interrupt or error is kept."""
-    size = min(LARGEST_BATCH, max(1, scans.num_rows // (workers * BATCHES_A_WORKER)))
-    batches = [scans.slice(first, size) for first in range(0, scans.num_rows, size)]
+    batches = in_batches(scans, workers)
     tally.workers = min(workers, len(batches))
     bar.note("starting workers")
     try:
@@ -184,6 +183,17 @@ def run(task: Task, scans: pyarrow.Table, workers: int, writer: StatisticsWriter
         raise Interrupted(tally.summary()) from None
     finally:
         writer.flush()
+
+
+def in_batches(scans: pyarrow.Table, workers: int) -> list[pyarrow.Table]:
+    """Large ones first, smaller ones towards the end, so that all workers finish together."""
+    batches = []
+    first = 0
+    while first < scans.num_rows:
+        size = (scans.num_rows - first) // (2 * workers)
+        batches.append(scans.slice(first, min(max(size, SMALLEST_BATCH), LARGEST_BATCH)))
+        first += batches[-1].num_rows
+    return batches
 
 
 def as_table(scans: Scans) -> pyarrow.Table:

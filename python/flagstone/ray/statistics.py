@@ -124,7 +124,6 @@ def statistics(destination: str | os.PathLike[str], *, filesystem: Any = None) -
     rows, _ = read_rows(where.below(FOLDER))
     if rows.num_rows == 0:
         raise FileNotFoundError(f"{where.at(FOLDER)}: no statistics; is {where} what flagstone-ray wrote to?")
-    frame: pandas.DataFrame = rows.to_pandas()
-    frame.drop_duplicates("path", keep="last", inplace=True)
-    frame.sort_values("path", ignore_index=True, inplace=True)
-    return frame
+    frame = rows.to_pandas()
+    last: pandas.DataFrame = frame[~frame["path"].duplicated(keep="last")]
+    return last.sort_values("path", ignore_index=True)

@@ -105,8 +105,9 @@ class ScanWorker:
             points = self._read(name)
         with self._turn, took(row, "segment_ms"):
             result = self._segmenter.segment(points)
-        row["points"] = len(result)
-        row.update({label: result.counts[label] for label in LABELS})
+        counts = result.counts
+        row["points"] = sum(counts.values())
+        row.update({label: counts[label] for label in LABELS})
         with took(row, "write_ms"):
             self._write(label_name(name, self._task.format), result.labels)
 
