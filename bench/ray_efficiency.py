@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: MIT
 """What Ray costs: `flagstone.ray.segment` against the plain parallel command, on the same cores and scans.
 
-Simulates scans once, then runs the two in turn, each of them first every other time, and prints medians. With --driver it prints instead what the driver,
-which there is one of however many machines there are, needs for a scan: seconds of a core, and memory.
+Simulates scans once, then runs the two in turn, each of them first every other time, and prints medians. With --driver
+it prints instead what the driver, which there is one of however many machines there are, needs for a scan: seconds of
+a core, and memory. Folders in memory (/dev/shm) leave out what the disk does.
 
-    python bench/ray_efficiency.py --work /tmp/ray-efficiency
-    python bench/ray_efficiency.py --work /tmp/ray-efficiency --driver
+    python bench/ray_efficiency.py --work /dev/shm/ray-efficiency
+    python bench/ray_efficiency.py --work /dev/shm/ray-efficiency --driver
 """
 
 import argparse
@@ -151,11 +152,9 @@ def measure_driver(work: pathlib.Path) -> None:
 
 
 def print_machine() -> None:
-    model = next(
-        (line.partition(":")[2].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")),
-        platform.machine(),
-    )
-    print(f"{model}, {len(os.sched_getaffinity(0))} cores; {date.today()}")
+    lines = pathlib.Path("/proc/cpuinfo").read_text().splitlines()
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    print(f"{models[0] if models else platform.machine()}, {len(os.sched_getaffinity(0))} cores; {date.today()}")
 
 
 def main() -> None:

@@ -98,6 +98,11 @@ def label_count(labels: Path) -> int:
     return sum(1 for _ in labels.rglob("*.label"))
 
 
+def whole(labels: Path) -> dict[str, bytes]:
+    """All files, but for those that a killed worker had half written under another name."""
+    return {name: data for name, data in files(labels).items() if not Path(name).name.startswith(".flagstone-")}
+
+
 def with_children(process: int) -> list[int]:
     """A process and all that it started, as /proc tells."""
     children: dict[int, list[int]] = {}
@@ -133,7 +138,7 @@ def test_a_node_that_is_killed_in_the_middle_costs_nothing(
     assert at_kill < SCANS, "too late to show anything"
     assert run.returncode == 0, error
     assert f"{SCANS} of {SCANS} scans labelled" in printed
-    assert files(labels) == expected
+    assert whole(labels) == expected
     frame = flagstone.ray.statistics(labels)
     assert len(frame) == SCANS
     assert frame["node"].nunique() == 2
@@ -149,14 +154,31 @@ def test_a_driver_that_is_killed_costs_what_it_had_not_written_down(
     run.communicate()
     known = flagstone.ray.statistics(labels)
     assert 0 < len(known) < SCANS, "too late to show anything"
-    so_far = files(labels)
-    whole = {name: label for name, label in so_far.items() if not Path(name).name.startswith(".flagstone-")}
-    assert whole.items() <= expected.items(), "labels that are there are whole"
+    so_far = whole(labels)
+    assert so_far.items() <= expected.items(), "labels that are there are whole"
 
     again = start(cluster, scans, labels)
     printed, error = again.communicate(timeout=PATIENCE)
-    print(f"{len(whole)} labels stood when the driver was killed, {len(known)} were written down\n{printed}{error}")
+    print(f"{len(so_far)} labels stood when the driver was killed, {len(known)} were written down\n{printed}{error}")
     assert again.returncode == 0, error
     assert f"; {len(known)} were finished before" in printed
-    assert expected.items() <= files(labels).items()
+    assert whole(labels) == expected
     assert len(flagstone.ray.statistics(labels)) == SCANS
+
+
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+def test_a_run_that_is_interrupted_says_what_is_done(
+    cluster: Any, scans: Path, expected: dict[str, bytes], tmp_path: Path, by: signal.Signals
+) -> None:
+    labels = tmp_path / "labels"
+    run = start(cluster, scans, labels)
+    wait_until(lambda: any(labels.glob("flagstone-statistics/*.parquet")), run)
+    run.send_signal(by)
+    printed, error = run.communicate(timeout=PATIENCE)
+    known = len(flagstone.ray.statistics(labels))
+    print(printed, error)
+    assert run.returncode == 1
+    assert f"flagstone-ray: interrupted, {known} of {SCANS} scans are done; run it again for the rest\n" in error
+    assert "Traceback" not in error
+    assert printed.startswith(f"{known} of {SCANS} scans labelled")
+    assert whole(labels).items() <= expected.items()

@@ -145,5 +145,5 @@ def send(task: Task, batches: list[pyarrow.Table], workers: int) -> Iterator[pya
     try:
         yield from data.iter_batches(batch_size=None, batch_format="pyarrow")
     except ray.exceptions.RayError as error:
-        reason = " ".join(str(error).split())
+        reason = str(error).strip().splitlines()[-1]  # above it stands where in Ray that was
         raise RuntimeError(f"Ray gave up: {reason}; what is done stays done, run it again for the rest") from error

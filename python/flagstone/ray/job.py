@@ -63,8 +63,8 @@ def segment(
         columns: Floats a point in `.bin` files, 3 to 1024; None: 5 for `.pcd.bin`, else 4.
         filesystem: A PyArrow or fsspec filesystem that source and destination are paths of; None: those that they name.
         again: Label all scans, finished or not, and begin the statistics anew.
-        address: The Ray cluster to join, such as `auto` or `ray://head:10001`; None: the environment's RAY_ADDRESS, or
-            Ray started here for this run.
+        address: The Ray cluster to join, `auto` on one of its nodes or `HOST:PORT` of its head; None: the
+            environment's RAY_ADDRESS, or Ray started here for this run.
         workers: Actors, a core each; None: as many as there are cores.
         progress: Whether to show progress and time left where standard error is a terminal.
 
