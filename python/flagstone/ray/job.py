@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import pyarrow
 
 LABEL_MAPS = ("flagstone", "semantic_kitti")
-LARGEST_BATCH = 256  # scans: half a second of work, against some 15 milliseconds that sending it takes
+LARGEST_BATCH = 1024  # scans: three seconds of work, against 15 milliseconds of the driver's and of the worker's time
 SMALLEST_BATCH = 16
 
 
