@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Where scans lie and labels go: a local folder, or a folder of any other filesystem."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import posixpath
+import uuid
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pyarrow.fs
+
+# A put of an object store is whole or not there. Elsewhere a file is written under another name and moved.
+OBJECT_STORES = frozenset({"s3", "s3a", "gcs", "gs", "abfs", "abfss", "az", "oss", "oci", "r2"})
+
+
+@dataclass(frozen=True)
+class Place:
+    """A folder, by its path and the filesystem it is in: None for the local one."""
+
+    path: str
+    filesystem: pyarrow.fs.FileSystem | None = None
+
+    @property
+    def is_local(self) -> bool:
+        return self.filesystem is None
+
+    def at(self, name: str) -> str:
+        """The path of the file that is `name` here."""
+        return posixpath.join(self.path, name)
+
+    def below(self, name: str) -> Place:
+        """A folder in this one."""
+        return Place(self.at(name), self.filesystem)
+
+    def size(self, name: str) -> int | None:
+        """The bytes of a file, or None where there is no such file."""
+        if self.filesystem is None:
+            path = Path(self.at(name))
+            return path.stat().st_size if path.is_file() else None
+        info = self.filesystem.get_file_info(self.at(name))
+        return int(info.size) if info.is_file else None
+
+    def files(self) -> Iterator[tuple[str, int]]:
+        """Name and bytes of every file in this folder and below it; none where there is no such folder."""
+        if self.filesystem is None:
+            yield from _local_files(self.path)
+            return
+        import pyarrow.fs
+
+        selector = pyarrow.fs.FileSelector(self.path, recursive=True, allow_not_found=True)
+        for info in self.filesystem.get_file_info(selector):
+            if info.is_file:
+                yield posixpath.relpath(info.path, self.path), int(info.size or 0)
+
+    def read(self, name: str) -> bytes:
+        if self.filesystem is None:
+            return Path(self.at(name)).read_bytes()
+        with self.filesystem.open_input_file(self.at(name)) as stream:
+            return bytes(stream.read())
+
+    def write(self, name: str, data: bytes) -> None:
+        """Writes a file whole or not at all, and makes the folders it needs."""
+        path = self.at(name)
+        folder, _ = posixpath.split(path)
+        beside = posixpath.join(folder, f".flagstone-{uuid.uuid4().hex}.tmp")
+        if self.filesystem is None:
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            try:
+                Path(beside).write_bytes(data)
+                Path(beside).replace(path)
+            finally:
+                Path(beside).unlink(missing_ok=True)
+        elif is_object_store(self.filesystem):
+            _put(self.filesystem, path, data)
+        else:
+            self.filesystem.create_dir(folder, recursive=True)
+            try:
+                _put(self.filesystem, beside, data)
+                self.filesystem.move(beside, path)
+            except BaseException:
+                with contextlib.suppress(OSError):
+                    self.filesystem.delete_file(beside)
+                raise
+
+    def remove(self, name: str) -> None:
+        if self.filesystem is None:
+            Path(self.at(name)).unlink()
+        else:
+            self.filesystem.delete_file(self.at(name))
+
+    def __str__(self) -> str:
+        return self.path
+
+
+def place(location: str | os.PathLike[str], filesystem: Any = None) -> Place:
+    """The place that a path or URL names.
+
+    Args:
+        location: A local path, or a URL that PyArrow or fsspec knows (`s3://`, `gs://`, `hdfs://`, `abfs://`, ...).
+        filesystem: A PyArrow or fsspec filesystem that `location` is a path of; None: the one it names.
+
+    Raises:
+        ValueError: No filesystem is known for the URL.
+    """
+    text = os.fspath(location)
+    found = None
+    if filesystem is not None:
+        found = _as_arrow(filesystem)
+    elif "://" in text:
+        found, text = _from_url(text)
+    import pyarrow.fs
+
+    if found is None or isinstance(found, pyarrow.fs.LocalFileSystem):
+        return Place(str(Path(text).absolute()))  # workers run in other folders
+    return Place(text.rstrip("/"), found)
+
+
+def is_object_store(filesystem: pyarrow.fs.FileSystem) -> bool:
+    """By its name, which is such as `s3`, or `py::fsspec+('s3', 's3a')` where fsspec has it."""
+    name = filesystem.type_name.removeprefix("py::fsspec+")
+    return not OBJECT_STORES.isdisjoint(name.translate(str.maketrans("'(),", "    ")).split())
+
+
+def _from_url(url: str) -> tuple[pyarrow.fs.FileSystem, str]:
+    import pyarrow.fs
+
+    with contextlib.suppress(pyarrow.ArrowInvalid):  # Arrow's own come first; the others are fsspec's
+        found, path = pyarrow.fs.FileSystem.from_uri(url)
+        return found, path
+    import fsspec.core
+
+    try:
+        found, path = fsspec.core.url_to_fs(url)
+    except (ImportError, ValueError) as error:
+        raise ValueError(f"{url}: no filesystem for this URL: {error}") from None
+    return _as_arrow(found), path
+
+
+def _as_arrow(filesystem: Any) -> pyarrow.fs.FileSystem:
+    import pyarrow.fs
+
+    if isinstance(filesystem, pyarrow.fs.FileSystem):
+        return filesystem
+    return pyarrow.fs.PyFileSystem(pyarrow.fs.FSSpecHandler(filesystem))
+
+
+def _put(filesystem: pyarrow.fs.FileSystem, path: str, data: bytes) -> None:
+    with filesystem.open_output_stream(path) as stream:
+        stream.write(data)
+
+
+def _local_files(top: str) -> Iterator[tuple[str, int]]:
+    """As the command `flagstone segment` walks: links to files are followed, links to folders are not."""
+    folders = [""]
+    while folders:
+        folder = folders.pop()
+        try:
+            entries = list(os.scandir(posixpath.join(top, folder)))
+        except (FileNotFoundError, NotADirectoryError, PermissionError):
+            continue
+        for entry in entries:
+            name = posixpath.join(folder, entry.name)
+            if entry.is_dir(follow_symlinks=False):
+                folders.append(name)
+            elif entry.is_file():
+                yield name, entry.stat().st_size

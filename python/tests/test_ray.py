@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""Labelling folders of scans with Ray: one Ray, started for all of these tests."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import flagstone
+
+ray = pytest.importorskip("ray", reason="needs flagstone[ray]")
+pytest.importorskip("ray.data", reason="needs flagstone[ray]")
+
+from ray_scans import DeadlyFiles, files, label_with_command, write_scans  # noqa: E402
+
+import flagstone.ray  # noqa: E402
+from flagstone.ray import command  # noqa: E402
+
+SCANS = ["a.bin", "00/a.bin", "00/b.pcd", "00/deep/c.ply", "01/d.npy", "01/e.pcd.bin", "01/f.v2.bin", "02/g.bin"]
+NO_SCANS = ["00/a.label.npy", "00/.hidden.bin", "00/readme.txt", "01/x_lidarseg.bin"]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def one_ray() -> Iterator[None]:
+    """Two cores, as little memory as Ray takes, and workers that find what this process found."""
+    found = [str(Path(flagstone.__file__).parents[1]), str(Path(__file__).parent)]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", os.pathsep.join([*found, os.environ.get("PYTHONPATH", "")]))
+        patch.setenv("RAY_USAGE_STATS_ENABLED", "0")
+        ray.init(
+            address="local",
+            num_cpus=2,
+            object_store_memory=100 * 2**20,
+            include_dashboard=False,
+            log_to_driver=False,
+        )
+        yield
+        ray.shutdown()
+
+
+@pytest.fixture
+def scans(tmp_path: Path) -> Path:
+    """Scans of all formats in folders, and files beside them that are no scans."""
+    folder = tmp_path / "scans"
+    write_scans(folder, SCANS)
+    for name in NO_SCANS:
+        (folder / name).write_bytes(b"no scan")
+    return folder
+
+
+def test_labels_are_those_of_the_command_byte_for_byte(scans: Path, tmp_path: Path) -> None:
+    summary = flagstone.ray.segment(scans, tmp_path / "labels")
+    label_with_command(scans, tmp_path / "expected")
+    assert files(tmp_path / "labels") == files(tmp_path / "expected")
+    assert len(files(tmp_path / "labels")) == len(SCANS) == summary.labelled
+    assert summary.failures == ()
+
+    frame = flagstone.ray.statistics(tmp_path / "labels")
+    assert sorted(frame["path"]) == sorted(SCANS)
+    assert (frame[["nonground", "ground", "noise", "out_of_range", "invalid"]].sum(axis=1) == frame["points"]).all()
+    assert (frame["invalid"] == 3).all()
+    assert summary.points == frame["points"].sum()
+    assert summary.bytes == frame["bytes"].sum() == sum((scans / name).stat().st_size for name in SCANS)
+    assert (frame[["read_ms", "segment_ms", "write_ms"]] > 0).all(axis=None)
+
+
+def test_settings_formats_and_places_are_those_asked_for(scans: Path, tmp_path: Path) -> None:
+    segmenter = flagstone.Patchwork(sensor="hdl-32e", sensor_height=1.6, uprightness={"angle": 50})
+    asked = {"segmenter": segmenter, "format": "u8", "label_map": "semantic_kitti", "workers": 1}
+    before = files(scans)
+    flagstone.ray.segment(scans, None, **asked)  # beside the scans
+    options = "--method patchwork --sensor hdl-32e --sensor-height 1.6 --set uprightness.angle=50 --format u8"
+    label_with_command(scans, tmp_path / "expected", *options.split(), "--label-map", "semantic-kitti")
+    assert files(scans) == before | files(tmp_path / "expected")
+    assert flagstone.ray.segment(scans, None, **asked).finished_before == len(SCANS)  # no label is taken for a scan
+
+
+def test_what_fails_costs_itself_alone_and_only_what_is_left_is_done(
+    scans: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    label_with_command(scans, tmp_path / "expected")
+    good = (scans / "00" / "b.pcd").read_bytes()
+    (scans / "00" / "b.pcd").write_bytes(good[:-100])
+    labels = tmp_path / "labels"
+    labels.mkdir()
+    (labels / "01").write_text("a file where a folder must be")
+    assert command.main([str(scans), "--output", str(labels), "--workers", "1"]) == 1
+    printed = capsys.readouterr().out
+    assert f"4 of {len(SCANS)} scans labelled" in printed
+    assert f"4 failed:\n  {scans}/00/b.pcd: byte " in printed
+    assert f"{labels}/01: File exists" in printed
+    assert sorted(files(labels)) == ["00/a.label", "00/deep/c.label", "01", "02/g.label", "a.label"]
+    frame = flagstone.ray.statistics(labels).set_index("path")
+    assert list(frame.index[frame["error"].notna()]) == ["00/b.pcd", "01/d.npy", "01/e.pcd.bin", "01/f.v2.bin"]
+
+    (scans / "00" / "b.pcd").write_bytes(good)
+    (labels / "01").unlink()
+    (labels / "a.label").unlink()
+    os.truncate(labels / "00" / "a.label", 400)
+    kept = {path: path.stat().st_ino for path in (labels / "02" / "g.label", labels / "00" / "deep" / "c.label")}
+    assert command.main([str(scans), "--output", str(labels), "--workers", "1"]) == 0
+    assert f"6 of {len(SCANS)} scans labelled" in capsys.readouterr().out
+    assert files(labels) == files(tmp_path / "expected")
+    assert all(path.stat().st_ino == number for path, number in kept.items())
+    assert flagstone.ray.statistics(labels)["error"].isna().all()
+
+
+def test_other_filesystems_get_the_same_bytes_and_a_deadly_scan_costs_itself_alone(scans: Path, tmp_path: Path) -> None:
+    label_with_command(scans, tmp_path / "expected")
+    (scans / "00" / "deadly.bin").write_bytes(b"")
+    (scans / "02" / "torn.bin").write_bytes(b"torn")
+    where = {"source": str(scans), "destination": str(tmp_path / "labels"), "filesystem": DeadlyFiles()}
+    summary = flagstone.ray.segment(**where, workers=1)
+    deadly, torn = summary.failures
+    assert deadly.error.startswith(f"{scans}/00/deadly.bin: 2 workers died while they had it under work")
+    assert torn.error.startswith(f"{scans}/02/torn.bin: byte 0: ")
+    assert files(tmp_path / "labels") == files(tmp_path / "expected")
+    for path in (scans / "00" / "deadly.bin", scans / "02" / "torn.bin"):
+        path.unlink()
+    assert flagstone.ray.segment(**where).finished_before == len(SCANS)

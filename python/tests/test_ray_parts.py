@@ -1,0 +1,317 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""The parts of flagstone.ray that need no Ray started."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import flagstone
+
+pytest.importorskip("ray.data", reason="needs flagstone[ray]")
+pa = pytest.importorskip("pyarrow")
+
+import pyarrow.fs  # noqa: E402
+
+import flagstone.ray  # noqa: E402
+from flagstone.ray import command, plan  # noqa: E402
+from flagstone.ray.job import as_table, in_batches  # noqa: E402
+from flagstone.ray.place import Place, is_object_store, place  # noqa: E402
+from flagstone.ray.progress import progress_text  # noqa: E402
+from flagstone.ray.scan_names import label_bytes, label_name  # noqa: E402
+from flagstone.ray.statistics import StatisticsWriter, read_rows, schema  # noqa: E402
+from flagstone.ray.summary import Failure, Summary  # noqa: E402
+from flagstone.ray.under_work import UnderWork  # noqa: E402
+from flagstone.ray.worker import Task, label_file, one_line  # noqa: E402
+
+HERE = pyarrow.fs.LocalFileSystem()
+
+
+def rows_of(*rows: dict[str, object]) -> pa.Table:
+    return pa.Table.from_pylist([{"error": None, **row} for row in rows], schema=schema())
+
+
+@pytest.mark.parametrize(
+    ("scan", "label"),
+    [
+        ("000000.bin", "000000.label"),
+        ("a/b.v2.pcd", "a/b.v2.label"),
+        ("a.b/c.pcd.bin", "a.b/c.label"),
+        ("C.PCD.BIN", "C.label"),
+    ],
+)
+def test_labels_are_named_after_their_scan(scan: str, label: str) -> None:
+    assert label_name(scan, "label") == label
+    assert label_name(scan, "u8") == label + ".npy"
+
+
+@pytest.mark.parametrize("format", ["label", "u8"])
+@pytest.mark.parametrize("label_map", ["flagstone", "semantic_kitti"])
+@pytest.mark.parametrize("points", [0, 1, 9, 123_456])
+def test_label_files_in_memory_are_those_that_io_writes(
+    tmp_path: Path, format: str, label_map: str, points: int
+) -> None:
+    labels = np.random.default_rng(1).integers(0, 5, points, np.uint8)
+    path = tmp_path / label_name("scan.bin", format)
+    flagstone.io.write_labels(path, labels, label_map=label_map)
+    assert label_file(labels, format, label_map) == path.read_bytes()
+    assert label_bytes(points, format) == path.stat().st_size
+
+
+@pytest.mark.parametrize("method", flagstone.method_names())
+def test_workers_segment_as_the_segmenter_that_was_given(method: str) -> None:
+    given = flagstone.make_segmenter(method, sensor="os0-128", sensor_height=1.5)
+    task = Task(given.method, given.settings, None, Place("/a"), Place("/b"), "label", "flagstone", None)
+    assert task.segmenter().settings == given.settings
+
+
+class TestPlace:
+    def test_of_a_path_is_local_and_absolute(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.chdir(tmp_path)
+        assert (
+            place("scans/")
+            == place(tmp_path / "scans")
+            == place(f"file://{tmp_path}/scans")
+            == Place(str(tmp_path / "scans"))
+        )
+
+    def test_of_an_unknown_url_is_refused_in_one_line(self) -> None:
+        with pytest.raises(ValueError, match=r"^nowhere://a/b: no filesystem for this URL") as caught:
+            place("nowhere://a/b")
+        assert "\n" not in str(caught.value)
+
+    @pytest.mark.parametrize("filesystem", [None, HERE])
+    def test_lists_files_below_it(self, tmp_path: Path, filesystem: pyarrow.fs.FileSystem | None) -> None:
+        (tmp_path / "a" / "b").mkdir(parents=True)
+        (tmp_path / "a" / "b" / "c.bin").write_bytes(bytes(7))
+        (tmp_path / "d.bin").write_bytes(b"")
+        here = Place(str(tmp_path), filesystem)
+        assert sorted(here.files()) == [("a/b/c.bin", 7), ("d.bin", 0)]
+        assert list(here.below("none").files()) == []
+
+    def test_does_not_follow_links_to_folders(self, tmp_path: Path) -> None:
+        (tmp_path / "loop").symlink_to(tmp_path)
+        (tmp_path / "a.bin").write_bytes(b"")
+        (tmp_path / "b.bin").symlink_to(tmp_path / "a.bin")
+        assert sorted(name for name, _ in Place(str(tmp_path)).files()) == ["a.bin", "b.bin"]
+
+    @pytest.mark.parametrize("filesystem", [None, HERE])
+    def test_writes_files_whole(self, tmp_path: Path, filesystem: pyarrow.fs.FileSystem | None) -> None:
+        here = Place(str(tmp_path), filesystem)
+        for data in (b"first", b"second, longer"):
+            here.write("a/b/c.label", data)
+            assert here.read("a/b/c.label") == data
+        assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["c.label"]
+
+    @pytest.mark.parametrize("filesystem", [None, HERE])
+    def test_leaves_nothing_where_a_file_cannot_be_put(
+        self, tmp_path: Path, filesystem: pyarrow.fs.FileSystem | None
+    ) -> None:
+        (tmp_path / "c.label").mkdir()
+        (tmp_path / "c.label" / "full").touch()
+        with pytest.raises(OSError, match=r"c\.label"):
+            Place(str(tmp_path), filesystem).write("c.label", b"data")
+        assert [path.name for path in tmp_path.iterdir()] == ["c.label"]
+
+    def test_knows_object_stores_whose_puts_are_whole(self) -> None:
+        fsspec = pytest.importorskip("fsspec")
+        assert is_object_store(pyarrow.fs.S3FileSystem(anonymous=True, region="eu-west-1"))
+        assert not is_object_store(HERE)
+        local = fsspec.filesystem("file")
+        assert not is_object_store(pyarrow.fs.PyFileSystem(pyarrow.fs.FSSpecHandler(local)))
+        local.protocol = ("gs", "gcs")
+        assert is_object_store(pyarrow.fs.PyFileSystem(pyarrow.fs.FSSpecHandler(local)))
+
+
+class TestUnderWork:
+    def test_knows_what_predecessors_died_of(self, tmp_path: Path) -> None:
+        held = []
+        for _ in range(2):  # two predecessors, each killed in the midst of scan b
+            killed = UnderWork(tmp_path / "notes")
+            with killed.on("a"):
+                pass
+            held.append(killed.on("b\nc"))
+            held[-1].__enter__()
+        successor = UnderWork(tmp_path / "notes")
+        assert [successor.deaths(scan) for scan in ("a", "b\nc", "c")] == [0, 2, 0]
+
+    def test_begins_without_deaths(self, tmp_path: Path) -> None:
+        assert UnderWork(tmp_path / "notes").deaths("a") == 0
+
+
+class TestStatistics:
+    def test_are_read_in_the_order_they_were_written(self, tmp_path: Path) -> None:
+        for error in ("torn", None):
+            writer = StatisticsWriter(Place(str(tmp_path / "flagstone-statistics")), {"version": "1"})
+            writer.add(rows_of({"path": "a.bin", "error": error}))
+            writer.add(rows_of({"path": "b.bin"}))
+            writer.flush()
+            writer.flush()  # has nothing to write
+        frame = flagstone.ray.statistics(tmp_path)
+        assert list(frame["path"]) == ["a.bin", "b.bin"]
+        assert frame["error"].isna().all()  # the last row of each scan
+
+    def test_say_where_there_are_none(self, tmp_path: Path) -> None:
+        with pytest.raises(FileNotFoundError, match="flagstone-statistics: no statistics"):
+            flagstone.ray.statistics(tmp_path)
+
+    def test_say_which_file_is_none_of_theirs(self, tmp_path: Path) -> None:
+        (tmp_path / "x.parquet").write_bytes(b"torn")
+        with pytest.raises(ValueError, match=r"x\.parquet: no statistics of flagstone"):
+            read_rows(Place(str(tmp_path)))
+
+
+class TestFindScans:
+    def test_finds_them_in_folders_sorted(self, tmp_path: Path) -> None:
+        for name in ("b.bin", "a/c.npy", "a/c.label.npy", ".hidden.bin", "note.txt"):
+            (tmp_path / name).parent.mkdir(exist_ok=True)
+            (tmp_path / name).write_bytes(b"123")
+        source, scans = plan.find_scans(Place(str(tmp_path)))
+        assert source == Place(str(tmp_path))
+        assert list(scans.items()) == [("a/c.npy", 3), ("b.bin", 3)]
+
+    def test_takes_a_single_one(self, tmp_path: Path) -> None:
+        (tmp_path / "b.bin").write_bytes(b"123")
+        assert plan.find_scans(Place(str(tmp_path / "b.bin"))) == (Place(str(tmp_path)), {"b.bin": 3})
+
+
+class TestFinishedScans:
+    def finished(self, tmp_path: Path, scans: plan.Scans, **row: object) -> set[str]:
+        writer = StatisticsWriter(Place(str(tmp_path / "flagstone-statistics")), {})
+        writer.add(rows_of({"path": "a.bin", "bytes": 160, "points": 10, **row}))
+        writer.flush()
+        return plan.finished_scans(scans, Place(str(tmp_path)), "label", {})
+
+    def test_have_a_row_and_labels_of_the_right_size(self, tmp_path: Path) -> None:
+        (tmp_path / "a.label").write_bytes(bytes(40))
+        (tmp_path / "b.label").write_bytes(bytes(40))
+        assert self.finished(tmp_path, {"a.bin": 160, "b.bin": 160}) == {"a.bin"}
+
+    @pytest.mark.parametrize("size", [None, 0, 36, 44])
+    def test_are_not_those_whose_labels_are_missing_or_cut(self, tmp_path: Path, size: int | None) -> None:
+        if size is not None:
+            (tmp_path / "a.label").write_bytes(bytes(size))
+        assert self.finished(tmp_path, {"a.bin": 160}) == set()
+
+    def test_are_not_those_that_have_changed(self, tmp_path: Path) -> None:
+        (tmp_path / "a.label").write_bytes(bytes(40))
+        assert self.finished(tmp_path, {"a.bin": 176}) == set()
+
+    def test_are_none_once_the_statistics_are_forgotten(self, tmp_path: Path) -> None:
+        (tmp_path / "a.label").write_bytes(bytes(40))
+        assert self.finished(tmp_path, {"a.bin": 160}) == {"a.bin"}
+        plan.forget(Place(str(tmp_path)))
+        assert plan.finished_scans({"a.bin": 160}, Place(str(tmp_path)), "label", {}) == set()
+        assert (tmp_path / "a.label").exists()
+
+    def test_are_not_those_that_failed(self, tmp_path: Path) -> None:
+        (tmp_path / "a.label").write_bytes(bytes(40))
+        assert self.finished(tmp_path, {"a.bin": 160}, error="torn", points=None) == set()
+
+
+def test_errors_are_one_line_that_names_the_scan_once() -> None:
+    assert one_line(ValueError("/s/a.bin: byte 3: torn"), "/s/a.bin") == "/s/a.bin: byte 3: torn"
+    assert one_line(ValueError("byte 3:\n torn"), "b/a.bin") == "b/a.bin: byte 3: torn"
+    missing = FileNotFoundError(errno.ENOENT, "No such file or directory", "/s/a.bin")
+    assert one_line(missing, "/s/a.bin") == "/s/a.bin: No such file or directory"
+    assert one_line(MemoryError(), "a.bin") == "a.bin: MemoryError"
+
+
+def test_progress_says_how_long_the_rest_takes() -> None:
+    assert progress_text(0, 100, None) == f"[{' ' * 30}] 0 of 100 scans"
+    assert progress_text(50, 100, 1.8) == f"[{'#' * 15}{' ' * 15}] 50 of 100 scans, 1 min 30 s left"
+    assert progress_text(100, 100, 1.8) == f"[{'#' * 30}] 100 of 100 scans"
+
+
+def test_a_summary_lists_what_failed_and_why() -> None:
+    failures = tuple(Failure(f"{i:02}.bin", f"/s/{i:02}.bin: torn") for i in range(25))
+    text = str(Summary(30, 2, 3, failures, 30, 480, 0.5, 2, 3.0, 6.0, 1.5, "/d/flagstone-statistics"))
+    assert text.startswith("3 of 30 scans labelled, 30 points; 2 were finished before\n6.0 scans a second")
+    assert "25 failed:\n  /s/00.bin: torn\n" in text
+    assert "/s/19.bin" in text
+    assert "/s/20.bin" not in text
+    assert "and 5 more, in the statistics" in text
+
+
+class TestUsage:
+    """What is wrong is said in one line before Ray is started."""
+
+    @pytest.fixture
+    def scan(self, tmp_path: Path) -> Path:
+        flagstone.io.write(tmp_path / "a.bin", np.zeros((5, 4), np.float32))
+        return tmp_path
+
+    @pytest.mark.parametrize(
+        ("options", "message"),
+        [
+            (["--format", "pcd"], "format='pcd': allowed are label, u8"),
+            (["--label-map", "x"], "label_map='x': allowed are flagstone, semantic_kitti"),
+            (["--columns", "2"], "columns=2: not a whole number within 3 to 1024"),
+            (["--workers", "0"], "workers=0: not a whole number within 1 to 100000"),
+            (["--method", "magic"], "magic"),
+            (["--set", "point.margin"], "--set point.margin: is not KEY=VALUE"),
+            (["--set", "point.margin=nan"], "point.margin"),
+            (["--tilt", "1,2"], "--tilt 1,2: is not three numbers X,Y,Z"),
+            (["--tilt", "estimate"], "tilt='estimate': workers see scans in any order"),
+        ],
+    )
+    def test_wrong_options_are_refused(
+        self, scan: Path, capsys: pytest.CaptureFixture[str], options: list[str], message: str
+    ) -> None:
+        assert command.main([str(scan), "--output", str(scan / "out"), *options]) == 2
+        error = capsys.readouterr().err
+        assert message in error
+        assert error.count("\n") == 1
+        assert not (scan / "out").exists()
+
+    @pytest.mark.parametrize("word", ["estimate", "track"])
+    def test_heights_to_be_found_out_are_refused(self, scan: Path, word: str) -> None:
+        with pytest.raises(ValueError, match=f"sensor_height='{word}': workers see scans in any order"):
+            flagstone.ray.segment(scan, segmenter=flagstone.Surface(sensor_height=word))  # type: ignore[arg-type]
+
+    def test_a_source_without_scans_is_refused(self, tmp_path: Path) -> None:
+        for source in (tmp_path, tmp_path / "missing"):
+            with pytest.raises(FileNotFoundError, match="no scan in this folder or below it"):
+                flagstone.ray.segment(source, tmp_path / "out")
+
+    def test_scans_that_would_share_labels_are_refused(self, scan: Path) -> None:
+        flagstone.io.write(scan / "a.npy", np.zeros((5, 4), np.float32))
+        with pytest.raises(ValueError, match=r"a\.bin and .*a\.npy would both write to a\.label"):
+            flagstone.ray.segment(scan)
+
+    def test_names_that_are_not_utf8_are_refused(self, scan: Path) -> None:
+        Path(os.fsdecode(bytes(scan) + b"/\xe9.bin")).write_bytes(b"")
+        with pytest.raises(ValueError, match=r"the name '\\udce9\.bin' is not UTF-8; rename it"):
+            flagstone.ray.segment(scan)
+
+    def test_a_destination_of_other_settings_is_refused(self, scan: Path) -> None:
+        settings = json.loads(json.dumps(flagstone.Surface(sensor_height=2.5).settings))
+        made_with = {"version": flagstone.__version__, "method": "surface", "settings": settings}
+        writer = StatisticsWriter(Place(str(scan / "flagstone-statistics")), made_with)
+        writer.add(rows_of({"path": "a.bin"}))
+        writer.flush()
+        with pytest.raises(ValueError, match=r"another settings\.sensor_height, 2\.5 instead of 1\.73"):
+            flagstone.ray.segment(scan)
+
+    def test_a_cluster_that_is_not_there_is_one_line(self, scan: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        assert command.main([str(scan), "--beside", "--address", "127.0.0.1:1"]) == 2
+        error = capsys.readouterr().err
+        assert error.startswith("flagstone-ray: Ray at 127.0.0.1:1: cannot be had: ")
+        assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize(("scans", "workers"), [(1, 8), (17, 2), (2000, 2), (50_000, 3)])
+def test_batches_hold_every_scan_once_and_grow_smaller(scans: int, workers: int) -> None:
+    names = {f"{i}.bin": 16 for i in range(scans)}
+    batches = in_batches(as_table(names), workers)
+    assert [name for batch in batches for name in batch["path"].to_pylist()] == list(names)
+    sizes = [batch.num_rows for batch in batches]
+    assert sizes == sorted(sizes, reverse=True)
+    assert sizes[0] <= 1024
+    assert sizes[-1] <= 16
