@@ -6,7 +6,7 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test test-python wheel docs sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
+.PHONY: help build demo test test-python test-ray wheel docs sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
         edges soak bench-compare surface-study surface-figures worlds-study contact-sheet install clean
 .DEFAULT_GOAL := build
 
@@ -33,6 +33,9 @@ sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 
 sanitize-thread: ## run the tests under ThreadSanitizer
 	@scripts/setup build test && scripts/test sanitize-thread
+
+test-ray: ## a Ray cluster of three nodes, one of them killed: two minutes; of the environment that test-python makes
+	@scripts/setup build python && scripts/test-python -m slow python/tests/test_ray_cluster.py
 
 docs: ## build all documentation as one site, warnings are errors: build/site/index.html
 	@scripts/setup python docs && scripts/docs

@@ -62,23 +62,23 @@ def run(*arguments: str | Path, folder: Path) -> subprocess.CompletedProcess[str
 
 
 def mypy(cache: Path, *arguments: str, folder: Path) -> subprocess.CompletedProcess[str]:
-    return run("mypy", "--strict", "--config-file=", f"--cache-dir={cache}", *arguments, folder=folder)
+    return run("mypy", "--strict", f"--cache-dir={cache}", *arguments, folder=folder)
 
 
 def test_the_package_passes_mypy_strict(tmp_path: Path, cache: Path) -> None:
-    done = mypy(cache, "-p", "flagstone", folder=tmp_path)
+    done = mypy(cache, f"--config-file={REPOSITORY / 'pyproject.toml'}", "-p", "flagstone", folder=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_its_users_pass_mypy_strict(tmp_path: Path, cache: Path) -> None:
     (tmp_path / "user.py").write_text(USER)
-    done = mypy(cache, "user.py", folder=tmp_path)
+    done = mypy(cache, "--config-file=", "user.py", folder=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_mistakes_are_found_before_the_program_runs(tmp_path: Path, cache: Path) -> None:
     (tmp_path / "mistaken.py").write_text(MISTAKEN)
-    found = mypy(cache, "mistaken.py", folder=tmp_path).stdout
+    found = mypy(cache, "--config-file=", "mistaken.py", folder=tmp_path).stdout
     lines = {int(line.split(":")[1]) for line in found.splitlines() if "error:" in line}
     assert lines == {4, 5, 6, 7, 8}, found
 
