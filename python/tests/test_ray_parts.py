@@ -67,7 +67,7 @@ def test_label_files_in_memory_are_those_that_io_writes(
 @pytest.mark.parametrize("method", flagstone.method_names())
 def test_workers_segment_as_the_segmenter_that_was_given(method: str) -> None:
     given = flagstone.make_segmenter(method, sensor="os0-128", sensor_height=1.5)
-    task = Task(given.method, given.settings, None, Place("/a"), Place("/b"), "label", "flagstone", None)
+    task = Task(given.method, given.settings, Place("/a"), Place("/b"), "label", "flagstone", None)
     assert task.segmenter().settings == given.settings
 
 

@@ -84,7 +84,7 @@ def segment(
     check_number("columns", columns, 3, 1024)
     check_number("workers", workers, 1, 100_000)
     segmenter = segmenter if segmenter is not None else flagstone.Surface()
-    tilt = known_tilt(segmenter)
+    check_mount(segmenter)
     needs("ray.data", "ray")
     made_with = json.loads(  # as it is read again
         json.dumps(
@@ -92,7 +92,6 @@ def segment(
                 "version": flagstone.__version__,
                 "method": segmenter.method,
                 "settings": segmenter.settings,
-                "tilt": tilt,
                 "format": format,
                 "label_map": label_map,
                 "columns": columns,
@@ -111,7 +110,7 @@ def segment(
         tally = Tally(len(scans), len(finished), target.at(FOLDER))
         todo = as_table({name: size for name, size in scans.items() if name not in finished})
         if todo.num_rows:
-            task = Task(segmenter.method, segmenter.settings, tilt, folder, target, format, label_map, columns)
+            task = Task(segmenter.method, segmenter.settings, folder, target, format, label_map, columns)
             writer = StatisticsWriter(target.below(FOLDER), made_with)
             bar.note("starting Ray")
             with connected(address):
@@ -203,20 +202,15 @@ def as_table(scans: Scans) -> pyarrow.Table:
     return pa.table({"path": pa.array(scans.keys(), pa.string()), "bytes": pa.array(scans.values(), pa.int64())})
 
 
-def known_tilt(segmenter: flagstone.Segmenter) -> Any:
-    """Where up is, as the segmenter was told.
-
-    Raises:
-        ValueError: The segmenter is to find out from scans how the sensor stands.
-    """
-    made_of = segmenter._made_of
-    for name in ("sensor_height", "tilt"):
-        if made_of[name] in ("estimate", "track"):
+def check_mount(segmenter: flagstone.Segmenter) -> None:
+    """Raises ValueError where the segmenter is to find out from scans how the sensor stands."""
+    mount = segmenter.settings["mount"]
+    for name, setting in (("sensor_height", "height"), ("tilt", "tilt")):
+        if mount[setting] in ("estimate", "track"):
             raise ValueError(
-                f"{name}={made_of[name]!r}: workers see scans in any order, and each would find something "
+                f"{name}={mount[setting]!r}: workers see scans in any order, and each would find something "
                 "else; find it with `flagstone doctor` and name it"
             )
-    return made_of["tilt"]
 
 
 def check_choice(name: str, value: object, allowed: tuple[str, ...]) -> None:

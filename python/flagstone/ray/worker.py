@@ -43,7 +43,6 @@ class Task:
 
     method: str
     settings: dict[str, Any]  # all of them, so that no file of settings is needed on the worker's node
-    tilt: Any
     source: Place
     destination: Place
     format: str  # label, u8
@@ -51,7 +50,7 @@ class Task:
     columns: int | None
 
     def segmenter(self) -> flagstone.Segmenter:
-        return flagstone.make_segmenter(self.method, tilt=self.tilt, **self.settings)
+        return flagstone.make_segmenter(self.method, **self.settings)
 
 
 class ScanWorker:
