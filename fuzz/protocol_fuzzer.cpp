@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(protocol.ground.empty(), "what is refused leaves nothing");
     return 0;
   }
-  fuzz::require(!protocol.ground.empty(), "a protocol has ground");
+  fuzz::require(!protocol.ground.empty() || !protocol.low_ground.empty(), "a protocol has ground");
   fuzz::check_line(protocol.name);
   return 0;
 }

@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
         segmenting("SettingOfSurface", {"--method", "patchwork", "--set", "point.margin=0.1"},
                    {"point is no setting of this method, but of --method surface"}),
         segmenting("SectionAsASetting", {"--set", "point=0.1"},
-                   {"point is no setting; 'flagstone config --method NAME'"}),
+                   {"point is a table of settings, not a floating-point"}),
         segmenting("ConfigOfPatchwork", {"--config", "TOML"},
                    {"/mine.toml: line 1", "seed_count is no setting", "--method patchwork"}),
         segmenting("TintWithoutZones", {"--picture", "--tint-patches"},
