@@ -4,8 +4,8 @@
 # %% [markdown]
 # # Side by side
 #
-# The same scans, segmented by [pypatchworkpp](https://github.com/url-kaist/patchwork-plusplus) (both of its methods), by
-# [Open3D](https://www.open3d.org)'s `segment_plane` and by flagstone (both of its methods): lines of code, time,
+# The same scans, segmented by [pypatchworkpp](https://github.com/url-kaist/patchwork-plusplus) (both of its methods),
+# by [Open3D](https://www.open3d.org)'s `segment_plane` and by flagstone (both of its methods): lines of code, time,
 # accuracy, and what happens to input that is not as it should be. What is not installed is left out and named.
 #
 #     pip install flagstone[pandas,plot] pypatchworkpp open3d
