@@ -51,11 +51,12 @@ def progress_text(done: int, total: int, what: str, seconds: float) -> str:
     filled = _width if total == 0 else _width * done // total
     text = f"[{'#' * filled:<{_width}}] {done:,} of {total:,} {what}"
     if 0 < done < total:
-        text += f", {_duration_text(seconds / done * (total - done))} left"
+        text += f", {duration_text(seconds / done * (total - done))} left"
     return text
 
 
-def _duration_text(seconds: float) -> str:
+def duration_text(seconds: float) -> str:
+    """Seconds as people say them: 5 s, 3 min 04 s, 2 h 10 min."""
     whole = round(seconds)
     if whole < 60:
         return f"{whole} s"

@@ -7,15 +7,7 @@ from __future__ import annotations
 import sys
 import time
 
-
-def duration_text(seconds: float) -> str:
-    """Seconds as people say them: 5 s, 3 min 04 s, 2 h 10 min."""
-    whole = round(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    if whole < 3600:
-        return f"{whole // 60} min {whole % 60:02} s"
-    return f"{whole // 3600} h {whole // 60 % 60:02} min"
+from flagstone._progress import duration_text
 
 
 def progress_text(done: int, total: int, seconds_each: float | None) -> str:
