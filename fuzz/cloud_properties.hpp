@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flagstone/status.hpp"
-#include "io/cloud.hpp"
+#include "files/io/cloud.hpp"
 
 /// What must hold of every reader, whatever the bytes. A broken property aborts, which the fuzzer
 /// takes for a finding.

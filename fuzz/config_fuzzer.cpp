@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "cloud_properties.hpp"
-#include "config/config_toml.hpp"
+#include "app/config/config_toml.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "made_up_cloud.hpp"
 #include "text_properties.hpp"

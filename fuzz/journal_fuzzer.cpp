@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "cloud_properties.hpp"
-#include "eval/journal.hpp"
-#include "io/file_contents.hpp"
+#include "lab/eval/journal.hpp"
+#include "files/io/file_contents.hpp"
 #include "text_properties.hpp"
 
 namespace {

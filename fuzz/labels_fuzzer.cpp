@@ -5,7 +5,7 @@
 
 #include "allocation_meter.hpp"
 #include "cloud_properties.hpp"
-#include "io/label_files.hpp"
+#include "files/io/label_files.hpp"
 
 // The first byte says which layout, the next two how many points the scan has, the rest is the
 // file.

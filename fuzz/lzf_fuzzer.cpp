@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "cloud_properties.hpp"
-#include "io/lzf.hpp"
+#include "files/io/lzf.hpp"
 
 // Any bytes as a LZF stream.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -10,13 +10,13 @@
 #include <string_view>
 #include <vector>
 
-#include "io/atomic_file.hpp"
-#include "io/bytes.hpp"
-#include "io/cloud.hpp"
-#include "io/compress_lzf.hpp"
-#include "io/npy.hpp"
-#include "io/pcd.hpp"
-#include "io/ply.hpp"
+#include "files/io/atomic_file.hpp"
+#include "files/io/bytes.hpp"
+#include "files/io/cloud.hpp"
+#include "files/io/compress_lzf.hpp"
+#include "files/io/npy.hpp"
+#include "files/io/pcd.hpp"
+#include "files/io/ply.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "allocation_meter.hpp"
 #include "cloud_properties.hpp"
-#include "io/npy.hpp"
+#include "files/io/npy.hpp"
 
 // Any bytes as a NumPy file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,7 @@
 
 #include "allocation_meter.hpp"
 #include "cloud_properties.hpp"
-#include "io/pcd.hpp"
+#include "files/io/pcd.hpp"
 
 // Any bytes as a PCD file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,9 +5,9 @@
 
 #include "allocation_meter.hpp"
 #include "cloud_properties.hpp"
-#include "io/npy.hpp"
-#include "io/pcd.hpp"
-#include "io/ply.hpp"
+#include "files/io/npy.hpp"
+#include "files/io/pcd.hpp"
+#include "files/io/ply.hpp"
 
 // Any bytes as a PLY file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,8 +5,8 @@
 
 #include "allocation_meter.hpp"
 #include "cloud_properties.hpp"
-#include "io/pcd.hpp"
-#include "io/raw_points.hpp"
+#include "files/io/pcd.hpp"
+#include "files/io/raw_points.hpp"
 
 // The first two bytes say how many floats a point has, the rest is the file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "cloud_properties.hpp"
-#include "core/simd_target.hpp"
+#include "library/core/simd_target.hpp"
 #include "flagstone/levelled_segmenter.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/mount.hpp"

@@ -9,7 +9,7 @@
 #include "flagstone/patchwork_config.hpp"
 #include "flagstone/sensor.hpp"
 #include "flagstone/surface_config.hpp"
-#include "io/sensor_file.hpp"
+#include "files/io/sensor_file.hpp"
 #include "text_properties.hpp"
 
 // Any text as the file of a sensor: refused in one line, or the methods' settings can be derived

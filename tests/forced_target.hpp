@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "core/simd_target.hpp"
+#include "library/core/simd_target.hpp"
 
 namespace flagstone::tests {
 

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "flagstone/sensor.hpp"
-#include "sim/mounting.hpp"
-#include "sim/noise.hpp"
-#include "sim/scan.hpp"
-#include "sim/street.hpp"
+#include "lab/sim/mounting.hpp"
+#include "lab/sim/noise.hpp"
+#include "lab/sim/scan.hpp"
+#include "lab/sim/street.hpp"
 
 namespace flagstone::performance {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/random.hpp"
+#include "library/core/random.hpp"
 #include "flagstone/cloud_view.hpp"
 
 namespace flagstone::performance {

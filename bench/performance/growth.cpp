@@ -27,11 +27,11 @@
 #include <variant>
 #include <vector>
 
-#include "bench/allocation_count.hpp"
-#include "bench/timed_method.hpp"
+#include "lab/bench/allocation_count.hpp"
+#include "lab/bench/timed_method.hpp"
 #include "clouds.hpp"
-#include "core/simd_target.hpp"
-#include "eval/machine.hpp"
+#include "library/core/simd_target.hpp"
+#include "lab/eval/machine.hpp"
 #include "terminal.hpp"
 #include "timing.hpp"
 

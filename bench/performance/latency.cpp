@@ -23,9 +23,9 @@
 #include <vector>
 
 #include "clouds.hpp"
-#include "core/simd_target.hpp"
-#include "core/stopwatch.hpp"
-#include "eval/machine.hpp"
+#include "library/core/simd_target.hpp"
+#include "library/core/stopwatch.hpp"
+#include "lab/eval/machine.hpp"
 #include "latency_scans.hpp"
 #include "terminal.hpp"
 #include "timing.hpp"

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "flagstone/patchwork_config.hpp"
-#include "io/read_cloud.hpp"
+#include "files/io/read_cloud.hpp"
 #include "sorting_adversary.hpp"
 
 namespace flagstone::performance {

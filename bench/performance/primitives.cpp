@@ -23,24 +23,24 @@
 #include <vector>
 
 #include "clouds.hpp"
-#include "core/plane.hpp"
-#include "core/simd_target.hpp"
-#include "patches/bin_batch.hpp"
-#include "patches/bin_groups.hpp"
-#include "patches/ground_sets.hpp"
-#include "patches/scan_points.hpp"
-#include "patches/seed_heights.hpp"
-#include "patchwork/bin_labels.hpp"
-#include "patchwork/concentric_zones.hpp"
-#include "patchwork/read_scan.hpp"
-#include "surface/grid.hpp"
-#include "surface/square_cells.hpp"
+#include "library/core/plane.hpp"
+#include "library/core/simd_target.hpp"
+#include "library/plane_fits/bin_batch.hpp"
+#include "library/plane_fits/bin_groups.hpp"
+#include "library/plane_fits/ground_sets.hpp"
+#include "library/plane_fits/scan_points.hpp"
+#include "library/plane_fits/seed_heights.hpp"
+#include "library/patchwork/bin_labels.hpp"
+#include "library/patchwork/concentric_zones.hpp"
+#include "library/patchwork/read_scan.hpp"
+#include "library/surface/grid.hpp"
+#include "library/surface/square_cells.hpp"
 #include "surface_steps.hpp"
 
 namespace flagstone::performance {
 namespace {
 
-using namespace flagstone::patches;    // NOLINT(google-build-using-namespace): what is measured
+using namespace flagstone::plane_fits;    // NOLINT(google-build-using-namespace): what is measured
 using namespace flagstone::patchwork;  // NOLINT(google-build-using-namespace): the same
 
 /// A scan after every step, so that each can be done again.

@@ -24,9 +24,9 @@
 #include <utility>
 #include <vector>
 
-#include "sim/drive.hpp"
-#include "sim/scene_kind.hpp"
-#include "sim/step_view.hpp"
+#include "lab/sim/drive.hpp"
+#include "lab/sim/scene_kind.hpp"
+#include "lab/sim/step_view.hpp"
 #include "terminal.hpp"
 
 namespace flagstone::performance {

@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "clouds.hpp"
-#include "eval/machine.hpp"
+#include "lab/eval/machine.hpp"
 
 namespace flagstone::performance {
 namespace {

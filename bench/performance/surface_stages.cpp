@@ -24,19 +24,19 @@
 #include <utility>
 #include <vector>
 
-#include "io/atomic_file.hpp"
-#include "io/npy.hpp"
-#include "patches/bin_groups.hpp"
-#include "patches/scan_points.hpp"
-#include "sim/drive.hpp"
-#include "sim/noise.hpp"
-#include "sim/scene_kind.hpp"
-#include "sim/step_view.hpp"
-#include "surface/cell_observations.hpp"
-#include "surface/grid.hpp"
-#include "surface/grid_steps.hpp"
-#include "surface/read_scan.hpp"
-#include "surface/square_cells.hpp"
+#include "files/io/atomic_file.hpp"
+#include "files/io/npy.hpp"
+#include "library/plane_fits/bin_groups.hpp"
+#include "library/plane_fits/scan_points.hpp"
+#include "lab/sim/drive.hpp"
+#include "lab/sim/noise.hpp"
+#include "lab/sim/scene_kind.hpp"
+#include "lab/sim/step_view.hpp"
+#include "library/surface/cell_observations.hpp"
+#include "library/surface/grid.hpp"
+#include "library/surface/grid_steps.hpp"
+#include "library/surface/read_scan.hpp"
+#include "library/surface/square_cells.hpp"
 
 namespace flagstone::performance {
 namespace {
@@ -71,7 +71,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// A grid that owns what it holds, as src/surface takes it.
+/// A grid that owns what it holds, as src/library/surface takes it.
 struct OwnGrid {
   explicit OwnGrid(float cell, std::size_t width)
       : heights(width * width),
@@ -137,25 +137,25 @@ Json patches_json(const Segmentation& result, const SurfaceConfig& config) {
 class SortedPoints {
  public:
   SortedPoints(const sim::SimulatedScan& scan, const SurfaceConfig& config)
-      : cells_(config), groups_(patches::Listing::points) {
+      : cells_(config), groups_(plane_fits::Listing::points) {
     const CloudView cloud(scan.xyzi.data(), scan.size(), 4);
-    patches::ScanPoints points;
+    plane_fits::ScanPoints points;
     points.reserve(cloud.size());
     groups_.reserve(cloud.size(), cells_.group_count());
-    for (std::size_t i = 0; i < patches::ScanPoints::chunk_count(cloud.size()); ++i) {
+    for (std::size_t i = 0; i < plane_fits::ScanPoints::chunk_count(cloud.size()); ++i) {
       surface::read_chunk(cloud, i, cells_, points);
     }
     groups_.group(points, cloud.size(), cells_.group_count());
   }
 
-  [[nodiscard]] std::span<const patches::MovedPoint> all() const {
+  [[nodiscard]] std::span<const plane_fits::MovedPoint> all() const {
     return groups_.points(0, cells_.cell_count());
   }
 
   /// The cells of a grid that hold three points or more.
   [[nodiscard]] std::vector<OccupiedCell> cells_of(const surface::Grid& grid) const {
     std::vector<OccupiedCell> found;
-    const std::span<const patches::MovedPoint> points = all();
+    const std::span<const plane_fits::MovedPoint> points = all();
     for (std::uint32_t begin = 0; begin < points.size();) {
       const OccupiedCell cell = cell_around(points[begin], grid);
       std::uint32_t end = begin + 1;
@@ -171,7 +171,7 @@ class SortedPoints {
 
  private:
   /// Its place; row and column are too large outside of the grid.
-  static OccupiedCell cell_around(const patches::MovedPoint& point, const surface::Grid& grid) {
+  static OccupiedCell cell_around(const plane_fits::MovedPoint& point, const surface::Grid& grid) {
     const auto outside = static_cast<std::uint32_t>(grid.width);
     const bool inside = std::max(std::abs(point.x), std::abs(point.y)) < grid.extent();
     const auto index = [&](float metres) {
@@ -179,14 +179,14 @@ class SortedPoints {
     };
     return {.first = 0, .count = 0, .row = index(point.y), .column = index(point.x)};
   }
-  static bool is_in(const patches::MovedPoint& point, const OccupiedCell& cell,
+  static bool is_in(const plane_fits::MovedPoint& point, const OccupiedCell& cell,
                     const surface::Grid& grid) {
     const OccupiedCell its = cell_around(point, grid);
     return its.row == cell.row && its.column == cell.column;
   }
 
   surface::SquareCells cells_;
-  patches::BinGroups groups_;
+  plane_fits::BinGroups groups_;
 };
 
 /// The surface that a level starts from: what the levels before it made, on its own grid.

@@ -8,12 +8,12 @@
 #include <span>
 #include <utility>
 
-#include "core/plane.hpp"
-#include "surface/read_scan.hpp"
+#include "library/core/plane.hpp"
+#include "library/surface/read_scan.hpp"
 
 namespace flagstone::performance {
 
-using patches::ScanPoints;
+using plane_fits::ScanPoints;
 
 namespace {
 
@@ -78,7 +78,7 @@ void SurfaceSteps::find_occupied(std::size_t level) {
   const auto along = static_cast<std::uint32_t>(std::lround(surface::block_size / grid.cell));
   const auto blocks = static_cast<int>(grid.width / along);  // along a side
   const int edge = cells_.half_blocks() - blocks / 2;
-  const patches::MovedPoint* const all = groups_.points(0, 0).data();
+  const plane_fits::MovedPoint* const all = groups_.points(0, 0).data();
   for (int row = 0; row < blocks; ++row) {
     for (int column = 0; column < blocks; ++column) {
       const surface::CellRange block = cells_.block(edge + column, edge + row);

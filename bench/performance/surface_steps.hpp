@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "clouds.hpp"
-#include "core/crew.hpp"
+#include "library/core/crew.hpp"
 #include "flagstone/cloud_view.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/surface_config.hpp"
-#include "patches/bin_batch.hpp"
-#include "patches/bin_groups.hpp"
-#include "patches/scan_points.hpp"
-#include "surface/cell_observations.hpp"
-#include "surface/grid.hpp"
-#include "surface/point_heights.hpp"
-#include "surface/pull_push.hpp"
-#include "surface/residual_pyramid.hpp"
-#include "surface/square_cells.hpp"
-#include "surface/square_patches.hpp"
+#include "library/plane_fits/bin_batch.hpp"
+#include "library/plane_fits/bin_groups.hpp"
+#include "library/plane_fits/scan_points.hpp"
+#include "library/surface/cell_observations.hpp"
+#include "library/surface/grid.hpp"
+#include "library/surface/point_heights.hpp"
+#include "library/surface/pull_push.hpp"
+#include "library/surface/residual_pyramid.hpp"
+#include "library/surface/square_cells.hpp"
+#include "library/surface/square_patches.hpp"
 
 namespace flagstone::performance {
 
@@ -70,9 +70,9 @@ class SurfaceSteps {
   surface::PullPush pull_push_;
   surface::PointHeights point_heights_;
   Crew crew_{1};
-  patches::ScanPoints scan_;
-  patches::BinGroups groups_{patches::Listing::points};
-  patches::BinBatch batch_;
+  plane_fits::ScanPoints scan_;
+  plane_fits::BinGroups groups_{plane_fits::Listing::points};
+  plane_fits::BinBatch batch_;
   std::size_t sampled_points_ = 0;
   std::array<std::vector<surface::OccupiedCell>, surface::level_count> occupied_;
   std::vector<float> corrections_, weights_;             ///< of the level observed last

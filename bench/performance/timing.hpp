@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/stopwatch.hpp"
+#include "library/core/stopwatch.hpp"
 
 namespace flagstone::performance {
 

@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "io/cloud.hpp"
-#include "io/label_files.hpp"
-#include "io/read_cloud.hpp"
-#include "io/write_cloud.hpp"
+#include "files/io/cloud.hpp"
+#include "files/io/label_files.hpp"
+#include "files/io/read_cloud.hpp"
+#include "files/io/write_cloud.hpp"
 
 namespace nb = nanobind;
 

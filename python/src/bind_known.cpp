@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "baselines/settings.hpp"
+#include "lab/baselines/settings.hpp"
 #include "bindings.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/make_segmenter.hpp"

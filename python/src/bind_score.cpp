@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "eval/confusion.hpp"
-#include "eval/protocol.hpp"
+#include "lab/eval/confusion.hpp"
+#include "lab/eval/protocol.hpp"
 #include "points.hpp"
 
 namespace nb = nanobind;

@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "baselines/settings.hpp"
+#include "lab/baselines/settings.hpp"
 #include "bindings.hpp"
 #include "flagstone/levelled_segmenter.hpp"
 #include "method.hpp"
-#include "mount/mount_settings.hpp"
+#include "library/mount/mount_settings.hpp"
 #include "points.hpp"
 #include "result.hpp"
 

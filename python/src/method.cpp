@@ -7,13 +7,13 @@
 #include <optional>
 #include <stdexcept>
 
-#include "baselines/settings.hpp"
-#include "config/config_file.hpp"
-#include "config/config_toml.hpp"
-#include "config/sensor_settings.hpp"
+#include "lab/baselines/settings.hpp"
+#include "app/config/config_file.hpp"
+#include "app/config/config_toml.hpp"
+#include "app/config/sensor_settings.hpp"
 #include "flagstone/patchwork.hpp"
 #include "flagstone/surface_segmenter.hpp"
-#include "io/sensor_file.hpp"
+#include "files/io/sensor_file.hpp"
 
 namespace flagstone::python {
 namespace {

@@ -17,18 +17,18 @@
 #include <variant>
 #include <vector>
 
-#include "bench/benchmark.hpp"
-#include "bench/results_json.hpp"
-#include "bench/results_text.hpp"
-#include "bench/timed_method.hpp"
+#include "lab/bench/benchmark.hpp"
+#include "lab/bench/results_json.hpp"
+#include "lab/bench/results_text.hpp"
+#include "lab/bench/timed_method.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/method_options.hpp"
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
 #include "cli/scan_inputs.hpp"
-#include "core/simd_target.hpp"
-#include "io/message.hpp"
-#include "io/read_cloud.hpp"
+#include "library/core/simd_target.hpp"
+#include "files/io/message.hpp"
+#include "files/io/read_cloud.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "cli/method_options.hpp"
 #include "cli/sensors_command.hpp"
-#include "config/config_toml.hpp"
+#include "app/config/config_toml.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -18,18 +18,18 @@
 #include <thread>
 #include <vector>
 
-#include "core/stopwatch.hpp"
-#include "eval/confusion.hpp"
-#include "eval/height_score.hpp"
-#include "eval/protocol.hpp"
+#include "library/core/stopwatch.hpp"
+#include "lab/eval/confusion.hpp"
+#include "lab/eval/height_score.hpp"
+#include "lab/eval/protocol.hpp"
 #include "flagstone/surface_segmenter.hpp"
-#include "io/cloud.hpp"
-#include "io/label_files.hpp"
-#include "io/write_cloud.hpp"
-#include "render/birds_eye.hpp"
-#include "render/can_draw.hpp"
-#include "render/surface_picture.hpp"
-#include "sim/simulate_street.hpp"
+#include "files/io/cloud.hpp"
+#include "files/io/label_files.hpp"
+#include "files/io/write_cloud.hpp"
+#include "files/render/birds_eye.hpp"
+#include "files/render/can_draw.hpp"
+#include "files/render/surface_picture.hpp"
+#include "lab/sim/simulate_street.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;

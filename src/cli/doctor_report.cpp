@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "doctor/advice.hpp"
-#include "io/message.hpp"
+#include "app/doctor/advice.hpp"
+#include "files/io/message.hpp"
 
 namespace flagstone::cli {
 namespace {

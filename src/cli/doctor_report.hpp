@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "doctor/diagnosis.hpp"
+#include "app/doctor/diagnosis.hpp"
 
 namespace flagstone::cli {
 

@@ -24,12 +24,12 @@
 #include "cli/print_error.hpp"
 #include "cli/result_files.hpp"
 #include "cli/scan_pictures.hpp"
-#include "eval/machine.hpp"
-#include "eval/results_csv.hpp"
-#include "eval/results_json.hpp"
-#include "eval/results_text.hpp"
-#include "io/message.hpp"
-#include "render/can_draw.hpp"
+#include "lab/eval/machine.hpp"
+#include "lab/eval/results_csv.hpp"
+#include "lab/eval/results_json.hpp"
+#include "lab/eval/results_text.hpp"
+#include "files/io/message.hpp"
+#include "files/render/can_draw.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -15,9 +15,9 @@
 
 #include "cli/method_options.hpp"
 #include "cli/sensor_option.hpp"
-#include "config/config_file.hpp"
-#include "config/config_toml.hpp"
-#include "config/sensor_settings.hpp"
+#include "app/config/config_file.hpp"
+#include "app/config/config_toml.hpp"
+#include "app/config/sensor_settings.hpp"
 
 namespace flagstone::cli {
 namespace {

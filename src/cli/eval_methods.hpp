@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/mount_options.hpp"
-#include "eval/method.hpp"
+#include "lab/eval/method.hpp"
 #include "flagstone/sensor.hpp"
 
 namespace flagstone::cli {

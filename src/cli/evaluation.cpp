@@ -20,12 +20,12 @@
 #include "cli/interrupt.hpp"
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
-#include "config/config_toml.hpp"
-#include "eval/journal.hpp"
-#include "eval/protocol_file.hpp"
-#include "eval/scan_evaluator.hpp"
+#include "app/config/config_toml.hpp"
+#include "lab/eval/journal.hpp"
+#include "lab/eval/protocol_file.hpp"
+#include "lab/eval/scan_evaluator.hpp"
 #include "flagstone/version.hpp"
-#include "io/message.hpp"
+#include "files/io/message.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;

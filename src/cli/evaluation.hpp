@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "eval/dataset.hpp"
-#include "eval/method.hpp"
-#include "eval/protocol.hpp"
-#include "eval/results.hpp"
-#include "io/read_cloud.hpp"
+#include "lab/eval/dataset.hpp"
+#include "lab/eval/method.hpp"
+#include "lab/eval/protocol.hpp"
+#include "lab/eval/results.hpp"
+#include "files/io/read_cloud.hpp"
 
 namespace flagstone::cli {
 

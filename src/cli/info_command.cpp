@@ -19,8 +19,8 @@
 
 #include "cli/histogram.hpp"
 #include "cli/print_error.hpp"
-#include "io/cloud.hpp"
-#include "io/read_cloud.hpp"
+#include "files/io/cloud.hpp"
+#include "files/io/read_cloud.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "cli/sensor_option.hpp"
-#include "config/config_file.hpp"
-#include "config/config_toml.hpp"
-#include "config/sensor_settings.hpp"
+#include "app/config/config_file.hpp"
+#include "app/config/config_toml.hpp"
+#include "app/config/sensor_settings.hpp"
 
 namespace flagstone::cli {
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "cli/interrupt.hpp"
-#include "io/cloud.hpp"
-#include "io/message.hpp"
+#include "files/io/cloud.hpp"
+#include "files/io/message.hpp"
 
 namespace flagstone::cli {
 

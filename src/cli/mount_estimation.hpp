@@ -10,7 +10,7 @@
 
 #include "cli/scan_inputs.hpp"
 #include "flagstone/mount.hpp"
-#include "io/read_cloud.hpp"
+#include "files/io/read_cloud.hpp"
 
 namespace flagstone::cli {
 

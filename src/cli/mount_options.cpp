@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "baselines/settings.hpp"
-#include "config/config_toml.hpp"
+#include "lab/baselines/settings.hpp"
+#include "app/config/config_toml.hpp"
 
 namespace flagstone::cli {
 namespace {

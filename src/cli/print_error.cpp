@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-#include "io/message.hpp"
+#include "files/io/message.hpp"
 
 namespace flagstone::cli {
 

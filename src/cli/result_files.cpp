@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "io/atomic_file.hpp"
-#include "io/message.hpp"
+#include "files/io/atomic_file.hpp"
+#include "files/io/message.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;

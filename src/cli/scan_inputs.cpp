@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "io/file_name.hpp"
-#include "io/read_cloud.hpp"
+#include "files/io/file_name.hpp"
+#include "files/io/read_cloud.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;

@@ -11,14 +11,14 @@
 #include <system_error>
 #include <vector>
 
-#include "core/stopwatch.hpp"
-#include "eval/protocol.hpp"
-#include "io/load_bytes.hpp"
-#include "io/npy.hpp"
-#include "io/write_cloud.hpp"
-#include "render/birds_eye.hpp"
-#include "render/can_draw.hpp"
-#include "render/surface_picture.hpp"
+#include "library/core/stopwatch.hpp"
+#include "lab/eval/protocol.hpp"
+#include "files/io/load_bytes.hpp"
+#include "files/io/npy.hpp"
+#include "files/io/write_cloud.hpp"
+#include "files/render/birds_eye.hpp"
+#include "files/render/can_draw.hpp"
+#include "files/render/surface_picture.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;

@@ -10,11 +10,11 @@
 #include "cli/scan_inputs.hpp"
 #include "cli/scan_report.hpp"
 #include "cli/surface_files.hpp"
-#include "core/truth.hpp"
-#include "eval/method_runner.hpp"
-#include "io/cloud_reader.hpp"
-#include "io/label_files.hpp"
-#include "io/read_cloud.hpp"
+#include "library/core/truth.hpp"
+#include "lab/eval/method_runner.hpp"
+#include "files/io/cloud_reader.hpp"
+#include "files/io/label_files.hpp"
+#include "files/io/read_cloud.hpp"
 
 namespace flagstone::cli {
 

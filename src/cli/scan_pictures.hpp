@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/evaluation.hpp"
-#include "report/eval_report.hpp"
+#include "lab/report/eval_report.hpp"
 
 namespace flagstone::cli {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/confusion.hpp"
+#include "lab/eval/confusion.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/mount.hpp"
 

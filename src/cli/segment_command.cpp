@@ -29,9 +29,9 @@
 #include "cli/progress.hpp"
 #include "cli/scan_job.hpp"
 #include "cli/throughput.hpp"
-#include "core/stopwatch.hpp"
+#include "library/core/stopwatch.hpp"
 #include "flagstone/surface_config.hpp"
-#include "render/can_draw.hpp"
+#include "files/render/can_draw.hpp"
 
 namespace flagstone::cli {
 namespace {

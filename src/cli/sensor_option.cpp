@@ -7,9 +7,9 @@
 #include <CLI/Option.hpp>
 #include <stdexcept>
 
-#include "config/config_file.hpp"
-#include "config/config_toml.hpp"
-#include "io/sensor_file.hpp"
+#include "app/config/config_file.hpp"
+#include "app/config/config_toml.hpp"
+#include "files/io/sensor_file.hpp"
 
 namespace flagstone::cli {
 CLI::Option* add_sensor_option(CLI::App& command, std::string& sensor) {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cli/print_error.hpp"
-#include "io/sensor_file.hpp"
+#include "files/io/sensor_file.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -31,13 +31,13 @@
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
 #include "cli/simulated_sequence.hpp"
-#include "core/stopwatch.hpp"
+#include "library/core/stopwatch.hpp"
 #include "flagstone/sensor.hpp"
-#include "io/sensor_file.hpp"
-#include "sim/conditions.hpp"
-#include "sim/drive.hpp"
-#include "sim/noise.hpp"
-#include "sim/scene_kind.hpp"
+#include "files/io/sensor_file.hpp"
+#include "lab/sim/conditions.hpp"
+#include "lab/sim/drive.hpp"
+#include "lab/sim/noise.hpp"
+#include "lab/sim/scene_kind.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -14,17 +14,17 @@
 
 #include "cli/result_files.hpp"
 #include "flagstone/version.hpp"
-#include "io/atomic_file.hpp"
-#include "io/cloud.hpp"
-#include "io/height_files.hpp"
-#include "io/label_files.hpp"
-#include "io/load_bytes.hpp"
-#include "io/npy.hpp"
-#include "io/npy_header.hpp"
-#include "io/write_cloud.hpp"
-#include "sim/drive.hpp"
-#include "sim/echo.hpp"
-#include "sim/semantic_class.hpp"
+#include "files/io/atomic_file.hpp"
+#include "files/io/cloud.hpp"
+#include "files/io/height_files.hpp"
+#include "files/io/label_files.hpp"
+#include "files/io/load_bytes.hpp"
+#include "files/io/npy.hpp"
+#include "files/io/npy_header.hpp"
+#include "files/io/write_cloud.hpp"
+#include "lab/sim/drive.hpp"
+#include "lab/sim/echo.hpp"
+#include "lab/sim/semantic_class.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;

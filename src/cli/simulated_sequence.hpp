@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "flagstone/sensor.hpp"
-#include "sim/frame.hpp"
-#include "sim/mounting.hpp"
-#include "sim/scan.hpp"
+#include "lab/sim/frame.hpp"
+#include "lab/sim/mounting.hpp"
+#include "lab/sim/scan.hpp"
 
 namespace flagstone::cli {
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "io/atomic_file.hpp"
-#include "io/npy.hpp"
+#include "files/io/atomic_file.hpp"
+#include "files/io/npy.hpp"
 
 namespace flagstone::cli {
 namespace {

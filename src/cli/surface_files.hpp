@@ -8,7 +8,7 @@
 
 #include "flagstone/status.hpp"
 #include "flagstone/surface.hpp"
-#include "render/height_map.hpp"
+#include "files/render/height_map.hpp"
 
 namespace flagstone::cli {
 

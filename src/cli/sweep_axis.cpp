@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "config/config_toml.hpp"
-#include "io/message.hpp"
+#include "app/config/config_toml.hpp"
+#include "files/io/message.hpp"
 
 namespace flagstone::cli {
 namespace {

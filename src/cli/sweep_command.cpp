@@ -15,12 +15,12 @@
 #include <utility>
 #include <vector>
 
-#include "baselines/settings.hpp"
+#include "lab/baselines/settings.hpp"
 #include "cli/evaluation.hpp"
 #include "cli/method_options.hpp"
 #include "cli/result_files.hpp"
 #include "cli/sweep_results.hpp"
-#include "report/sweep_report.hpp"
+#include "lab/report/sweep_report.hpp"
 
 namespace flagstone::cli {
 namespace {

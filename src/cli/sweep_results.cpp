@@ -13,8 +13,8 @@
 #include <optional>
 #include <utility>
 
-#include "eval/results_csv.hpp"
-#include "eval/results_json.hpp"
+#include "lab/eval/results_csv.hpp"
+#include "lab/eval/results_json.hpp"
 
 namespace flagstone::cli {
 namespace {

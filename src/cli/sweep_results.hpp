@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/sweep_axis.hpp"
-#include "eval/results.hpp"
+#include "lab/eval/results.hpp"
 
 namespace flagstone::cli {
 

@@ -13,7 +13,7 @@
 #include <system_error>
 #include <thread>
 
-#include "io/file_contents.hpp"
+#include "files/io/file_contents.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/temporary_folder.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 

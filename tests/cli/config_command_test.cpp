@@ -8,10 +8,10 @@
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
-#include "config/config_toml.hpp"
-#include "config/same_config.hpp"
-#include "io/file_contents.hpp"
-#include "io/temporary_folder.hpp"
+#include "app/config/config_toml.hpp"
+#include "app/config/same_config.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "baselines/settings.hpp"
+#include "lab/baselines/settings.hpp"
 #include "cli/method_options.hpp"
-#include "config/config_toml.hpp"
-#include "doctor/advice.hpp"
-#include "doctor/examination.hpp"
-#include "doctor/faults.hpp"
-#include "doctor/street_scan.hpp"
-#include "eval/confusion.hpp"
+#include "app/config/config_toml.hpp"
+#include "app/doctor/advice.hpp"
+#include "app/doctor/examination.hpp"
+#include "app/doctor/faults.hpp"
+#include "app/doctor/street_scan.hpp"
+#include "lab/eval/confusion.hpp"
 #include "flagstone/levelled_segmenter.hpp"
 #include "flagstone/make_segmenter.hpp"
-#include "io/file_contents.hpp"
-#include "io/temporary_folder.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -24,10 +24,10 @@
 #include "cli/labelled_scans.hpp"
 #include "cli/line_matchers.hpp"
 #include "flagstone/surface_segmenter.hpp"
-#include "io/file_contents.hpp"
-#include "io/label_files.hpp"
-#include "io/npy.hpp"
-#include "io/temporary_folder.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/label_files.hpp"
+#include "files/io/npy.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 namespace {

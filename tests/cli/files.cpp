@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "flagstone/surface_segmenter.hpp"
-#include "io/file_contents.hpp"
-#include "io/read_cloud.hpp"
-#include "io/write_cloud.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/read_cloud.hpp"
+#include "files/io/write_cloud.hpp"
 #include "made_up_cloud.hpp"
 
 namespace flagstone::cli {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "flagstone/label.hpp"
-#include "io/cloud.hpp"
+#include "files/io/cloud.hpp"
 
 namespace flagstone::cli {
 

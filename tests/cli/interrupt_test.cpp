@@ -10,7 +10,7 @@
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
-#include "io/temporary_folder.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 namespace {

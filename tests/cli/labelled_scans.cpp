@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "cli/files.hpp"
-#include "io/file_contents.hpp"
-#include "io/label_files.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/label_files.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/cloud.hpp"
+#include "files/io/cloud.hpp"
 
 namespace flagstone::cli {
 

@@ -17,8 +17,8 @@
 #include "cli/files.hpp"
 #include "cli/labelled_scans.hpp"
 #include "cli/line_matchers.hpp"
-#include "io/file_contents.hpp"
-#include "io/temporary_folder.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 namespace {

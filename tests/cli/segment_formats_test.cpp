@@ -12,9 +12,9 @@
 
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
-#include "io/file_contents.hpp"
-#include "io/label_files.hpp"
-#include "io/temporary_folder.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/label_files.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 namespace {

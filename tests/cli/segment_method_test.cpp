@@ -15,8 +15,8 @@
 #include "cli/line_matchers.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/segmentation.hpp"
-#include "io/file_contents.hpp"
-#include "io/temporary_folder.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -15,10 +15,10 @@
 #include "cli/line_matchers.hpp"
 #include "flagstone/segmentation.hpp"
 #include "flagstone/surface_segmenter.hpp"
-#include "io/file_contents.hpp"
-#include "io/float_array.hpp"
-#include "io/temporary_folder.hpp"
-#include "render/height_map.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/float_array.hpp"
+#include "files/io/temporary_folder.hpp"
+#include "files/render/height_map.hpp"
 
 namespace flagstone::cli {
 namespace {

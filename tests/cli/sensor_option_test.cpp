@@ -8,16 +8,16 @@
 #include <variant>
 #include <vector>
 
-#include "baselines/settings.hpp"
+#include "lab/baselines/settings.hpp"
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
-#include "config/config_toml.hpp"
-#include "config/same_config.hpp"
+#include "app/config/config_toml.hpp"
+#include "app/config/same_config.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/mount.hpp"
 #include "flagstone/sensor.hpp"
-#include "io/file_contents.hpp"
-#include "io/temporary_folder.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -18,11 +18,11 @@
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
-#include "io/file_contents.hpp"
-#include "io/height_files.hpp"
-#include "io/label_files.hpp"
-#include "io/status_matchers.hpp"
-#include "io/temporary_folder.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/height_files.hpp"
+#include "files/io/label_files.hpp"
+#include "files/io/status_matchers.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 namespace {

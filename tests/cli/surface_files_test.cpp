@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/files.hpp"
-#include "io/file_contents.hpp"
-#include "io/float_array.hpp"
-#include "io/temporary_folder.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/float_array.hpp"
+#include "files/io/temporary_folder.hpp"
 #include "made_up_surface.hpp"
 
 namespace flagstone::cli {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "config/same_config.hpp"
+#include "app/config/same_config.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -14,8 +14,8 @@
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
-#include "io/file_contents.hpp"
-#include "io/temporary_folder.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/temporary_folder.hpp"
 
 namespace flagstone::cli {
 namespace {

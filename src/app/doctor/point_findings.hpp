@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "app/doctor/diagnosis.hpp"
+
+namespace flagstone::doctor {
+
+/// Adds what the points themselves say: points, zero_returns, not_finite, repeated_points and, if
+/// there are enough of them, coordinates and one_place.
+void add_point_findings(const Summary& summary, std::vector<Finding>& findings);
+
+}  // namespace flagstone::doctor

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "app/doctor/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "app/doctor/percentile.hpp"
+
+namespace flagstone::doctor {
+namespace {
+
+using Scans = std::vector<const Examination*>;
+
+template <class Value>
+double median(const Scans& scans, Value value) {
+  std::vector<double> values;
+  for (const Examination* scan : scans) values.push_back(static_cast<double>(value(*scan)));
+  return percentile(values, 50);
+}
+
+template <class Holds>
+bool most(const Scans& scans, Holds holds) {
+  const auto count = std::ranges::count_if(scans, [&](const auto* scan) { return holds(*scan); });
+  return 2 * static_cast<std::size_t>(count) > scans.size();
+}
+
+/// The value that most scans have.
+template <class Value>
+auto commonest(const Scans& scans, Value value) {
+  const auto votes = [&](const Examination* of) {
+    return std::ranges::count_if(
+        scans, [&](const Examination* scan) { return value(*scan) == value(*of); });
+  };
+  return value(**std::ranges::max_element(scans, {}, votes));
+}
+
+Scans enough_points(std::span<const Examination> all) {
+  Scans scans;
+  for (const Examination& scan : all) {
+    if (scan.has_enough_points()) scans.push_back(&scan);
+  }
+  return scans;
+}
+
+void count_points(std::span<const Examination> scans, Summary& summary) {
+  std::vector<double> points;
+  std::vector<double> usable;
+  double all = 0;
+  double all_usable = 0;
+  for (const Examination& scan : scans) {
+    points.push_back(static_cast<double>(scan.points));
+    usable.push_back(static_cast<double>(scan.usable()));
+    all += points.back();
+    all_usable += usable.back();
+    summary.zero += static_cast<double>(scan.zero);
+    summary.not_finite += static_cast<double>(scan.not_finite);
+    summary.repeated += static_cast<double>(scan.repeated);
+  }
+  summary.points = percentile(points, 50);
+  summary.usable = percentile(usable, 50);
+  summary.zero /= std::max(all, 1.0);
+  summary.not_finite /= std::max(all, 1.0);
+  summary.repeated /= std::max(all_usable, 1.0);
+}
+
+/// Of the scans that see ground and agree on the axis that is up.
+CommonStance common_stance(Scans& scans) {
+  CommonStance common;
+  common.axis = commonest(scans, [](const Examination& scan) { return scan.stance.axis; });
+  std::erase_if(scans, [&](const auto* scan) { return scan->stance.axis != common.axis; });
+  common.scans = scans.size();
+  Vector3f up{};
+  for (const Examination* scan : scans) {
+    for (std::size_t i = 0; i < 3; ++i) up[i] += scan->stance.decision.mount.up[i];
+  }
+  common.up = mount::unit(up);
+  const double cosine = std::clamp(double{mount::dot(common.up, common.axis)}, -1.0, 1.0);
+  common.tilt = std::acos(cosine) * 180 / std::numbers::pi;
+  const auto ground = [&](const Examination& scan) {
+    return double{common.is_tilted() ? scan.stance.ground_of_tilt() : scan.stance.ground_of_axis()};
+  };
+  common.ground = median(scans, ground);
+  const auto [low, high] = std::ranges::minmax_element(
+      scans, {}, [&](const Examination* scan) { return ground(*scan); });
+  common.lowest_ground = ground(**low);
+  common.highest_ground = ground(**high);
+  return common;
+}
+
+void look_at_stances(Scans scans, Summary& summary) {
+  summary.refusal = scans.front()->stance.decision;
+  std::erase_if(scans, [](const auto* scan) { return !scan->stance.is_found(); });
+  if (scans.empty()) return;
+  summary.stance = common_stance(scans);
+  const bool is_elsewhere = most(scans, [](const Examination& scan) {
+    return scan.origin.has_value() && scan.origin->is_elsewhere();
+  });
+  if (is_elsewhere) {
+    summary.beam_origin = median(
+        scans, [](const Examination& scan) { return scan.origin ? scan.origin->height : 0; });
+  }
+  summary.vehicle.share = median(scans, [](const Examination& s) { return s.vehicle.share; });
+  summary.vehicle.roof = median(scans, [](const Examination& s) { return s.vehicle.roof; });
+}
+
+void look_at_view(const Scans& scans, Summary& summary) {
+  using Scan = const Examination&;
+  summary.rings = commonest(scans, [](Scan scan) { return scan.rings; });
+  summary.view.beams = commonest(scans, [](Scan scan) { return scan.view.beams; });
+  summary.view.top = median(scans, [](Scan scan) { return scan.view.top; });
+  summary.view.bottom = median(scans, [](Scan scan) { return scan.view.bottom; });
+  summary.view.azimuth_begin = median(scans, [](Scan scan) { return scan.view.azimuth_begin; });
+  summary.view.azimuth_width = median(scans, [](Scan scan) { return scan.view.azimuth_width; });
+}
+
+}  // namespace
+
+Summary summarise(std::span<const Examination> all) {
+  Summary summary{.scans = all.size()};
+  count_points(all, summary);
+  const Scans scans = enough_points(all);
+  summary.has_enough_points = 2 * scans.size() > all.size();
+  if (!summary.has_enough_points) return summary;
+
+  using Scan = const Examination&;
+  summary.metres = commonest(scans, [](Scan scan) { return scan.extent.metres; });
+  summary.middle = scans.front()->extent.middle;
+  summary.is_far_away = most(scans, [](Scan scan) { return scan.extent.is_far_away(); });
+  summary.is_from_many_places =
+      most(scans, [](Scan scan) { return scan.thinning.is_from_many_places(); });
+  summary.reach = summary.metres * median(scans, [](Scan scan) { return scan.extent.reach; });
+  summary.farthest = summary.metres * median(scans, [](Scan s) { return s.extent.farthest; });
+  if (!summary.is_scan()) return summary;
+  look_at_stances(scans, summary);
+  look_at_view(scans, summary);
+  summary.growth = median(scans, [](Scan scan) { return scan.thinning.growth; });
+  summary.is_voxel_averaged = Thinning{.growth = summary.growth}.is_voxel_averaged();
+  return summary;
+}
+
+}  // namespace flagstone::doctor

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "files/io/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+#include "files/io/file_descriptor.hpp"
+#include "files/io/message.hpp"
+
+namespace flagstone::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+Status unwritable(std::string_view what, int error) {
+  return Status(StatusCode::unwritable,
+                fmt::format("{}: {}", what, std::generic_category().message(error)));
+}
+
+/// Where the file itself is: what a symbolic link leads to. unwritable where renaming would replace
+/// something that is no regular file.
+Status find_target(const fs::path& path, fs::path& target) {
+  target = path;
+  std::error_code error;
+  if (fs::is_symlink(path, error)) {
+    target = fs::canonical(path, error);
+    if (error) return unwritable("is a symbolic link that leads nowhere", error.value());
+  }
+  const fs::file_status status = fs::status(target, error);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    return Status(StatusCode::unwritable,
+                  fs::is_directory(status) ? "is a folder (name a file)"
+                                           : "is no regular file (name one, or one not there yet)");
+  }
+  return {};
+}
+
+/// A new file beside the one to be written, removed at the end of its life unless it was put in
+/// place.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& folder) {
+    static std::atomic<unsigned> counter{0};
+    do {  // a name left behind by a process that was killed and had our number is passed over
+      path_ = folder / fmt::format(".flagstone-{}-{}.tmp", ::getpid(), counter++);
+      number_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (number_ < 0 && errno == EEXIST);
+    error_ = number_ < 0 ? errno : 0;
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  TemporaryFile(TemporaryFile&&) = delete;
+  TemporaryFile& operator=(TemporaryFile&&) = delete;
+  ~TemporaryFile() {
+    if (number_ >= 0 && !is_in_place_) ::unlink(path_.c_str());
+  }
+
+  Status fill_and_put_in_place(std::span<const std::byte> bytes, const fs::path& target) {
+    if (number_ < 0) return unwritable("cannot be created in its folder", error_);
+    FileDescriptor file(number_);
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return unwritable("cannot be written", errno);
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+    if (!file.close()) return unwritable("cannot be written", errno);
+    if (std::rename(path_.c_str(), target.c_str()) != 0) {
+      return unwritable("cannot be put in place", errno);
+    }
+    is_in_place_ = true;
+    return {};
+  }
+
+ private:
+  fs::path path_;
+  int number_ = -1;
+  int error_ = 0;
+  bool is_in_place_ = false;
+};
+
+Status write(const fs::path& path, std::span<const std::byte> bytes) {
+  fs::path target;
+  if (Status status = find_target(path, target); !status.ok()) return status;
+  return TemporaryFile(target.parent_path()).fill_and_put_in_place(bytes, target);
+}
+
+}  // namespace
+
+Status write_file(const fs::path& path, std::span<const std::byte> bytes) {
+  return with_path(path, within_memory([&] { return write(path, bytes); }));
+}
+
+Status write_file(const fs::path& path, std::string_view text) {
+  return write_file(path, std::as_bytes(std::span(text)));
+}
+
+}  // namespace flagstone::io

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "files/io/label_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "files/io/atomic_file.hpp"
+#include "files/io/field_type.hpp"
+#include "files/io/file_name.hpp"
+#include "files/io/load_bytes.hpp"
+#include "files/io/message.hpp"
+#include "files/io/npy_header.hpp"
+#include "files/io/text.hpp"
+
+namespace flagstone::io {
+namespace {
+
+constexpr std::uint8_t kitti_road = 40;
+constexpr std::uint32_t kitti_class_bits = 0xffff;
+
+/// The numbers that stand for labels; loops that the compiler can make of many numbers at once.
+template <class T>
+void number(std::span<const Label> labels, LabelMap map, T* to) {
+  if (map == LabelMap::flagstone) {
+    for (std::size_t i = 0; i < labels.size(); ++i) to[i] = static_cast<T>(labels[i]);
+  } else {
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      to[i] = labels[i] == Label::ground ? T{kitti_road} : T{0};
+    }
+  }
+}
+
+/// bad_file where `labels` of `item` bytes, which begin at `begin`, are not one a point.
+Status check_count(std::size_t begin, std::size_t labels, std::size_t item,
+                   std::size_t expected_points) {
+  if (labels == expected_points) return {};
+  const std::size_t first_wrong = begin + std::min(labels, expected_points) * item;
+  return bad_byte(first_wrong,
+                  "the file holds {} labels, the scan has {} points (one label a point; does the "
+                  "file belong to this scan?)",
+                  labels, expected_points);
+}
+
+Status parse_label(std::span<const std::byte> bytes, std::size_t expected_points,
+                   std::vector<std::uint32_t>& classes) {
+  constexpr std::size_t item = sizeof(std::uint32_t);
+  if (const std::size_t rest = bytes.size() % item; rest != 0) {
+    return bad_byte(
+        bytes.size() - rest,
+        "{} bytes are not a whole number of labels of {} bytes (the scan has {} points, "
+        "which need {} bytes)",
+        bytes.size(), item, expected_points, expected_points * item);
+  }
+  const std::size_t labels = bytes.size() / item;
+  if (Status status = check_count(0, labels, item, expected_points); !status.ok()) return status;
+  std::vector<std::uint32_t> read(labels);
+  for (std::size_t i = 0; i < labels; ++i) {
+    read[i] = load<std::uint32_t>(bytes.data() + i * item) & kitti_class_bits;
+  }
+  classes = std::move(read);
+  return {};
+}
+
+Status parse_lidarseg(std::span<const std::byte> bytes, std::size_t expected_points,
+                      std::vector<std::uint32_t>& classes) {
+  Status status = check_count(0, bytes.size(), 1, expected_points);
+  if (!status.ok()) return status;
+  std::vector<std::uint32_t> read(bytes.size());
+  for (std::size_t i = 0; i < read.size(); ++i) read[i] = std::to_integer<std::uint32_t>(bytes[i]);
+  classes = std::move(read);
+  return status;
+}
+
+/// A header of one integer a point.
+Status check_label_array(const NpyHeader& header) {
+  const auto& shape = header.shape;
+  if (header.is_structured || shape.empty() || shape.size() > 2 ||
+      (shape.size() == 2 && shape[1] != 1)) {
+    return bad_byte(header.shape_offset, "the array is not N or N x 1 (one label a point)");
+  }
+  const FieldType type = header.fields[0].field.type;
+  if (!is_integer(type)) {
+    return bad_byte(header.descr_offset, "the labels are {} (integers are needed)",
+                    to_string(type));
+  }
+  return {};
+}
+
+/// The number at `bytes`, if a class can be it.
+template <class T>
+std::optional<std::uint32_t> class_at(std::span<const std::byte> bytes, bool big_endian) {
+  std::array<std::byte, sizeof(T)> number;
+  if (big_endian) {
+    std::ranges::reverse_copy(bytes, number.begin());
+  } else {
+    std::ranges::copy(bytes, number.begin());
+  }
+  if constexpr (std::is_integral_v<T>) {
+    const T value = load<T>(number.data());
+    if (std::in_range<std::uint32_t>(value)) return static_cast<std::uint32_t>(value);
+  }
+  return std::nullopt;
+}
+
+Status parse_npy(std::span<const std::byte> bytes, std::size_t expected_points,
+                 std::vector<std::uint32_t>& classes) {
+  NpyHeader header;
+  if (Status status = read_npy_header(as_text(bytes), header); !status.ok()) return status;
+  if (Status status = check_label_array(header); !status.ok()) return status;
+  const std::size_t labels = header.shape[0];
+  const FieldType type = header.fields[0].field.type;
+  const std::size_t item = size_of(type);
+  if (labels != (bytes.size() - header.size) / item || (bytes.size() - header.size) % item != 0) {
+    return bad_byte(header.shape_offset,
+                    "the header announces {} labels of {} bytes, {} bytes follow", labels, item,
+                    bytes.size() - header.size);
+  }
+  Status status = check_count(header.size, labels, item, expected_points);
+  if (!status.ok()) return status;
+  std::vector<std::uint32_t> read(labels);
+  for (std::size_t i = 0; i < labels; ++i) {
+    const std::size_t offset = header.size + i * item;
+    const auto number = visit_type(type, [&]<class T>() {
+      return class_at<T>(bytes.subspan(offset, item), header.fields[0].big_endian);
+    });
+    if (!number) {
+      return bad_byte(offset, "label {} is not within 0 to {}", i,
+                      std::numeric_limits<std::uint32_t>::max());
+    }
+    read[i] = *number;
+  }
+  classes = std::move(read);
+  return status;
+}
+
+std::optional<ClassFormat> class_format_of(const std::filesystem::path& path) {
+  const std::string_view name = file_name(path);
+  if (ends_with(name, ".label")) return ClassFormat::label;
+  if (ends_with(name, ".bin")) return ClassFormat::lidarseg;
+  if (ends_with(name, ".npy")) return ClassFormat::npy;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Status parse_reference(std::span<const std::byte> bytes, ClassFormat format,
+                       std::size_t expected_points, std::vector<std::uint32_t>& classes) {
+  return within_memory([&] {
+    switch (format) {
+      case ClassFormat::label: return parse_label(bytes, expected_points, classes);
+      case ClassFormat::lidarseg: return parse_lidarseg(bytes, expected_points, classes);
+      case ClassFormat::npy: return parse_npy(bytes, expected_points, classes);
+    }
+    return Status(StatusCode::invalid_argument, "unknown format");
+  });
+}
+
+Status read_reference(const std::filesystem::path& path, std::size_t expected_points,
+                      std::vector<std::uint32_t>& classes) {
+  const std::optional<ClassFormat> format = class_format_of(path);
+  if (!format) {
+    return refuse(path, "no label format has this ending (allowed: .label, .bin, .npy)");
+  }
+  std::vector<std::byte> file;
+  Status status = load_bytes(path, file);
+  if (!status.ok()) return status;
+  return with_path(path, parse_reference(file, *format, expected_points, classes));
+}
+
+Status read_labels(const std::filesystem::path& path, std::size_t expected_points,
+                   std::vector<Label>& labels) {
+  std::vector<std::uint32_t> codes;
+  if (Status status = read_reference(path, expected_points, codes); !status.ok()) return status;
+  return with_path(path, within_memory([&] {
+                     std::vector<Label> read(codes.size());
+                     for (std::size_t i = 0; i < codes.size(); ++i) {
+                       if (codes[i] >= label_count) {
+                         return Status(StatusCode::bad_file,
+                                       fmt::format("the label of point {} is {} (flagstone's codes "
+                                                   "are 0 to {}; was it written with another label "
+                                                   "map?)",
+                                                   i, codes[i], label_count - 1));
+                       }
+                       read[i] = static_cast<Label>(codes[i]);
+                     }
+                     labels = std::move(read);
+                     return Status();
+                   }));
+}
+
+Status write_class_file(const std::filesystem::path& path, std::span<const std::uint32_t> classes) {
+  return write_file(path, std::as_bytes(classes));
+}
+
+Status LabelWriter::write_label_file(const std::filesystem::path& path,
+                                     std::span<const Label> labels) {
+  Status status = within_memory([&] {
+    numbers_.resize(labels.size());
+    number(labels, map_, numbers_.data());
+    return Status();
+  });
+  if (!status.ok()) return with_path(path, std::move(status));
+  return write_class_file(path, numbers_);
+}
+
+Status LabelWriter::write_label_npy(const std::filesystem::path& path,
+                                    std::span<const Label> labels) {
+  Status status = within_memory([&] {
+    const std::string header = npy_header(FieldType::uint8, labels.size());
+    npy_.assign(header);  // by copy: a moved one would bring its own memory
+    npy_.resize(header.size() + labels.size());
+    number(labels, map_, npy_.data() + header.size());
+    return Status();
+  });
+  if (!status.ok()) return with_path(path, std::move(status));
+  return write_file(path, npy_);
+}
+
+Status write_label_file(const std::filesystem::path& path, std::span<const Label> labels,
+                        LabelMap map) {
+  return LabelWriter(map).write_label_file(path, labels);
+}
+
+}  // namespace flagstone::io

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "files/render/contour_layer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "files/render/contour_lines.hpp"
+#include "files/render/palette.hpp"
+#include "files/render/text.hpp"
+
+namespace flagstone::render {
+namespace {
+
+struct Spot {
+  double x, y;  // pixels
+};
+using Path = std::vector<Spot>;
+
+double distance(const Spot& a, const Spot& b) noexcept { return std::hypot(a.x - b.x, a.y - b.y); }
+
+Path in_pixels(const ContourLine& line, const HeightMap& map, const TopView& view) {
+  Path path;
+  path.reserve(line.size());
+  for (const auto& [column, row] : line) {
+    path.push_back({view.column(map.y(row)), view.row(map.x(column))});
+  }
+  return path;
+}
+
+double length_of(const Path& path) noexcept {
+  double length = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
+  return length;
+}
+
+void stroke(cairo_t* context, const Path& path) noexcept {
+  cairo_move_to(context, path.front().x, path.front().y);
+  for (const Spot& spot : path) cairo_line_to(context, spot.x, spot.y);
+  cairo_stroke(context);
+}
+
+/// Where a label may stand: in the middle of a piece of the line as long as the label is wide.
+struct LabelPlace {
+  Spot middle;
+  double angle;     // radians, that of the text
+  double straight;  // length of the chord by that of the piece, at most 1
+};
+
+class LabelPlacer {
+ public:
+  LabelPlacer(const Rectangle& panel, double unit) : panel_(panel), unit_(unit) {}
+
+  /// The straightest place for a label `width` pixels wide on this line, far from all others;
+  /// none where it bends too much everywhere.
+  std::optional<LabelPlace> place(const Path& path, double width) {
+    std::optional<LabelPlace> best;
+    std::size_t end = 0;
+    double piece = 0;  // length from begin to end
+    for (std::size_t begin = 0; begin + 1 < path.size(); ++begin) {
+      for (; end + 1 < path.size() && piece < width; ++end)
+        piece += distance(path[end], path[end + 1]);
+      if (piece < width) break;
+      const LabelPlace candidate = between(path, begin, end, piece);
+      if (is_free(candidate.middle, width) && (!best || candidate.straight > best->straight))
+        best = candidate;
+      piece -= distance(path[begin], path[begin + 1]);
+    }
+    constexpr double straight_enough = 0.93;
+    if (!best || best->straight < straight_enough) return std::nullopt;
+    taken_.push_back(best->middle);
+    return best;
+  }
+
+ private:
+  static LabelPlace between(const Path& path, std::size_t begin, std::size_t end, double piece) {
+    const Spot& from = path[begin];
+    const Spot& to = path[end];
+    double angle = std::atan2(to.y - from.y, to.x - from.x);
+    // Upright, whichever way the line runs.
+    if (std::abs(angle) > std::numbers::pi / 2) angle -= std::copysign(std::numbers::pi, angle);
+    return {path[begin + (end - begin) / 2], angle, distance(from, to) / piece};
+  }
+
+  [[nodiscard]] bool is_free(const Spot& spot, double width) const {
+    const double apart = 190 * unit_;
+    const bool is_inside = spot.x > panel_.x + width && spot.x < panel_.right() - width &&
+                           spot.y > panel_.y + width && spot.y < panel_.bottom() - width;
+    return is_inside && std::ranges::none_of(taken_, [&](const Spot& other) {
+             return distance(spot, other) < apart;
+           });
+  }
+
+  Rectangle panel_;
+  double unit_;
+  std::vector<Spot> taken_;
+};
+
+void draw_label(cairo_t* context, const LabelPlace& place, const std::string& text,
+                const Font& font) {
+  cairo_save(context);
+  cairo_translate(context, place.middle.x, place.middle.y);
+  cairo_rotate(context, place.angle);
+  draw_edged_text(context, 0, font.size * 0.36, text, font, page_color, Align::center);
+  cairo_restore(context);
+}
+
+}  // namespace
+
+ContourStep suitable_step(double span) noexcept {
+  constexpr double most_lines = 14;
+  constexpr std::array<ContourStep, 3> round_steps = {{{1, 2}, {2, 5}, {5, 2}}};
+  constexpr double largest = 1000;  // metres; no more is between the highest and the lowest point
+  for (const ContourStep& step : {ContourStep{0.25, 2}, ContourStep{0.5, 2}}) {
+    if (span <= most_lines * step.height) return step;
+  }
+  for (double power = 1; power < largest; power *= 10) {
+    for (const ContourStep& step : round_steps) {
+      if (span <= most_lines * power * step.height) return {power * step.height, step.per_index};
+    }
+  }
+  return {largest, 2};
+}
+
+std::string height_text(double height, const ContourStep& step) {
+  const int places = step.height < 0.5 ? 2 : step.height < 1 ? 1 : 0;
+  std::string text = fmt::format("{:.{}f}", height, places);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  if (!text.starts_with('-')) return text;
+  return is_zero ? text.substr(1) : "\u2212" + text.substr(1);  // a true minus, wider than a hyphen
+}
+
+void draw_contours(const Canvas& canvas, const TopView& view, const HeightMap& map,
+                   const HeightRange& heights, const ContourStep& step, double unit) {
+  cairo_t* context = canvas.context();
+  cairo_save(context);
+  add_rectangle(context, view.panel());
+  cairo_clip(context);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  const Font font{.size = 19 * unit, .bold = true, .color = contour_color};
+  struct Index {
+    std::string text;
+    Path path;
+  };
+  std::vector<Index> indices;
+  set_color(context, contour_color, 0.55);
+  cairo_set_line_width(context, thin_contour * unit);
+  for (auto number = static_cast<long>(std::ceil(heights.lowest / step.height));
+       static_cast<double>(number) * step.height <= heights.highest; ++number) {
+    const double height = static_cast<double>(number) * step.height;
+    for (const ContourLine& line :
+         contour_lines(map.heights, map.width, static_cast<float>(height))) {
+      Path path = in_pixels(line, map, view);
+      if (length_of(path) < 24 * unit) continue;  // specks
+      if (number % step.per_index == 0) {
+        indices.push_back({height_text(height, step), std::move(path)});
+      } else {
+        stroke(context, path);
+      }
+    }
+  }
+  set_color(context, contour_color, 0.8);
+  cairo_set_line_width(context, bold_contour * unit);
+  for (const Index& index : indices) stroke(context, index.path);
+  // The longest lines have the first choice.
+  std::ranges::sort(indices, std::greater(), [](const Index& i) { return length_of(i.path); });
+  LabelPlacer placer(view.panel(), unit);
+  for (const Index& index : indices) {
+    const double width = text_width(context, index.text, font) + 12 * unit;
+    const auto wanted = static_cast<int>(std::ceil(length_of(index.path) / (900 * unit)));
+    for (int label = 0; label < wanted; ++label) {
+      const auto place = placer.place(index.path, width);
+      if (!place) break;
+      draw_label(context, *place, index.text, font);
+    }
+  }
+  cairo_restore(context);
+}
+
+}  // namespace flagstone::render

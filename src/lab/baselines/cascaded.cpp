@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "flagstone/baselines/cascaded.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "lab/baselines/cascaded_beams.hpp"
+#include "lab/baselines/cascaded_planes.hpp"
+#include "lab/baselines/cascaded_range_image.hpp"
+#include "lab/baselines/cascaded_regions.hpp"
+#include "lab/baselines/polar_grid.hpp"
+#include "lab/baselines/usable_points.hpp"
+#include "library/core/segment_scan.hpp"
+
+namespace flagstone {
+
+using baselines::Beams;
+using baselines::ContinuousPlanes;
+using baselines::Coordinates;
+using baselines::PolarGrid;
+using baselines::RangeImage;
+using baselines::Regions;
+using baselines::set_ground_plane;
+using baselines::single_precision;
+using baselines::SinglePrecisionPlane;
+using baselines::UsablePoints;
+
+namespace {
+
+CascadedConfig checked(CascadedConfig config) {
+  config.check();
+  return config;
+}
+
+}  // namespace
+
+struct Cascaded::Pipeline {
+  explicit Pipeline(CascadedConfig settings)
+      : config(checked(std::move(settings))),
+        beams(config),
+        columns(0, config.max_range, 1, config.columns),
+        image(beams, config),
+        regions(beams, config),
+        planes(config),
+        patches(regions.count()) {}
+
+  void reserve(std::size_t point_count, Segmentation& result) {
+    points.reserve(point_count);
+    columns.reserve(point_count);
+    cells.reserve(point_count);
+    region_of_point.reserve(point_count);
+    regions.reserve(point_count);
+    result.mutable_patches().reserve(regions.count());
+  }
+
+  /// `ring_of(k)` is the ring of usable point k, at this range.
+  template <class RingOf>
+  void segment(CloudView cloud, Segmentation& result, std::span<Label> labels,
+               const RingOf& ring_of) noexcept {
+    points.gather(cloud, labels);
+    fill_image(labels, ring_of);
+    image.find_upright(beams);
+    regions.sort(points, find_regions());
+    for (std::size_t direction = 0; direction < Regions::directions; ++direction) {
+      fit_outward(direction, labels);
+    }
+    for (const Patch& patch : patches) {  // within what was reserved
+      if (patch.point_count > 0) result.mutable_patches().push_back(patch);
+    }
+  }
+
+  [[nodiscard]] float range(std::size_t k) const noexcept {
+    const float x = points.x()[k];
+    const float y = points.y()[k];
+    return std::sqrt(x * x + y * y);
+  }
+
+  template <class RingOf>
+  void fill_image(std::span<Label> labels, const RingOf& ring_of) noexcept {
+    image.clear();
+    const std::span<const std::uint32_t> column = columns.locate(points);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (column[k] >= columns.bin_count()) {
+        labels[points.index()[k]] = Label::out_of_range;
+        cells.data()[k] = no_cell;
+        continue;
+      }
+      const float range_k = range(k);
+      cells.data()[k] = image.cell(column[k], ring_of(k, range_k));
+      image.add(cells.data()[k], range_k, points.z()[k]);
+    }
+  }
+
+  /// Starts the patches; returns the region of every point that is in range and not upright.
+  [[nodiscard]] std::span<const std::uint32_t> find_regions() noexcept {
+    start_patches();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      std::uint32_t& region = region_of_point.data()[k];
+      region = Regions::no_region;
+      if (cells.data()[k] == no_cell) continue;
+      const std::uint32_t place = regions.region_of(points.x()[k], points.y()[k], range(k));
+      ++patches[place].point_count;
+      if (!image.is_upright(cells.data()[k])) region = place;
+    }
+    return {region_of_point.data(), points.size()};
+  }
+
+  void start_patches() noexcept {
+    for (std::size_t section = 0; section < regions.sections(); ++section) {
+      for (std::size_t direction = 0; direction < Regions::directions; ++direction) {
+        patches[regions.region(section, direction)] = {
+            .ring = static_cast<std::uint16_t>(section),
+            .sector = static_cast<std::uint16_t>(direction),
+            .verdict = Verdict::no_plane};
+      }
+    }
+  }
+
+  /// The regions of one direction, from the sensor outward.
+  void fit_outward(std::size_t direction, std::span<Label> labels) noexcept {
+    // Unit vectors along the middle of each direction.
+    constexpr std::array<std::array<double, 2>, Regions::directions> middle = {
+        {{-1, 0}, {0, -1}, {1, 0}, {0, 1}}};
+    Plane plane = planes.below_sensor();
+    for (std::size_t section = 0; section < regions.sections(); ++section) {
+      const std::uint32_t region = regions.region(section, direction);
+      const Coordinates in_region = regions.points(region);
+      if (in_region.size() == 0) continue;
+      const double radius = regions.inner_radius(section);
+      plane = planes.fit(in_region, plane, radius * middle[direction][0],
+                         radius * middle[direction][1], region);
+      label_region(in_region, regions.index(region), plane, patches[region], labels);
+    }
+  }
+
+  void label_region(const Coordinates& in_region, std::span<const std::uint32_t> index,
+                    const Plane& fit, Patch& patch, std::span<Label> labels) const noexcept {
+    const SinglePrecisionPlane plane = single_precision(fit);
+    for (std::size_t i = 0; i < in_region.size(); ++i) {
+      if (!planes.is_ground(plane, in_region.x[i], in_region.y[i], in_region.z[i])) continue;
+      labels[index[i]] = Label::ground;
+      ++patch.ground_count;
+    }
+    if (patch.ground_count > 0) set_ground_plane(fit, patch);
+  }
+
+  static constexpr std::size_t no_cell = ~std::size_t{0};
+
+  CascadedConfig config;
+  Beams beams;
+  UsablePoints points;
+  PolarGrid columns;
+  RangeImage image;
+  Regions regions;
+  ContinuousPlanes planes;
+  Buffer<std::size_t> cells;              // of the image, for each usable point
+  Buffer<std::uint32_t> region_of_point;  // for each usable point
+  std::vector<Patch> patches;             // of all regions
+};
+
+Cascaded::Cascaded(CascadedConfig config)
+    : pipeline_(std::make_unique<Pipeline>(std::move(config))) {}
+Cascaded::~Cascaded() = default;
+Cascaded::Cascaded(Cascaded&&) noexcept = default;
+Cascaded& Cascaded::operator=(Cascaded&&) noexcept = default;
+
+const CascadedConfig& Cascaded::config() const noexcept { return pipeline_->config; }
+
+Status Cascaded::segment(CloudView cloud, Segmentation& result) noexcept {
+  return segment_scan(cloud, result, [&](std::span<Label> labels) {
+    Pipeline& p = *pipeline_;
+    p.reserve(cloud.size(), result);
+    p.segment(cloud, result, labels,
+              [&p](std::size_t k, float range) { return p.beams.nearest(range, p.points.z()[k]); });
+  });
+}
+
+Status Cascaded::segment(CloudView cloud, std::span<const std::uint16_t> rings,
+                         Segmentation& result) noexcept {
+  const auto has_beam = [this](std::uint16_t ring) { return ring < pipeline_->beams.count(); };
+  if (rings.size() != cloud.size() || !std::ranges::all_of(rings, has_beam)) {
+    result.clear();
+    return Status(StatusCode::invalid_argument);
+  }
+  return segment_scan(cloud, result, [&](std::span<Label> labels) {
+    Pipeline& p = *pipeline_;
+    p.reserve(cloud.size(), result);
+    p.segment(cloud, result, labels,
+              [&](std::size_t k, float /*range*/) { return rings[p.points.index()[k]]; });
+  });
+}
+
+}  // namespace flagstone

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lab/baselines/cascaded_beams.hpp"
+#include "lab/baselines/fitted_plane.hpp"
+#include "lab/baselines/usable_points.hpp"
+#include "library/core/buffer.hpp"
+
+namespace flagstone::baselines {
+
+/// The regions of the second stage, and the points of a scan region by region. A region is a
+/// section of the distance from the sensor within one of four directions, 90 degrees wide.
+class Regions {
+ public:
+  static constexpr std::size_t directions = 4;
+
+  /// What stands in place of a region for points of none.
+  static constexpr std::uint32_t no_region = ~0U;
+
+  Regions(const Beams& beams, const CascadedConfig& config);
+
+  [[nodiscard]] std::size_t sections() const noexcept { return outer_radii_.size(); }
+  [[nodiscard]] std::size_t count() const noexcept { return sections() * directions; }
+  [[nodiscard]] std::uint32_t region(std::size_t section, std::size_t direction) const noexcept {
+    return static_cast<std::uint32_t>(section * directions + direction);
+  }
+
+  /// Region of a point at horizontal distance `range`, metres; directions are counted as azimuth
+  /// from -x: 0 backward, 1 right, 2 forward, 3 left.
+  [[nodiscard]] std::uint32_t region_of(float x, float y, float range) const noexcept;
+
+  /// Where a section begins, metres.
+  [[nodiscard]] float inner_radius(std::size_t section) const noexcept {
+    return section == 0 ? 0 : outer_radii_[section - 1];
+  }
+
+  /// Makes room for `points` points; may throw std::bad_alloc.
+  void reserve(std::size_t points);
+
+  /// Takes the points in; `regions` holds the region of each, or no_region.
+  void sort(const UsablePoints& points, std::span<const std::uint32_t> regions) noexcept;
+
+  /// The points of a region, in input order.
+  [[nodiscard]] Coordinates points(std::uint32_t region) const noexcept;
+  /// Index in the cloud of each of them.
+  [[nodiscard]] std::span<const std::uint32_t> index(std::uint32_t region) const noexcept;
+
+ private:
+  [[nodiscard]] std::size_t size(std::uint32_t region) const noexcept {
+    return begins_[region + 1] - begins_[region];
+  }
+
+  std::vector<float> outer_radii_;   ///< of each section, ascending; the last is infinite
+  std::vector<std::size_t> begins_;  ///< where the points of each region begin, and the end
+  std::vector<std::size_t> next_;    ///< where the next point of each region goes
+  Buffer<float> x_, y_, z_;
+  Buffer<std::uint32_t> index_;
+};
+
+}  // namespace flagstone::baselines

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+#include "lab/baselines/coordinates.hpp"
+#include "library/core/moments.hpp"
+#include "library/core/plane.hpp"
+#include "flagstone/patch.hpp"
+
+namespace flagstone::baselines {
+
+/// normal . p + d = 0, in single precision, as points are: loops over points stay in float.
+struct SinglePrecisionPlane {
+  float normal_x = 0;
+  float normal_y = 0;
+  float normal_z = 1;
+  float d = 0;
+
+  /// Signed distance of a point from the plane, positive on the normal's side, metres.
+  [[nodiscard]] float distance(float x, float y, float z) const noexcept {
+    return normal_x * x + normal_y * y + normal_z * z + d;
+  }
+};
+
+/// The same plane in single precision.
+SinglePrecisionPlane single_precision(const Plane& plane) noexcept;
+
+/// Fits a plane to those points that `in_set(x, y, z)` picks.
+template <class InSet>
+Plane fit_plane(const Coordinates& points, const InSet& in_set) noexcept {
+  if (points.size() == 0) return {};
+  const Vector3 origin = {points.x[0], points.y[0], points.z[0]};
+  Moments moments;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!in_set(points.x[i], points.y[i], points.z[i])) continue;
+    moments.add(points.x[i] - origin[0], points.y[i] - origin[1], points.z[i] - origin[2]);
+  }
+  return plane_of(moments).moved_by(origin);
+}
+
+/// Writes the plane into `patch`: a patch of ground.
+void set_ground_plane(const Plane& fit, Patch& patch) noexcept;
+
+}  // namespace flagstone::baselines

@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/bench/benchmark.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lab/bench/allocation_count.hpp"
+#include "lab/bench/contestant.hpp"
+#include "lab/bench/pinned_core.hpp"
+#include "lab/bench/rotation.hpp"
+#include "lab/bench/timed_bare_pass.hpp"
+#include "lab/bench/timed_segment.hpp"
+#include "library/core/simd_target.hpp"
+#include "library/core/stopwatch.hpp"
+#include "flagstone/cloud_view.hpp"
+
+namespace flagstone::bench {
+namespace {
+
+constexpr double seconds_by_default = 10;
+constexpr double fewest_rounds = 3;
+constexpr double most_rounds = 10000;  // where scans are tiny
+
+/// Uses the best instruction set again at the end of its life.
+struct TargetReset {
+  explicit TargetReset(const std::string& target) { use_simd_target(target); }
+  TargetReset(const TargetReset&) = delete;
+  TargetReset& operator=(const TargetReset&) = delete;
+  TargetReset(TargetReset&&) = delete;
+  TargetReset& operator=(TargetReset&&) = delete;
+  ~TargetReset() { use_simd_target(""); }
+};
+
+/// Who takes part.
+struct Entrant {
+  std::unique_ptr<Contestant> contestant;  // none once it failed
+  std::function<void(std::size_t round, std::size_t scan, const Visit&)> note;
+  PeerResult* peer = nullptr;  // none for ours
+};
+
+std::vector<CloudView> views_of(std::span<const io::Cloud> scans) {
+  std::vector<CloudView> views;
+  for (const io::Cloud& scan : scans) views.push_back(scan.view());
+  return views;
+}
+
+std::vector<std::size_t> sizes_of(std::span<const io::Cloud> scans) {
+  std::vector<std::size_t> sizes;
+  for (const io::Cloud& scan : scans) sizes.push_back(scan.size());
+  return sizes;
+}
+
+class Benchmark {
+ public:
+  Benchmark(std::span<const io::Cloud> scans, const BenchmarkSettings& settings,
+            const BenchmarkWatch& watch)
+      : scans_(scans),
+        settings_(settings),
+        watch_(watch),
+        target_reset_(settings.target),
+        views_(views_of(scans)),
+        results_(method_name(settings.config), sizes_of(scans)) {
+    results_.target = simd_target();
+    results_.threads = settings.threads;
+    if (settings.threads == 1) {
+      pinned_ = std::make_unique<PinnedCore>();
+      results_.core = pinned_->core();
+    }
+    enter_ours();
+    if (settings.peers) enter_peers(*settings.peers);
+  }
+
+  Results run() {
+    const std::size_t rounds = warm_up();
+    for (std::size_t round = 0; round < rounds && !watch_.stop(); ++round) {
+      // Between rounds of peers it would not be known how long the rest takes.
+      if (has_peers(round)) watch_.progress(round, rounds);
+      results_.rounds = round + 1;
+      run_round(round);
+    }
+    return std::move(results_);
+  }
+
+ private:
+  void enter_ours() {
+    auto segment = segmenter(results_.target, TimedSegment::Stages::not_timed);
+    const TimedSegment* const timed = segment.get();
+    enter(
+        std::move(segment), [this, timed](std::size_t round, std::size_t scan, const Visit& visit) {
+          add(results_.segment, round, scan, visit);
+          if (results_.allocations) {
+            results_.allocations = std::max(results_.allocations.value_or(0), timed->allocations());
+          }
+        });
+    enter(std::make_unique<TimedBarePass>(views_, results_.target),
+          [this](auto round, auto scan, const Visit& visit) {
+            add(results_.floor, round, scan, visit);
+          });
+    enter(segmenter("scalar", TimedSegment::Stages::not_timed),
+          [this](auto round, auto scan, const Visit& visit) {
+            add(results_.scalar, round, scan, visit);
+          });
+    enter(segmenter(results_.target, TimedSegment::Stages::timed),
+          [this](std::size_t round, std::size_t scan, const Visit& visit) {
+            for (StageResult& stage : results_.stages) {
+              const double seconds = visit.stages[static_cast<std::size_t>(stage.stage)];
+              stage.times.add(round, scan, 1000 * seconds);
+            }
+          });
+    ours_ = entrants_.size();
+  }
+
+  /// Also finds what memory the first of them holds once it has seen every scan.
+  std::unique_ptr<TimedSegment> segmenter(const std::string& target, TimedSegment::Stages stages) {
+    const std::size_t held_before = allocation_count().bytes;
+    auto made = std::make_unique<TimedSegment>(views_, settings_.config, settings_.mount,
+                                               settings_.threads, target, stages);
+    for (std::size_t scan = 0; scan < scans_.size() && !watch_.stop(); ++scan) made->visit(scan);
+    if (!results_.bytes_held && allocations_are_counted()) {
+      results_.bytes_held = allocation_count().bytes - held_before;
+      results_.allocations = 0;
+    }
+    return made;
+  }
+
+  void enter_peers(const PeerPlaces& places) {
+    const auto known = known_peers(places, sensor_height(settings_.config));
+    results_.peers.reserve(known.size());  // they are pointed to
+    for (const PeerCommand& command : known) {
+      results_.peers.push_back({command.name, Measured(scans_.size()), command.missing});
+      PeerResult& result = results_.peers.back();
+      if (!command.missing.empty() || watch_.stop()) continue;
+      try {
+        auto peer = std::make_unique<Peer>(command);
+        peer->take(scans_);
+        enter(std::move(peer), [&result](auto round, auto scan, const Visit& visit) {
+          add(result.measured, round, scan, visit);
+        });
+        entrants_.back().peer = &result;
+      } catch (const PeerError& error) {
+        result.left_out = error.what();
+      }
+    }
+  }
+
+  template <class Note>
+  void enter(std::unique_ptr<Contestant> contestant, Note note) {
+    entrants_.push_back({std::move(contestant), std::move(note)});
+  }
+
+  static void add(Measured& measured, std::size_t round, std::size_t scan, const Visit& visit) {
+    measured.times.add(round, scan, visit.milliseconds);
+    measured.ground[scan] = visit.ground;
+  }
+
+  /// Has everybody take all scans; how many rounds to make.
+  std::size_t warm_up() {
+    const auto seconds_of = [&](std::size_t begin, std::size_t end) {
+      Stopwatch stopwatch;
+      for (std::size_t i = begin; i < end; ++i) visit_all(entrants_[i], std::nullopt);
+      return stopwatch.lap() / 1000;
+    };
+    seconds_of(0, ours_);
+    const double own = seconds_of(0, ours_);
+    const double peers = seconds_of(ours_, entrants_.size());
+    drop_failed();
+    if (own <= 0) return 0;  // interrupted
+    // Both take about as long then.
+    rounds_per_peer_round_ = static_cast<std::size_t>(std::clamp(peers / own, 1.0, 1e6));
+    if (settings_.rounds != 0) return settings_.rounds;
+    const double each = own + peers / static_cast<double>(rounds_per_peer_round_);
+    return static_cast<std::size_t>(
+        std::clamp(seconds_by_default / each, fewest_rounds, most_rounds));
+  }
+
+  /// Do peers take part in this round? Without any, every round is as good as one of theirs.
+  [[nodiscard]] bool has_peers(std::size_t round) const {
+    return round % rounds_per_peer_round_ == 0;
+  }
+
+  void run_round(std::size_t round) {
+    const bool with_peers = has_peers(round);
+    // Rounds with peers and those without are counted apart, so that each kind sees every order.
+    const std::size_t peer_rounds = round / rounds_per_peer_round_;
+    const std::size_t turn = with_peers ? peer_rounds : round - peer_rounds - 1;
+    for (const std::size_t i : order_of_round(with_peers ? entrants_.size() : ours_, turn)) {
+      visit_all(entrants_[i], round);
+    }
+    drop_failed();
+  }
+
+  /// Outside of rounds it is not noted. A peer that fails says so in its result.
+  void visit_all(Entrant& entrant, std::optional<std::size_t> round) {
+    try {
+      for (std::size_t scan = 0; scan < scans_.size() && !watch_.stop(); ++scan) {
+        const Visit visit = entrant.contestant->visit(scan);
+        if (round) entrant.note(*round, scan, visit);
+      }
+    } catch (const PeerError& error) {
+      if (!watch_.stop()) entrant.peer->left_out = error.what();
+      entrant.contestant = nullptr;
+    }
+  }
+
+  void drop_failed() {
+    std::erase_if(entrants_, [](const Entrant& entrant) { return entrant.contestant == nullptr; });
+  }
+
+  std::span<const io::Cloud> scans_;
+  const BenchmarkSettings& settings_;
+  const BenchmarkWatch& watch_;
+  TargetReset target_reset_;
+  std::vector<CloudView> views_;
+  Results results_;
+  std::unique_ptr<PinnedCore> pinned_;
+  std::vector<Entrant> entrants_;  // ours, then peers
+  std::size_t ours_ = 0;
+  std::size_t rounds_per_peer_round_ = 1;
+};
+
+}  // namespace
+
+Results run_benchmark(std::span<const io::Cloud> scans, const BenchmarkSettings& settings,
+                      const BenchmarkWatch& watch) {
+  return Benchmark(scans, settings, watch).run();
+}
+
+double ground_share(const Results& results, const Measured& measured) {
+  std::size_t points = 0;
+  std::size_t ground = 0;
+  for (std::size_t scan = 0; scan < results.points.size(); ++scan) {
+    const std::optional<std::size_t>& found = measured.ground[scan];
+    if (!found) continue;
+    points += results.points[scan];
+    ground += *found;
+  }
+  return static_cast<double>(ground) / static_cast<double>(points);
+}
+
+}  // namespace flagstone::bench

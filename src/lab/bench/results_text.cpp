@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/bench/results_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <string_view>
+
+#include "lab/eval/machine.hpp"
+#include "lab/eval/method.hpp"
+
+namespace flagstone::bench {
+namespace {
+
+/// A number in a column; "-" where there is none.
+std::string cell(double value, int width, int digits) {
+  if (!std::isfinite(value)) return fmt::format("{:>{}}", "-", width);
+  return fmt::format("{:>{}.{}f}", value, width, digits);
+}
+
+/// "1 scan", "2 scans".
+std::string counted(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+double mean_points(const Results& results) {
+  const auto sum = std::accumulate(results.points.begin(), results.points.end(), std::size_t{0});
+  return static_cast<double>(sum) / static_cast<double>(results.points.size());
+}
+
+std::string heading(const Results& results) {
+  const std::string place =
+      results.core ? fmt::format("pinned to core {}", *results.core) : "not pinned to a core";
+  return fmt::format(
+      "{} with {}, {}; {} of {:.0f} points (mean) in rotation, {} after warm-up\n"
+      "{}, {}; {}\n",
+      eval::title_of(results.method), results.target, counted(results.threads, "thread"),
+      counted(results.points.size(), "scan"), mean_points(results),
+      counted(results.rounds, "round"), eval::machine_name(), place, eval::today());
+}
+
+std::string row(const Results& results, std::string_view name, const Measured& measured,
+                bool finds_ground = true) {
+  const SampleTimes& times = measured.times;
+  return fmt::format(
+      "{:<27}{}{}{}{}{}{}{:>9}\n", name, cell(times.median(), 10, 3),
+      cell(times.percentile_99(), 10, 3),
+      cell(times.points_per_second(results.points) / 1e6, 12, 1),
+      cell(times.ratio_to(results.floor.times), 9, 2),
+      cell(times.ratio_to(results.segment.times), 11, 3),
+      finds_ground ? cell(100 * ground_share(results, measured), 10, 2) : cell(NAN, 10, 2),
+      times.count());
+}
+
+std::string contestants(const Results& results) {
+  std::string text =
+      fmt::format("{:<27}{:>10}{:>10}{:>12}{:>9}{:>11}{:>10}{:>9}\n", "", "median ms", "p99 ms",
+                  "Mpoints/s", "x floor", "x segment", "ground %", "samples");
+  text += row(results, "segment", results.segment);
+  text += row(results, "bare pass (floor)", results.floor, false);
+  text += row(results, "segment, scalar build", results.scalar);
+  for (const PeerResult& peer : results.peers) {
+    if (peer.measured.times.count() > 0) text += row(results, peer.name, peer.measured);
+  }
+  return text;
+}
+
+std::string stages(const Results& results) {
+  double sum = 0;
+  for (const StageResult& stage : results.stages) sum += stage.times.median();
+  std::string text = fmt::format("{:<27}{:>10}{:>10}{:>12}{:>9}{:>11}\n", "stage", "median µs",
+                                 "p99 µs", "ns a point", "x floor", "share %");
+  for (const StageResult& stage : results.stages) {
+    const SampleTimes& times = stage.times;
+    text += fmt::format(
+        "{:<27}{}{}{}{}{}\n", to_string(stage.stage), cell(1000 * times.median(), 10, 1),
+        cell(1000 * times.percentile_99(), 10, 1),
+        cell(1e6 * times.median() / mean_points(results), 12, 3),
+        cell(times.ratio_to(results.floor.times), 9, 2), cell(100 * times.median() / sum, 11, 1));
+  }
+  return text + fmt::format("{:<27}{}\n", "sum of the medians", cell(1000 * sum, 10, 1));
+}
+
+std::string memory(const Results& results) {
+  if (!results.allocations || !results.bytes_held) {
+    return "allocations and memory: not counted in this program\n";
+  }
+  const auto held = static_cast<double>(*results.bytes_held);
+  return fmt::format(
+      "allocations in a scan after warm-up: {}\n"
+      "memory held by segmenter and result: {:.1f} bytes a point of the largest scan ({:.2f} MB)\n",
+      *results.allocations, held / static_cast<double>(std::ranges::max(results.points)),
+      held / 1e6);
+}
+
+std::string left_out(const Results& results) {
+  std::string text;
+  for (const PeerResult& peer : results.peers) {
+    if (!peer.left_out.empty()) text += fmt::format("{} left out: {}\n", peer.name, peer.left_out);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const Results& results) {
+  return fmt::format("{}\n{}\n{}\n{}{}", heading(results), contestants(results), stages(results),
+                     memory(results), left_out(results));
+}
+
+}  // namespace flagstone::bench

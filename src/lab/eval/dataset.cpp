@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/eval/dataset.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "files/io/message.hpp"
+#include "files/io/read_cloud.hpp"
+
+namespace flagstone::eval {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view lidarseg_ending = ".pcd.bin";
+
+/// What lies in a folder, by name; an error leaves it empty.
+Status entries_of(const fs::path& folder, std::vector<fs::path>& entries) {
+  std::error_code error;
+  entries.clear();
+  for (fs::directory_iterator walk(folder, error); !error && walk != fs::directory_iterator();
+       walk.increment(error)) {
+    entries.push_back(walk->path());
+  }
+  if (error) {
+    return Status(StatusCode::unreadable,
+                  fmt::format("{}: cannot be listed: {}", io::printable(folder), error.message()));
+  }
+  std::ranges::sort(entries);
+  return {};
+}
+
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+/// Scans of a folder with velodyne/ and labels/. Those without labels are left out, unless none
+/// has any.
+Status add_velodyne(const fs::path& folder, const std::string& prefix, std::size_t every,
+                    std::vector<LabelledScan>& scans) {
+  std::vector<fs::path> files;
+  if (Status status = entries_of(folder / "velodyne", files); !status.ok()) return status;
+  std::size_t labelled = 0;
+  for (const fs::path& file : files) {
+    if (!io::is_scan_name(file)) continue;
+    const fs::path labels = folder / "labels" / (file.stem().string() + ".label");
+    if (!is_file(labels)) continue;
+    if (labelled++ % every != 0) continue;
+    const fs::path ground = folder / "ground" / (file.stem().string() + ".ground.npy");
+    scans.push_back({.name = prefix + file.stem().string(),
+                     .points = file,
+                     .labels = labels,
+                     .ground = is_file(ground) ? ground : fs::path()});
+  }
+  if (labelled == 0) {
+    return io::refuse(folder, "no scan in velodyne/ has a .label file of its name in labels/");
+  }
+  return {};
+}
+
+Status add_tree(const fs::path& folder, const Selection& selection,
+                std::vector<LabelledScan>& scans) {
+  std::vector<fs::path> sequences;
+  if (selection.sequences.empty()) {
+    std::vector<fs::path> entries;
+    if (Status status = entries_of(folder / "sequences", entries); !status.ok()) return status;
+    std::ranges::copy_if(entries, std::back_inserter(sequences), [](const fs::path& sequence) {
+      return is_folder(sequence / "velodyne") && is_folder(sequence / "labels");
+    });
+  } else {
+    for (const std::string& name : selection.sequences) {
+      sequences.push_back(folder / "sequences" / name);
+    }
+  }
+  if (sequences.empty()) {
+    return io::refuse(folder,
+                      "no sequence has both velodyne/ and labels/; SemanticKITTI's labels "
+                      "are a download of their own");
+  }
+  for (const fs::path& sequence : sequences) {
+    const std::string prefix = sequence.filename().string() + "/";
+    Status status = add_velodyne(sequence, prefix, selection.every, scans);
+    if (!status.ok()) return status;
+  }
+  return {};
+}
+
+Status add_lidarseg(const fs::path& folder, std::size_t every, std::vector<LabelledScan>& scans) {
+  std::vector<fs::path> files;
+  if (Status status = entries_of(folder, files); !status.ok()) return status;
+  std::size_t labelled = 0;
+  for (const fs::path& file : files) {
+    const std::string name = file.filename().string();
+    if (!name.ends_with(lidarseg_ending)) continue;
+    const std::string stem = name.substr(0, name.size() - lidarseg_ending.size());
+    const fs::path labels = folder / (stem + "_lidarseg.bin");
+    if (!is_file(labels)) continue;
+    if (labelled++ % every == 0) scans.push_back({stem, file, labels});
+  }
+  if (labelled > 0) return {};
+  return io::refuse(folder,
+                    "no dataset; allowed: a folder with sequences/NN/velodyne and labels, with "
+                    "velodyne/ and labels/, or with NAME.pcd.bin and NAME_lidarseg.bin");
+}
+
+}  // namespace
+
+Status list_dataset(const fs::path& folder, const Selection& selection,
+                    std::vector<LabelledScan>& scans) {
+  if (!is_folder(folder)) return io::refuse(folder, "no such folder");
+  const std::size_t every = std::max<std::size_t>(selection.every, 1);
+  if (is_folder(folder / "sequences")) {
+    return add_tree(folder, {selection.sequences, every}, scans);
+  }
+  if (!selection.sequences.empty()) {
+    return io::refuse(folder, fmt::format("has no sequences/ to pick {} from",
+                                          fmt::join(selection.sequences, ", ")));
+  }
+  if (is_folder(folder / "velodyne")) return add_velodyne(folder, "", every, scans);
+  return add_lidarseg(folder, every, scans);
+}
+
+}  // namespace flagstone::eval

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/eval/results.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+namespace flagstone::eval {
+namespace {
+
+Spread over_scans(const std::vector<ScanScore>& scans,
+                  double (Confusion::*share)() const noexcept) {
+  std::vector<double> values;
+  values.reserve(scans.size());
+  for (const ScanScore& scan : scans) values.push_back((scan.score.points.*share)());
+  return spread_of(values);
+}
+
+void summarize_speed(MethodResult& result) {
+  std::vector<double> times;
+  for (const ScanScore& scan : result.scans) {
+    if (scan.segment_ms) times.push_back(*scan.segment_ms);
+  }
+  if (times.empty()) return;
+  constexpr double second = 1000;
+  result.hz = second / spread_of(times).mean;
+  result.hz_slowest_1_percent = second / mean_of_slowest_percent(times);
+}
+
+/// `errors_of` picks a band of a HeightScore.
+template <class ErrorsOf>
+HeightFigures height_figures(const std::vector<ScanScore>& scans, ErrorsOf errors_of) {
+  HeightErrors pooled;
+  std::vector<double> medians;
+  std::vector<double> percentiles;
+  std::vector<double> biases;
+  for (const ScanScore& scan : scans) {
+    if (!scan.heights) continue;
+    const HeightErrors& errors = errors_of(*scan.heights);
+    pooled.points += errors.points;
+    pooled.given += errors.given;
+    if (errors.given == 0) continue;
+    medians.push_back(errors.median);
+    percentiles.push_back(errors.percentile95);
+    biases.push_back(errors.bias);
+  }
+  return {.points = pooled.points,
+          .share = pooled.share(),
+          .scans = medians.size(),
+          .median = spread_of(medians),
+          .percentile95 = spread_of(percentiles),
+          .bias = spread_of(biases)};
+}
+
+HeightFiguresByRange height_figures_by_range(const std::vector<ScanScore>& scans,
+                                             HeightErrorsByRange HeightScore::* points) {
+  HeightFiguresByRange figures;
+  figures.all = height_figures(
+      scans, [&](const HeightScore& s) -> const HeightErrors& { return (s.*points).all; });
+  for (std::size_t band = 0; band < figures.by_range.size(); ++band) {
+    figures.by_range[band] = height_figures(
+        scans,
+        [&](const HeightScore& s) -> const HeightErrors& { return (s.*points).by_range[band]; });
+  }
+  return figures;
+}
+
+void summarize_heights(MethodResult& result) {
+  const auto has = [](const ScanScore& scan) { return scan.heights.has_value(); };
+  if (std::ranges::none_of(result.scans, has)) return;
+  result.heights = {.ground = height_figures_by_range(result.scans, &HeightScore::ground),
+                    .everywhere = height_figures_by_range(result.scans, &HeightScore::everywhere)};
+}
+
+void summarize(MethodResult& result) {
+  result.precision = over_scans(result.scans, &Confusion::precision);
+  result.recall = over_scans(result.scans, &Confusion::recall);
+  result.f1 = over_scans(result.scans, &Confusion::f1);
+  result.accuracy = over_scans(result.scans, &Confusion::accuracy);
+  result.iou = over_scans(result.scans, &Confusion::iou);
+  for (const ScanScore& scan : result.scans) {
+    result.pooled += scan.score.points;
+    result.by_area += scan.score.by_area;
+    for (std::size_t band = 0; band < result.by_range.size(); ++band) {
+      result.by_range[band] += scan.score.by_range[band];
+    }
+  }
+  summarize_heights(result);
+  summarize_speed(result);
+}
+
+/// Is there a point that counts? All methods are scored on the same.
+bool is_scored(const ScanOutcome& outcome) {
+  return std::ranges::any_of(outcome.methods, [](const MethodOutcome& made) {
+    return made.error || made.score.points.total() > 0;
+  });
+}
+
+void add(const LabelledScan& scan, const ScanOutcome& outcome, Results& results) {
+  if (outcome.error) {
+    results.failures.push_back({scan.name, *outcome.error});
+    return;
+  }
+  if (!is_scored(outcome)) {
+    results.unscored.push_back(scan.name);
+    return;
+  }
+  ++results.scans;
+  results.time.read += outcome.read_ms;
+  results.time.score += outcome.score_ms;
+  for (std::size_t m = 0; m < results.methods.size(); ++m) {
+    const MethodOutcome& made = outcome.methods[m];
+    if (made.error) {
+      results.failures.push_back({scan.name, *made.error});
+      continue;
+    }
+    results.methods[m].scans.push_back({scan.name, made.score, made.segment_ms, made.heights});
+    results.time.segment += made.segment_ms.value_or(0);
+  }
+}
+
+}  // namespace
+
+bool has_heights(const Results& results) {
+  return std::ranges::any_of(results.methods,
+                             [](const MethodResult& m) { return m.heights.has_value(); });
+}
+
+Results gather(std::span<const Method> methods, std::span<const LabelledScan> scans,
+               std::span<const std::optional<ScanOutcome>> outcomes) {
+  Results results;
+  for (const Method& method : methods) {
+    MethodResult& result = results.methods.emplace_back();
+    result.name = method.name;
+    result.title = method.title;
+  }
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    const std::optional<ScanOutcome>& outcome = outcomes[i];
+    if (outcome) add(scans[i], *outcome, results);
+  }
+  for (MethodResult& result : results.methods) summarize(result);
+  return results;
+}
+
+std::vector<std::size_t> worst_scans(const MethodResult& result, std::size_t count) {
+  std::vector<std::size_t> order(result.scans.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {},
+                    [&](std::size_t i) { return std::pair(result.scans[i].score.points.f1(), i); });
+  order.resize(std::min(count, order.size()));
+  return order;
+}
+
+}  // namespace flagstone::eval

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lab/eval/dataset.hpp"
+#include "lab/eval/method.hpp"
+#include "lab/eval/outcome.hpp"
+#include "lab/eval/protocol.hpp"
+#include "flagstone/segmentation.hpp"
+#include "files/io/cloud.hpp"
+#include "files/io/read_cloud.hpp"
+
+namespace flagstone::eval {
+
+/// Runs methods over one scan after another and scores them, reusing its memory. One per thread.
+class ScanEvaluator {
+ public:
+  /// What is referred to must outlive it. Configurations are checked.
+  ScanEvaluator(std::span<const Method> methods, const Protocol& protocol,
+                const io::ReadOptions& read);
+  ~ScanEvaluator();
+
+  /// Never throws: what goes wrong is in the outcome.
+  ScanOutcome run(const LabelledScan& scan) noexcept;
+
+  /// Every method's labels of a scan, for who draws them; none of a method that failed. cloud() and
+  /// truth() are that scan's then.
+  Status label_all(const LabelledScan& scan, std::vector<std::vector<Label>>& labels);
+  [[nodiscard]] CloudView cloud() const noexcept { return cloud_.view(); }
+  [[nodiscard]] const ScanTruth& truth() const noexcept { return truth_; }
+
+ private:
+  struct Worker;
+  Status read(const LabelledScan& scan);
+  Status segment(Worker& worker, std::optional<double>& segment_ms);
+  Status read_labels(const LabelledScan& scan, const Method& method);
+  Status label(const LabelledScan& scan, Worker& worker, std::optional<double>& segment_ms);
+  [[nodiscard]] std::span<const Label> labels_of(const Worker& worker) const;
+  [[nodiscard]] bool has_heights_to_score(const Worker& worker) const;
+  void evaluate(const LabelledScan& scan, Worker& worker, ScanOutcome& outcome);
+
+  const Protocol& protocol_;
+  io::ReadOptions read_options_;
+  std::vector<Worker> workers_;
+  io::Cloud cloud_;
+  std::vector<std::uint32_t> classes_;
+  std::vector<float> ground_;  // true height of the ground at each point; empty where unknown
+  ScanTruth truth_;
+  Segmentation result_;
+  std::vector<Label> found_;  // by another program
+};
+
+}  // namespace flagstone::eval

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/eval/statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+namespace flagstone::eval {
+
+double student_t_975(std::size_t degrees) {
+  // Abramowitz and Stegun, "Handbook of Mathematical Functions", table 26.10.
+  constexpr std::array table = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
+                                2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120,
+                                2.110,  2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064,
+                                2.060,  2.056, 2.052, 2.048, 2.045, 2.042};
+  if (degrees <= table.size()) return table[std::max<std::size_t>(degrees, 1) - 1];
+  // Their asymptotic expansion 26.7.5 about the normal quantile.
+  constexpr double z = 1.959964;
+  constexpr double z3 = z * z * z;
+  constexpr double z5 = z3 * z * z;
+  const auto n = static_cast<double>(degrees);
+  return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n);
+}
+
+Spread spread_of(std::span<const double> values) {
+  Spread spread;
+  if (values.empty()) return spread;
+  const auto n = static_cast<double>(values.size());
+  spread.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  if (values.size() < 2) return spread;
+  double squares = 0;
+  for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
+  spread.std = std::sqrt(squares / (n - 1));
+  spread.ci95 = student_t_975(values.size() - 1) * *spread.std / std::sqrt(n);
+  return spread;
+}
+
+double mean_of_slowest_percent(std::span<const double> times) {
+  std::vector<double> sorted(times.begin(), times.end());
+  std::ranges::sort(sorted, std::greater());
+  const std::size_t count = std::max<std::size_t>(sorted.size() / 100, 1);
+  const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(count);
+  return std::accumulate(sorted.begin(), end, 0.0) / static_cast<double>(count);
+}
+
+}  // namespace flagstone::eval

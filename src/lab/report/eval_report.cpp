@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/report/eval_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "lab/report/base64.hpp"
+#include "lab/report/embedded_files.hpp"
+#include "lab/report/html.hpp"
+#include "lab/report/page.hpp"
+#include "lab/report/plot_data.hpp"
+#include "lab/report/table.hpp"
+
+namespace flagstone::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Table I of the paper, and what else there is one number of per method.
+std::string method_table(const Json& methods) {
+  using enum Format;
+  const std::array<Column, 13> columns = {{
+      {"", "Method", "/title", text, false},
+      {"Precision, %", "mean", "/precision/mean", percent, true},
+      {"Precision, %", "σ", "/precision/std", percent, false},
+      {"Recall, %", "mean", "/recall/mean", percent, true},
+      {"Recall, %", "σ", "/recall/std", percent, false},
+      {"F1, %", "mean", "/f1/mean", percent, true},
+      {"F1, %", "σ", "/f1/std", percent, false},
+      {"F1, %", "± 95 %", "/f1/ci95", percent, false},
+      {"Mean, %", "Accuracy", "/accuracy/mean", percent, true},
+      {"Mean, %", "IoU", "/iou/mean", percent, true},
+      {"By area, %", "F1", "/by_area/f1", percent, true},
+      {"Speed, Hz", "mean", "/hz", number, true},
+      {"Speed, Hz", "slowest 1 %", "/hz_slowest_1_percent", number, true},
+  }};
+  return table(methods, columns);
+}
+
+// The same judgement with other weights: every point counts once, or every cell of ground.
+std::string pooled_table(const Json& results) {
+  using enum Format;
+  std::vector<Column> columns = {
+      {"", "Method", "/title", text, false},
+      {"All points, %", "Precision", "/pooled/precision", percent, true},
+      {"All points, %", "Recall", "/pooled/recall", percent, true},
+      {"All points, %", "F1", "/pooled/f1", percent, true},
+      {"All points, %", "Accuracy", "/pooled/accuracy", percent, true},
+      {"All points, %", "IoU", "/pooled/iou", percent, true},
+  };
+  const std::vector<std::string> bands = range_bands(results);
+  for (std::size_t band = 0; band < bands.size(); ++band)
+    columns.push_back(
+        {"F1 by range, %", bands[band], fmt::format("/by_range/{}/f1", band), percent, true});
+  columns.push_back({"By area, %", "Precision", "/by_area/precision", percent, true});
+  columns.push_back({"By area, %", "Recall", "/by_area/recall", percent, true});
+  columns.push_back({"By area, %", "F1", "/by_area/f1", percent, true});
+  return table(results.at("methods"), columns);
+}
+
+// Errors of heights over one set of points ("ground", "everywhere") in each band of range.
+std::string height_table(const Json& methods, const Json& bands, std::string_view points) {
+  using enum Format;
+  std::vector<Column> columns = {{"", "Method", "/title", text, false}};
+  for (std::size_t band = 0; band < bands.size(); ++band) {
+    const std::string group = fmt::format("{}, cm", band_text(bands[band]));
+    const auto path = [&](std::string_view figure) {
+      return fmt::format("/heights/{}/by_range/{}/{}", points, band, figure);
+    };
+    columns.push_back({group, "Median", path("median/mean"), length, true});
+    columns.push_back({group, "95 %", path("percentile95/mean"), length, true});
+    columns.push_back({group, "Bias", path("bias/mean"), length, false});
+    columns.push_back({group, "Share, %", path("with_height"), percent, true});
+  }
+  return table(methods, columns);
+}
+
+std::string height_section(const Json& methods) {
+  Json judged = Json::array();
+  for (const Json& method : methods)
+    if (method.contains("heights")) judged.push_back(method);
+  if (judged.empty()) return {};
+  const Json& bands = judged.front().at("heights").at("ground").at("by_range");
+  return fmt::format(
+      "<section>\n<h2>Heights above the ground</h2>\n<h3>Points of the ground</h3>\n{}"
+      "<h3>All points</h3>\n{}"
+      "<p class=\"note\">Against the true ground, by distance from the sensor; means over the "
+      "scans. Median and 95 %: half of the points, and 95 in a hundred, have an absolute error of "
+      "at most that. Bias: mean error, above 0 where the ground is put too low. Share: points for "
+      "which the method has a height. All points: also those on what hides the ground.</p>\n"
+      "</section>\n",
+      height_table(judged, bands, "ground"), height_table(judged, bands, "everywhere"));
+}
+
+std::string f1_of_scan(const Json& method, const std::string& name) {
+  for (const Json& scan : method.at("per_scan"))
+    if (scan.at("scan") == name) return percent_text(scan.at("f1"));
+  return std::string(no_number);
+}
+
+std::string worst_scans(const Json& methods) {
+  std::string html;
+  for (const Json& method : methods) {
+    html += fmt::format("<div><h3>{}</h3>\n<ol>\n", escaped(method.at("title").get<std::string>()));
+    for (const Json& scan : method.at("worst")) {
+      const auto name = scan.get<std::string>();
+      html += fmt::format("<li><code>{}</code> <span>{}</span></li>\n", escaped(name),
+                          f1_of_scan(method, name));
+    }
+    html += "</ol></div>\n";
+  }
+  return html;
+}
+
+std::string failed_scans(const Json& failed) {
+  if (failed.empty()) return {};
+  std::string html = fmt::format(
+      "<section>\n<h2>Scans left out</h2>\n<p>{} could not be evaluated and count nowhere.</p>\n"
+      "<ul class=\"failed\">\n",
+      failed.size() == 1 ? "One scan" : fmt::format("{} scans", failed.size()));
+  for (const Json& scan : failed)
+    html +=
+        fmt::format("<li><code>{}</code> {}</li>\n", escaped(scan.at("scan").get<std::string>()),
+                    escaped(scan.at("error").get<std::string>()));
+  return html + "</ul>\n</section>\n";
+}
+
+std::string picture_gallery(std::span<const ReportPicture> pictures) {
+  if (pictures.empty()) return {};
+  std::string html =
+      "<section>\n<h2>Pictures</h2>\n<p>Scans from above, x (forward) up. Green: ground found; "
+      "blue: ground missed; red: taken for ground and is not; grey: rightly not ground.</p>\n";
+  for (const ReportPicture& picture : pictures) {
+    const std::string title = escaped(picture.title);
+    html += fmt::format(
+        "<figure>\n<img loading=\"lazy\" alt=\"{0}\" src=\"data:image/png;base64,{1}\">\n"
+        "<figcaption>{0}</figcaption>\n</figure>\n",
+        title, base64(picture.png));
+  }
+  return html + "</section>\n";
+}
+
+std::string title_of(const Json& results) {
+  return fmt::format("Ground segmentation under protocol {}: {} of {}",
+                     results.at("protocol").get<std::string>(), scan_count(results),
+                     dataset_names(results));
+}
+
+}  // namespace
+
+std::string eval_report(const Json& results, std::span<const ReportPicture> pictures) {
+  const Json& methods = results.at("methods");
+  const std::string title = title_of(results);
+  const std::string heading = escaped(title);
+  const std::string fact_list = facts(results);
+  const std::string methods_html = method_table(methods);
+  const std::string pooled_html = pooled_table(results);
+  const std::string heights_html = height_section(methods);
+  const std::string worst_html = worst_scans(methods);
+  const std::string failed_html = failed_scans(results.at("failed"));
+  const std::string pictures_html = picture_gallery(pictures);
+  const std::string rows = std::to_string(methods.size());
+  const std::array slots = {
+      Slot{"heading", heading},
+      Slot{"facts", fact_list},
+      Slot{"method_table", methods_html},
+      Slot{"pooled_table", pooled_html},
+      Slot{"heights", heights_html},
+      Slot{"worst", worst_html},
+      Slot{"failed", failed_html},
+      Slot{"pictures", pictures_html},
+      Slot{"rows", rows},
+  };
+  return page(title, fill(embedded::eval_html, slots), eval_plot_data(results), embedded::eval_js);
+}
+
+}  // namespace flagstone::report

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/report/sweep_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "lab/report/embedded_files.hpp"
+#include "lab/report/html.hpp"
+#include "lab/report/page.hpp"
+#include "lab/report/sweep_grid.hpp"
+#include "lab/report/table.hpp"
+
+namespace flagstone::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Metric {
+  const char* name;
+  const char* title;
+};
+constexpr std::array<Metric, 3> metrics = {{
+    {.name = "f1", .title = "F1"},
+    {.name = "precision", .title = "Precision"},
+    {.name = "recall", .title = "Recall"},
+}};
+
+std::string all_settings(const Json& results) {
+  using enum Format;
+  std::vector<Column> columns;
+  const Json& keys = results.at("keys");
+  columns.reserve(keys.size() + 3 * metrics.size());
+  for (std::size_t key = 0; key < keys.size(); ++key)
+    columns.push_back(
+        {"", keys[key].get<std::string>(), fmt::format("/values/{}", key), text, false});
+  for (const auto& [name, title] : metrics) {
+    const std::string group = fmt::format("{}, %", title);
+    columns.push_back({group, "mean", fmt::format("/{}/mean", name), percent, true});
+    columns.push_back({group, "σ", fmt::format("/{}/std", name), percent, false});
+    columns.push_back({group, "± 95 %", fmt::format("/{}/ci95", name), percent, false});
+  }
+  return table(results.at("cells"), columns);
+}
+
+std::string canvases() {
+  std::string html =
+      "<section>\n<h2>Plots</h2>\n<noscript><p>The plots need JavaScript; the table holds the same "
+      "numbers.</p></noscript>\n<div class=\"plots\">\n";
+  for (const auto& [name, title] : metrics)
+    html += fmt::format(
+        "<div class=\"plot\"><h3>{1}</h3><p>Mean and standard deviation over the scans, %</p>\n"
+        "<div class=\"canvas\"><canvas id=\"{0}\" role=\"img\" aria-label=\"{1} of each setting\">"
+        "</canvas></div></div>\n",
+        name, title);
+  return html + "</div>\n</section>\n";
+}
+
+// Shades tell how good a setting is among all: 0 is the lowest mean, 1 the highest.
+std::string heat_table(const SweepGrid& grid, const Metric& metric) {
+  const auto [low, high] = grid.bounds(metric.name);
+  std::string html = fmt::format(
+      "<h3>{}, %</h3>\n<div class=\"scroll\"><table class=\"heat\">\n<thead><tr>"
+      "<th class=\"name\">{} ↓ &nbsp; {} →</th>",
+      metric.title, escaped(grid.keys()[0]), escaped(grid.keys()[1]));
+  for (const std::string& second : grid.values(1))
+    html += fmt::format("<th scope=\"col\">{}</th>", escaped(second));
+  html += "</tr></thead>\n<tbody>\n";
+  for (std::size_t row = 0; row < grid.values(0).size(); ++row) {
+    html += fmt::format("<tr><th scope=\"row\">{}</th>", escaped(grid.values(0)[row]));
+    for (std::size_t column = 0; column < grid.values(1).size(); ++column) {
+      const Json mean = grid.mean(row, column, metric.name);
+      const double shade =
+          mean.is_number() && high > low ? (mean.get<double>() - low) / (high - low) : 0;
+      html += fmt::format("<td style=\"--shade: {:.3f}\">{}</td>", shade, percent_text(mean));
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody>\n</table></div>\n";
+}
+
+std::string heat_tables(const SweepGrid& grid) {
+  std::string html =
+      "<section>\n<h2>Means of all settings</h2>\n<p class=\"note\">The darker a cell, the higher "
+      "its mean among all settings.</p>\n";
+  for (const Metric& metric : metrics) html += heat_table(grid, metric);
+  return html + "</section>\n";
+}
+
+Json plot_data(const SweepGrid& grid) {
+  Json series = Json::array();
+  const std::size_t lines = grid.keys().size() > 1 ? grid.values(1).size() : 1;
+  for (std::size_t line = 0; line < lines; ++line) {
+    Json points;
+    for (const auto& [name, title] : metrics) {
+      points[name] = Json::array();
+      for (std::size_t place = 0; place < grid.values(0).size(); ++place)
+        points[name].push_back(
+            {{"mean", grid.mean(place, line, name)}, {"std", grid.deviation(place, line, name)}});
+    }
+    series.push_back(points);
+  }
+  Json values = Json::array();
+  for (std::size_t key = 0; key < grid.keys().size(); ++key) values.push_back(grid.values(key));
+  return {{"keys", grid.keys()}, {"values", values}, {"series", series}};
+}
+
+}  // namespace
+
+std::string sweep_report(const Json& results) {
+  const SweepGrid grid(results);
+  constexpr std::size_t most_lines = 6;
+  const bool heat = grid.keys().size() == 2 && grid.values(1).size() > most_lines &&
+                    grid.is_numeric(0) && grid.is_numeric(1);
+  const std::string title = fmt::format(
+      "{} of {} under protocol {}: {} of {}", fmt::join(grid.keys(), " and "),
+      results.at("method").get<std::string>(), results.at("protocol").get<std::string>(),
+      scan_count(results), dataset_names(results));
+  const std::string heading = escaped(title);
+  const std::string fact_list = facts(results);
+  const std::string winner = escaped(results.at("winner").get<std::string>());
+  const std::string plots = heat ? heat_tables(grid) : canvases();
+  const std::string settings = all_settings(results);
+  const std::array slots = {
+      Slot{"heading", heading}, Slot{"facts", fact_list}, Slot{"winner", winner},
+      Slot{"plots", plots},     Slot{"table", settings},
+  };
+  return page(title, fill(embedded::sweep_html, slots), heat ? Json::object() : plot_data(grid),
+              embedded::sweep_js);
+}
+
+}  // namespace flagstone::report

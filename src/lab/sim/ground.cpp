@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/sim/ground.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace flagstone::sim {
+namespace {
+
+bool ascends(const std::vector<double>& lines) {
+  return std::ranges::adjacent_find(lines, std::greater_equal<>{}) == lines.end();
+}
+
+// Index of the cell that holds `value`, the first or last one if it lies outside.
+std::size_t cell_of(const std::vector<double>& lines, double value) noexcept {
+  const auto above = std::upper_bound(lines.begin() + 1, lines.end() - 1, value);
+  return static_cast<std::size_t>(above - lines.begin()) - 1;
+}
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// A quantity that changes evenly along a ray.
+struct Along {
+  double begin = 0, rate = 0;
+  // The way at which it has come down to 0; never if it does not fall.
+  [[nodiscard]] double zero() const noexcept { return rate < 0 ? -begin / rate : never; }
+};
+Along operator+(double a, Along b) noexcept { return {a + b.begin, b.rate}; }
+Along operator+(Along a, Along b) noexcept { return {a.begin + b.begin, a.rate + b.rate}; }
+Along operator*(double a, Along b) noexcept { return {a * b.begin, a * b.rate}; }
+Along operator-(Along a) noexcept { return -1 * a; }
+Along operator-(Along a, Along b) noexcept { return a + -b; }
+
+}  // namespace
+
+Ground::Ground(GroundGrid grid, std::vector<double> heights, std::vector<Surface> surfaces)
+    : grid_(std::move(grid)), heights_(std::move(heights)), surfaces_(std::move(surfaces)) {
+  const std::size_t rows = grid_.x.size();
+  const std::size_t columns = grid_.t.size();
+  if (rows < 2 || columns < 2 || !ascends(grid_.x) || !ascends(grid_.t)) {
+    throw std::invalid_argument("ground grid: x and t need at least 2 lines each, ascending");
+  }
+  if (grid_.offset.size() != rows || heights_.size() != rows * columns ||
+      surfaces_.size() != (rows - 1) * (columns - 1)) {
+    throw std::invalid_argument(
+        "ground grid: needs an offset per x line, a height per grid point and a surface per cell");
+  }
+}
+
+Ground::Place Ground::place(double x, double y) const noexcept {
+  Place at{};
+  at.i = cell_of(grid_.x, x);
+  at.u = (x - grid_.x[at.i]) / (grid_.x[at.i + 1] - grid_.x[at.i]);
+  const double t = y - (grid_.offset[at.i] + at.u * (grid_.offset[at.i + 1] - grid_.offset[at.i]));
+  at.j = cell_of(grid_.t, t);
+  at.v = (t - grid_.t[at.j]) / (grid_.t[at.j + 1] - grid_.t[at.j]);
+  return at;
+}
+
+double Ground::height(double x, double y) const noexcept {
+  const Place at = place(x, y);
+  const double h00 = grid_height(at.i, at.j);
+  const double h10 = grid_height(at.i + 1, at.j);
+  const double h01 = grid_height(at.i, at.j + 1);
+  const double h11 = grid_height(at.i + 1, at.j + 1);
+  // The two triangles of add_to(): below and above the cell's diagonal.
+  return at.u >= at.v ? h00 + at.u * (h10 - h00) + at.v * (h11 - h10)
+                      : h00 + at.v * (h01 - h00) + at.u * (h11 - h01);
+}
+
+const Surface& Ground::surface(double x, double y) const noexcept {
+  const Place at = place(x, y);
+  return surfaces_[at.i * (grid_.t.size() - 1) + at.j];
+}
+
+bool Ground::covers(double x, double y) const noexcept {
+  const Place at = place(x, y);
+  return at.u >= 0 && at.u <= 1 && at.v >= 0 && at.v <= 1;
+}
+
+std::optional<double> Ground::first_crossing(Vector3 origin, Vector3 direction) const noexcept {
+  if (!covers(origin.x, origin.y)) return std::nullopt;
+  const double gap = origin.z - height(origin.x, origin.y);
+  if (gap == 0) return 0;
+  const Along x{origin.x, direction.x};
+  const Along y{origin.y, direction.y};
+  const Along z{origin.z, direction.z};
+  auto [i, j, u_begin, v_begin] = place(origin.x, origin.y);
+  bool is_lower = u_begin >= v_begin;  // of the cell's two triangles, as add_to() cuts it
+  double way = 0;
+  // From triangle to triangle; within one, everything changes evenly.
+  while (true) {
+    const double bend = grid_.offset[i + 1] - grid_.offset[i];
+    const Along u = 1 / (grid_.x[i + 1] - grid_.x[i]) * (-grid_.x[i] + x);
+    const Along t = -grid_.offset[i] + (y - bend * u);
+    const Along v = 1 / (grid_.t[j + 1] - grid_.t[j]) * (-grid_.t[j] + t);
+
+    const double h00 = grid_height(i, j);
+    const double h11 = grid_height(i + 1, j + 1);
+    const double corner = is_lower ? grid_height(i + 1, j) : grid_height(i, j + 1);
+    const Along ground = h00 + (is_lower ? (corner - h00) * u + (h11 - corner) * v
+                                         : (corner - h00) * v + (h11 - corner) * u);
+    const double meets = (gap > 0 ? z - ground : ground - z).zero();
+
+    const double over_diagonal = (is_lower ? u - v : v - u).zero();
+    const double over_u = (is_lower ? 1 + -u : u).zero();
+    const double over_v = (is_lower ? v : 1 + -v).zero();
+    const double leaves = std::min({over_diagonal, over_u, over_v});
+    if (meets < never && meets <= leaves) return std::max(meets, way);  // rounding looks not back
+    if (leaves == never) return std::nullopt;
+    way = std::max(way, leaves);
+
+    if (leaves == over_u) {
+      if (is_lower ? ++i == grid_.x.size() - 1 : i-- == 0) return std::nullopt;
+    } else if (leaves == over_v) {
+      if (is_lower ? j-- == 0 : ++j == grid_.t.size() - 1) return std::nullopt;
+    }
+    is_lower = !is_lower;
+  }
+}
+
+void Ground::add_to(Mesh& mesh) const {
+  const std::size_t columns = grid_.t.size();
+  const auto first = static_cast<std::uint32_t>(mesh.vertices().size());
+  for (std::size_t i = 0; i < grid_.x.size(); ++i) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      mesh.add_vertex({grid_.x[i], grid_.offset[i] + grid_.t[j], grid_height(i, j)});
+    }
+  }
+  for (std::size_t i = 0; i + 1 < grid_.x.size(); ++i) {
+    for (std::size_t j = 0; j + 1 < columns; ++j) {
+      const auto p00 = first + static_cast<std::uint32_t>(i * columns + j);
+      const auto p10 = p00 + static_cast<std::uint32_t>(columns);
+      const Surface& surface = surfaces_[i * (columns - 1) + j];
+      mesh.add_triangle({p00, p10, p10 + 1}, surface);
+      mesh.add_triangle({p00, p10 + 1, p00 + 1}, surface);
+    }
+  }
+}
+
+}  // namespace flagstone::sim

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "library/core/random.hpp"
+#include "lab/sim/frame.hpp"
+#include "lab/sim/mesh.hpp"
+
+namespace flagstone::sim {
+
+/// A house's measures, metres.
+struct House {
+  double width = 10;   ///< along the street
+  double depth = 9;    ///< away from it
+  double eaves = 5.5;  ///< height of the walls
+  double buried = 2;   ///< how far the walls reach below the ground at the front, for slopes
+};
+
+/// Walls that reach into the ground, recessed windows, a gabled roof, a door with a step. `frame`
+/// stands on the ground in the middle of the front wall, x along the wall and y into the house.
+void add_house(Mesh& mesh, const Frame& frame, const House& house, Random& random);
+
+}  // namespace flagstone::sim

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "library/core/random.hpp"
+#include "lab/sim/frame.hpp"
+#include "lab/sim/mesh.hpp"
+
+namespace flagstone::sim {
+
+/// A person in stride, 1.55 to 1.9 m tall; `frame` stands on the ground and looks forward.
+void add_person(Mesh& mesh, const Frame& frame, Random& random);
+
+}  // namespace flagstone::sim

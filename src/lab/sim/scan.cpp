@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/sim/scan.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <thread>
+
+#include "lab/sim/beams.hpp"
+#include "lab/sim/measurement.hpp"
+#include "lab/sim/surroundings.hpp"
+
+namespace flagstone::sim {
+namespace {
+
+SimulatedScan collect(const Beams& beams, const std::vector<std::optional<Echo>>& echoes,
+                      bool keep_no_returns) {
+  SimulatedScan scan;
+  scan.xyzi.reserve(4 * beams.size());
+  scan.classes.reserve(beams.size());
+  scan.echoes.reserve(beams.size());
+  for (std::size_t beam = 0; beam < beams.size(); ++beam) {
+    const std::optional<Echo>& echo = echoes[beam];
+    if (!echo) {
+      if (!keep_no_returns) continue;
+      scan.xyzi.insert(scan.xyzi.end(), 4, 0.0F);
+      scan.classes.push_back(0);
+      scan.echoes.push_back(EchoKind::none);
+      continue;
+    }
+    const Vector3 point = echo->range * beams[beam];
+    for (const double value : {point.x, point.y, point.z, echo->intensity}) {
+      scan.xyzi.push_back(static_cast<float>(value));
+    }
+    scan.classes.push_back(static_cast<std::uint32_t>(echo->semantic));
+    scan.echoes.push_back(echo->kind);
+  }
+  return scan;
+}
+
+}  // namespace
+
+SimulatedScan simulate(const Scene& scene, const Sensor& sensor, const Noise& noise,
+                       const Frame& pose, std::uint64_t seed, const ScanOptions& options) {
+  const unsigned threads = std::max(1U, options.threads);
+  const Beams beams(sensor, options.number);
+  const Surroundings surroundings(scene, options.moving);
+  const Measurement measure(surroundings, sensor, noise, beams, pose, seed);
+  std::vector<std::optional<Echo>> echoes(beams.size());
+  const auto cast_block = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t beam = begin; beam < end; ++beam) echoes[beam] = measure(beam);
+  };
+  {
+    std::vector<std::jthread> others;
+    for (unsigned block = 1; block < threads; ++block) {
+      others.emplace_back(cast_block, beams.size() * block / threads,
+                          beams.size() * (block + 1) / threads);
+    }
+    cast_block(0, beams.size() / threads);
+  }
+  return collect(beams, echoes, options.keep_no_returns);
+}
+
+}  // namespace flagstone::sim

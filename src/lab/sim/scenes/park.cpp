@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "lab/sim/ground_plan.hpp"
+#include "lab/sim/open_land.hpp"
+#include "lab/sim/person.hpp"
+#include "lab/sim/plants.hpp"
+#include "lab/sim/scenes/scenes.hpp"
+#include "lab/sim/street_furniture.hpp"
+#include "lab/sim/town_furniture.hpp"
+#include "lab/sim/traffic.hpp"
+#include "lab/sim/waves.hpp"
+#include "lab/sim/wild_plants.hpp"
+
+namespace flagstone::sim {
+namespace {
+
+constexpr Surface gravel{.semantic = SemanticClass::sidewalk, .reflectivity = 0.38F};
+constexpr Surface lawn{.semantic = SemanticClass::terrain, .reflectivity = 0.42F};
+constexpr Surface mud{.semantic = SemanticClass::terrain, .reflectivity = 0.25F};
+constexpr Surface water{
+    .semantic = SemanticClass::other_ground, .reflectivity = 0.04F, .mirror = 0.9F};
+
+constexpr double half_length = 115;  // of the ground, metres
+constexpr double half_width = 75;
+
+// Water in a hollow with an even bank.
+struct Pond {
+  double x = 0, t = 0;           // middle, metres
+  double along = 8, across = 5;  // half axes, metres
+  double level = 0;              // of the water, metres
+
+  // 0 in the middle, 1 on the shore.
+  [[nodiscard]] double outward(double at_x, double at_t) const noexcept {
+    return std::hypot((at_x - x) / along, (at_t - t) / across);
+  }
+};
+
+// t is measured to the left of the main path, along y; a foot path runs beside it.
+struct Park {
+  WindingPath path;
+  double path_half_width = 2;
+  double foot_path = 9;  // its t; on the side away from the pond
+  std::vector<Wave> hills, lawns, gravels;
+  Pond pond;
+
+  static constexpr double foot_path_half_width = 0.9;
+
+  [[nodiscard]] double land(double x, double t) const noexcept {
+    const double beside = smooth_step(path_half_width, path_half_width + 2.5, std::abs(t));
+    const double beside_foot_path =
+        smooth_step(foot_path_half_width, foot_path_half_width + 1, std::abs(t - foot_path));
+    return sum_at(hills, x, t) + beside * beside_foot_path * sum_at(lawns, x, t);
+  }
+  [[nodiscard]] double height(double x, double t) const noexcept {
+    const double out = pond.outward(x, t);
+    const double land_height = land(x, t);
+    constexpr double bank_end = 1.9;  // of the slope from the shore up to the lawn
+    if (out < 1) return pond.level;
+    if (out < bank_end) {
+      const double share = smooth_step(1, bank_end, out);
+      return pond.level + share * (land_height - pond.level);
+    }
+    return on_gravel(t) ? land_height - 0.03 + sum_at(gravels, x, t) : land_height;
+  }
+  [[nodiscard]] Surface surface(double x, double t) const noexcept {
+    const double out = pond.outward(x, t);
+    if (out < 0.97) return water;
+    if (out < 1.06) return mud;
+    return on_gravel(t) ? gravel : lawn;
+  }
+  [[nodiscard]] bool on_gravel(double t) const noexcept {
+    return std::abs(t) < path_half_width || std::abs(t - foot_path) < foot_path_half_width;
+  }
+};
+
+Park draw_park(Random& random) {
+  Park park;
+  park.path = {.swing = (random.chance(0.5) ? 1 : -1) * random.uniform(3, 5.5),
+               .swing_length = random.uniform(65, 110)};
+  park.path_half_width = random.uniform(1.5, 2.2);
+  draw_waves(park.hills, 4, {0.15, 0.45}, {45, 110}, random);
+  draw_waves(park.lawns, 6, {0.02, 0.06}, {5, 18}, random);
+  draw_waves(park.gravels, 6, {0.002, 0.005}, {0.8, 2.5}, random);
+  const double pond_side = random.chance(0.5) ? 1 : -1;
+  park.foot_path = -pond_side * random.uniform(6.5, 10);
+  park.pond = {.x = random.uniform(-25, 25),
+               .t = pond_side * random.uniform(16, 20),
+               .along = random.uniform(7, 11),
+               .across = random.uniform(4, 5.5)};
+  park.pond.level = park.land(park.pond.x, park.pond.t) - random.uniform(0.5, 0.9);
+  return park;
+}
+
+Ground make_park(const Park& park) {
+  const double edge = park.path_half_width;
+  std::vector<double> across = mirrored_lines(std::array{
+      LineBand{edge, 0.25}, LineBand{edge + 3, 0.3}, LineBand{30, 0.6}, LineBand{half_width, 1.5}});
+  across.push_back(park.foot_path - Park::foot_path_half_width);
+  across.push_back(park.foot_path + Park::foot_path_half_width);
+  finish_lines(across);
+  return cut_ground(
+      {.x = lines_in_bands(
+           -half_length, std::array{LineBand{-60, 1}, LineBand{60, 0.4}, LineBand{half_length, 1}}),
+       .t = std::move(across),
+       .offset = [&](double x) { return park.path.y(x); },
+       .height = [&](double x, double t) { return park.height(x, t); },
+       .surface = [&](double x, double t) { return park.surface(x, t); }});
+}
+
+// Meadows that nobody mows: some patches of high grass that touch each other.
+void grow_meadows(Mesh& mesh, const Park& park, const Ground& ground, Random& random) {
+  constexpr int meadows = 5;
+  constexpr int patches = 5;
+  for (int meadow = 0; meadow < meadows; ++meadow) {
+    const double x = -48 + 96 * (meadow + random.uniform()) / meadows;
+    const double side = random.chance(0.5) ? 1 : -1;
+    const double t = side * random.uniform(5, 11);
+    const double height = random.uniform(0.3, 0.8);
+    for (int patch = 0; patch < patches; ++patch) {
+      HighGrass grass{.x = x + random.uniform(-5, 5),
+                      .radius = random.uniform(1.8, 3.3),
+                      .height = height * random.uniform(0.85, 1)};
+      const double nearest = park.path_half_width + 0.2 + grass.radius;
+      const double at = side * std::max(nearest, std::abs(t) + random.uniform(-4, 4));
+      if (std::abs(at - park.foot_path) < grass.radius + 1 ||
+          park.pond.outward(grass.x, at) < 1.3) {
+        continue;
+      }
+      grass.y = park.path.y(grass.x) + at;
+      add_high_grass(mesh, ground, grass, random);
+    }
+  }
+}
+
+void put_up_furniture(Mesh& mesh, const Park& park, const Ground& ground, Random& random) {
+  // Turned to the path, from beside it.
+  const auto stand = [&](double x, double t) {
+    const double y = park.path.y(x) + t;
+    return upright_frame({x, y, ground.height(x, y)},
+                         park.path.at(x).yaw + (t > 0 ? -1 : 1) * std::numbers::pi / 2);
+  };
+  const double lamp_side = random.chance(0.5) ? 1 : -1;
+  for (double x = -85 + random.uniform(0, 12); x < 90; x += random.uniform(18, 24)) {
+    add_lamp_post(mesh, stand(x, lamp_side * (park.path_half_width + 0.6)));
+  }
+  for (double x = -60 + random.uniform(0, 10); x < 60; x += random.uniform(12, 22)) {
+    const double side = random.chance(0.5) ? 1 : -1;
+    add_bench(mesh, stand(x, side * (park.path_half_width + 0.7)));
+    if (random.chance(0.6)) add_bin(mesh, stand(x + 1.6, side * (park.path_half_width + 0.6)));
+    if (random.chance(0.4))
+      add_person(mesh, stand(x + 0.5, side * (park.path_half_width + 2.2)), random);
+  }
+}
+
+Mesh furnish_park(const Park& park, const Ground& ground, Random random) {
+  Mesh mesh;
+  // On the lawns: neither in the water nor on a path.
+  const auto grow = [&](double per_square_metre, Interval from_path, double clear, auto plant) {
+    scatter(park.path, {.from_path = from_path}, per_square_metre, random, [&](double x, double y) {
+      const double t = y - park.path.y(x);
+      if (park.pond.outward(x, t) < 1.25 || std::abs(t - park.foot_path) < clear) return;
+      plant(mesh, ground, x, y, random);
+    });
+  };
+  grow(0.003, {5.2, 60}, 1.8, add_tree);
+  grow(0.008, {park.path_half_width + 1.5, 35}, 2.3, add_bush);
+  grow(0.004, {park.path_half_width + 1.8, 20}, 2.5, add_ground_cover);
+  grow(0.25, {park.path_half_width + 0.2, 18}, 1, add_tuft);
+  grow_meadows(mesh, park, ground, random);
+  put_up_furniture(mesh, park, ground, random);
+  return mesh;
+}
+
+// On the foot path.
+Traffic draw_walkers(const Park& park, std::vector<Stop> route, Random& random) {
+  Traffic walkers(std::move(route));
+  const WindingPath path = park.path;
+  for (int i = 0; i < 9; ++i) {
+    const double t = park.foot_path + random.uniform(-0.6, 0.6);
+    const double speed = (random.chance(0.5) ? 1 : -1) * random.uniform(0.8, 1.8);
+    walkers.join(
+        {.kind = RoadUser::person,
+         .at = along([path](double x) { return path.at(x); }, t, random.uniform(-55, 55), speed),
+         .look = random.bits()});
+  }
+  return walkers;
+}
+
+}  // namespace
+
+Landscape park(std::uint64_t seed) {
+  Random random = Random::stream(seed, 0);
+  Park park = draw_park(random);
+  Ground ground = make_park(park);
+  std::vector<Stop> route = wander_along([&](double x) { return park.path.at(x); }, random);
+  Traffic walkers = draw_walkers(park, route, random);
+  return {.ground = std::move(ground),
+          .route = std::move(route),
+          .furnish = [park = std::move(park),
+                      random](const Ground& on) { return furnish_park(park, on, random); },
+          .moving = [walkers = std::move(walkers)](const Ground& on,
+                                                   int stop) { return walkers.at(on, stop); }};
+}
+
+}  // namespace flagstone::sim

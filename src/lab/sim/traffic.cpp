@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/sim/traffic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "lab/sim/bus.hpp"
+#include "lab/sim/car.hpp"
+#include "lab/sim/cyclist.hpp"
+#include "lab/sim/forklift.hpp"
+#include "lab/sim/frame.hpp"
+#include "lab/sim/person.hpp"
+#include "lab/sim/truck.hpp"
+
+namespace flagstone::sim {
+namespace {
+
+struct Footprint {
+  double length, width;  // metres
+};
+Footprint footprint(RoadUser kind) noexcept {
+  switch (kind) {
+    case RoadUser::car: return {longest_car, widest_car};
+    case RoadUser::truck: return {truck_length, truck_width};
+    case RoadUser::bus: return {bus_length, bus_width};
+    case RoadUser::cyclist: return {1.8, 0.7};
+    case RoadUser::person: return {0.7, 0.7};
+    case RoadUser::forklift: return {forklift_length, forklift_width};
+  }
+  return {};
+}
+
+// From a place to the nearest of what stands at a stop, metres.
+double distance_to(const Stop& stop, Footprint size, double x, double y) noexcept {
+  const double dx = x - stop.x;
+  const double dy = y - stop.y;
+  const double ahead = dx * std::cos(stop.yaw) + dy * std::sin(stop.yaw);
+  const double aside = dy * std::cos(stop.yaw) - dx * std::sin(stop.yaw);
+  return std::hypot(std::max(std::abs(ahead) - size.length / 2, 0.0),
+                    std::max(std::abs(aside) - size.width / 2, 0.0));
+}
+
+// Are the two nearer than `gap` metres? Looks at points along one's middle line.
+bool meet(const Stop& one, Footprint one_size, const Stop& other, Footprint other_size,
+          double gap) noexcept {
+  const double reach =
+      (one_size.length + other_size.length) / 2 + one_size.width + other_size.width + gap;
+  if (std::abs(one.x - other.x) > reach || std::abs(one.y - other.y) > reach) return false;
+  const double half = std::max(0.0, (one_size.length - one_size.width) / 2);
+  const int points = 1 + 2 * static_cast<int>(std::ceil(half));
+  for (int i = 0; i < points; ++i) {
+    const double along = points == 1 ? 0 : half * (2.0 * i / (points - 1) - 1);
+    const double from = distance_to(other, other_size, one.x + along * std::cos(one.yaw),
+                                    one.y + along * std::sin(one.yaw));
+    if (from < one_size.width / 2 + gap) return true;
+  }
+  return false;
+}
+
+constexpr double checked_every = 0.2;  // seconds
+constexpr int checks = static_cast<int>((frames_per_drive - 1) * stop_interval / checked_every) + 1;
+
+Stop on_route(const std::vector<Stop>& route, double seconds) noexcept {
+  const double stops = seconds / stop_interval;
+  const auto before = std::min(static_cast<std::size_t>(stops), route.size() - 2);
+  const double share = stops - static_cast<double>(before);
+  const Stop& one = route[before];
+  const Stop& next = route[before + 1];
+  return {
+      .x = one.x + share * (next.x - one.x), .y = one.y + share * (next.y - one.y), .yaw = one.yaw};
+}
+
+void add_vehicle(Mesh& mesh, const Ground& ground, const Mover& mover, const Stop& stop,
+                 Random& random) {
+  const auto on_wheels = [&](double wheelbase, double track) {
+    return frame_on_wheels(ground, stop.x, stop.y, stop.yaw, wheelbase, track);
+  };
+  switch (mover.kind) {
+    case RoadUser::car: return add_car(mesh, on_wheels(2.6, 1.5), random);
+    case RoadUser::truck: return add_truck(mesh, on_wheels(11, 2), random);
+    case RoadUser::bus: return add_bus(mesh, on_wheels(6, 2), random);
+    case RoadUser::forklift: return add_forklift(mesh, on_wheels(1.6, 1), random);
+    case RoadUser::cyclist: return add_cyclist(mesh, on_wheels(1, 0.3), random);
+    case RoadUser::person:
+      return add_person(
+          mesh, upright_frame({stop.x, stop.y, ground.height(stop.x, stop.y)}, stop.yaw), random);
+  }
+}
+
+}  // namespace
+
+std::function<Stop(double seconds)> along(Path path, double t, double x_begin, double speed) {
+  return [path = std::move(path), t, x_begin, speed](double seconds) {
+    Stop stop = path(x_begin + speed * seconds);
+    stop.y += t;
+    if (speed < 0) stop.yaw += std::numbers::pi;
+    return stop;
+  };
+}
+
+std::function<Stop(double seconds)> straight(Stop begin, double speed, double way) {
+  return [begin, speed, way](double seconds) {
+    const double gone = std::min(speed * seconds, way);
+    return Stop{.x = begin.x + gone * std::cos(begin.yaw),
+                .y = begin.y + gone * std::sin(begin.yaw),
+                .yaw = begin.yaw};
+  };
+}
+
+bool Traffic::join(Mover mover) {
+  const Footprint size = footprint(mover.kind);
+  const bool wide = mover.kind == RoadUser::truck || mover.kind == RoadUser::bus;
+  const double from_sensor = wide ? 2.5 : 3;
+  constexpr Footprint own_size{.length = 10, .width = 2};  // with the distance to who drives ahead
+  const bool walks = mover.kind == RoadUser::person;
+  for (int check = 0; check < checks; ++check) {
+    const double seconds = check * checked_every;
+    const Stop own = on_route(route_, seconds);
+    const Stop stop = mover.at(seconds);
+    if (distance_to(stop, size, own.x, own.y) < from_sensor ||
+        meet(own, own_size, stop, size, 0.2)) {
+      return false;
+    }
+    const auto meets = [&](const Mover& other) {
+      const double gap = walks && other.kind == RoadUser::person ? 0.1 : 0.4;
+      return meet(stop, size, other.at(seconds), footprint(other.kind), gap);
+    };
+    if (std::ranges::any_of(movers_, meets)) return false;
+  }
+  movers_.push_back(std::move(mover));
+  return true;
+}
+
+void Traffic::fill(const Lane& lane, const std::function<RoadUser(Random&)>& draw, Random& random) {
+  const double way = lane.speed * (frames_per_drive - 1) * stop_interval;
+  const double end = lane.x.high - std::min(way, 0.0);
+  double x = lane.x.low - std::max(way, 0.0) + random.uniform(0, lane.gap.high);
+  while (x < end) {
+    const RoadUser kind = draw(random);
+    const double half = footprint(kind).length / 2;
+    x += half;
+    join({.kind = kind, .at = along(lane.path, lane.t, x, lane.speed), .look = random.bits()});
+    x += half + random.uniform(lane.gap.low, lane.gap.high);
+  }
+}
+
+Mesh Traffic::at(const Ground& ground, int stop) const {
+  constexpr double margin = 8;  // of the longest
+  Mesh mesh;
+  for (const Mover& mover : movers_) {
+    const Stop now = mover.at(stop * stop_interval);
+    if (!ground.covers(now.x - margin, now.y) || !ground.covers(now.x + margin, now.y)) continue;
+    Random random(mover.look);
+    add_vehicle(mesh, ground, mover, now, random);
+  }
+  return mesh;
+}
+
+}  // namespace flagstone::sim

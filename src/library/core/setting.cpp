@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/core/setting.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <stdexcept>
+
+namespace flagstone {
+namespace {
+
+/// False for NaN.
+bool is_allowed(double value, const Allowed& allowed) {
+  if (std::isinf(value)) return value > 0 && allowed.or_infinity;
+  const bool high_enough = allowed.without_low ? value > allowed.low : value >= allowed.low;
+  return high_enough && value <= allowed.high;
+}
+
+struct Check {
+  std::string_view method;
+  const Setting& setting;
+
+  void operator()(const bool* /*value*/) const {}
+  void operator()(const int* value) const {
+    check_number(method, setting.key, *value, setting.allowed);
+  }
+  void operator()(const float* value) const {
+    check_number(method, setting.key, *value, setting.allowed);
+  }
+  void operator()(const std::vector<float>* values) const {
+    check_number(method, "length of " + std::string(setting.key),
+                 static_cast<double>(values->size()), {.low = 1, .high = 1000});
+    check_each(*values);
+  }
+  void operator()(const std::array<float, 3>* values) const { check_each(*values); }
+  void operator()(const Choice& choice) const {
+    if (choice.index() < choice.names().size()) return;
+    refuse_setting(method, setting.key, static_cast<double>(choice.index()), "one of its names");
+  }
+
+  void check_each(std::span<const float> values) const {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      check_number(method, std::string(setting.key) + "[" + std::to_string(i) + "]", values[i],
+                   setting.allowed);
+    }
+  }
+};
+
+}  // namespace
+
+std::string to_string(const Allowed& allowed) {
+  std::ostringstream text;
+  if (allowed.without_low) {
+    text << "above " << allowed.low << ", up to " << allowed.high;
+  } else {
+    text << allowed.low << " to " << allowed.high;
+  }
+  if (!allowed.unit.empty()) text << ' ' << allowed.unit;
+  if (allowed.or_infinity) text << ", or inf for none";
+  if (!allowed.remark.empty()) text << " (" << allowed.remark << ')';
+  return text.str();
+}
+
+void refuse_setting(std::string_view method, std::string_view key, double value,
+                    std::string_view allowed) {
+  std::ostringstream message;
+  message << method << ": " << key << " = " << value << " is out of range; allowed: " << allowed;
+  throw std::invalid_argument(message.str());
+}
+
+void check_number(std::string_view method, std::string_view key, double value,
+                  const Allowed& allowed) {
+  if (!is_allowed(value, allowed)) refuse_setting(method, key, value, to_string(allowed));
+}
+
+void check_settings(std::string_view method, const std::vector<Setting>& settings) {
+  for (const Setting& setting : settings) {
+    std::visit(Check{method, setting}, setting.value);
+  }
+}
+
+}  // namespace flagstone

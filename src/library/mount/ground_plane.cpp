@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/mount/ground_plane.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace flagstone::mount {
+namespace {
+
+/// Between directions of the first look: tangent of 5 degrees, which is half a metre of height 6 m
+/// away, as much as a level is thick.
+constexpr float direction_step = 0.0875f;
+
+/// Metres a level is thick, in two slices; both overlap with those above and below.
+constexpr float slice = 0.25f;
+
+/// What lies below a level counts against it so many times as what lies in it counts for it.
+constexpr float cost_below = 2;
+
+/// Points looked at for every direction; all of them for the refinement of the best few.
+constexpr std::size_t few = 2048;
+constexpr std::size_t most_candidates = 4;
+
+/// What a plane with this normal scores counts for so much, 0 to 1: with a `lean_cost` of 45 for
+/// nine tenths at 3 degrees from the expected up, for half at 8.5 and for a quarter at 14.5.
+float belief_in(const Vector3f& up, float lean_cost) noexcept {
+  const float cosine_square = up[2] * up[2];
+  return cosine_square / (cosine_square + lean_cost * (1 - cosine_square));
+}
+
+/// The refinement believes points within these distances of the plane, one round after the other,
+/// metres, and half as far above it once the plane is nearly there: what stands on the ground is
+/// always above it.
+constexpr std::array<float, 6> gates = {0.6f, 0.45f, 0.3f, 0.22f, 0.15f, 0.15f};
+constexpr float gate_growth = 0.015f;  // metres a metre of range
+constexpr std::size_t one_sided_from = 2;
+
+/// The ground is a plane in the first rounds and may bend in the last ones: over crests, in dips.
+constexpr std::size_t bends_from = 3;
+
+/// Points on a line, or far off to one side, do not tell how the ground lies below the vehicle. As
+/// if as much as this were seen level and even: metres^2 for the slope, metres^4 for the bend.
+constexpr double level_prior = 0.3;
+constexpr double even_prior = 100;
+
+/// z = c + a x + b y + xx x^2 + xy x y + yy y^2 by weighted least squares, in double precision.
+class GroundFit {
+ public:
+  static constexpr std::size_t terms = 6;
+  using Terms = std::array<double, terms>;
+
+  void add(double weight, double x, double y, double z) noexcept {
+    const Terms term = {1, x, y, x * x, x * y, y * y};
+    for (std::size_t row = 0; row < terms; ++row) {
+      const double weighted = weight * term[row];
+      for (std::size_t column = 0; column <= row; ++column) {
+        squares_[row][column] += weighted * term[column];
+      }
+      right_[row] += weighted * z;
+    }
+  }
+
+  /// The first `count` of the terms, 3 or 6, the others 0; nothing without any weight.
+  [[nodiscard]] std::optional<Terms> solve(std::size_t count) const noexcept {
+    const double weight = squares_[0][0];
+    if (!(weight > 0)) return {};
+    // Cholesky: with the priors the matrix is positive definite.
+    std::array<Terms, terms> root = squares_;
+    const Terms prior = {1e-9, level_prior, level_prior, even_prior, even_prior, even_prior};
+    Terms solution = right_;
+    for (std::size_t row = 0; row < count; ++row) {
+      root[row][row] += weight * prior[row];
+      for (std::size_t column = 0; column <= row; ++column) {
+        double rest = root[row][column];
+        for (std::size_t k = 0; k < column; ++k) rest -= root[row][k] * root[column][k];
+        if (column < row) {
+          root[row][column] = rest / root[column][column];
+        } else {
+          if (!(rest > 0)) return {};
+          root[row][row] = std::sqrt(rest);
+        }
+      }
+      for (std::size_t k = 0; k < row; ++k) solution[row] -= root[row][k] * solution[k];
+      solution[row] /= root[row][row];
+    }
+    for (std::size_t row = count; row-- > 0;) {
+      for (std::size_t k = row + 1; k < count; ++k) solution[row] -= root[k][row] * solution[k];
+      solution[row] /= root[row][row];
+    }
+    for (std::size_t row = count; row < terms; ++row) solution[row] = 0;
+    return solution;
+  }
+
+ private:
+  std::array<Terms, terms> squares_{};
+  Terms right_{};
+};
+
+float gate_at(float gate, const NearPoint& p) noexcept {
+  return gate + gate_growth * (std::abs(p.x) + std::abs(p.y));
+}
+
+}  // namespace
+
+PlaneSearch::PlaneSearch(const MountLimits& limits, bool looks_for_tilt) : limits_(limits) {
+  const auto tangent =
+      looks_for_tilt ? std::tan(double{limits.most_tilt} * std::numbers::pi / 180) : 0.0;
+  const int steps = static_cast<int>(std::ceil(tangent / double{direction_step}));
+  for (int j = -steps; j <= steps; ++j) {
+    for (int i = -steps; i <= steps; ++i) {
+      if (i * i + j * j > steps * steps) continue;
+      directions_.push_back(unit(
+          {direction_step * static_cast<float>(i), direction_step * static_cast<float>(j), 1}));
+    }
+  }
+  few_.resize(few);
+  levels_.resize(static_cast<std::size_t>(std::ceil((limits.most_height + 1) / slice)) + 2);
+  best_.reserve(most_candidates + 1);
+}
+
+PlaneSearch::Candidate PlaneSearch::level_along(std::span<const NearPoint> points,
+                                                const Vector3f& up) noexcept {
+  // Slices are counted upward from below the lowest ground there can be; what is lower still is in
+  // the first.
+  const auto count = levels_.size();
+  const float lowest = -static_cast<float>(count - 1) * slice;
+  std::ranges::fill(levels_, 0.0f);
+  for (const NearPoint& p : points) {
+    const float z = up[0] * p.x + up[1] * p.y + up[2] * p.z;
+    if (z >= 0) continue;
+    const auto index = static_cast<std::size_t>(std::max((z - lowest) / slice, 0.0f));
+    levels_[std::min(index, count - 1)] += p.weight;
+  }
+  Candidate best;
+  float below = 0;
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    const float height =
+        -(lowest + static_cast<float>(i + 1) * slice);  // the middle of i and i + 1
+    const float score = levels_[i] + levels_[i + 1] - cost_below * below;
+    below += levels_[i - 1];
+    if (height + slice < limits_.least_height || height - slice > limits_.most_height) continue;
+    if (score > best.score) best = {.plane = {up, height}, .score = score};
+  }
+  return best;
+}
+
+void PlaneSearch::rank_directions(std::span<const NearPoint> points, float lean_cost) noexcept {
+  best_.clear();
+  std::span<const NearPoint> looked_at = points;
+  if (directions_.size() > 1 && points.size() > few) {
+    for (std::size_t i = 0; i < few; ++i) few_[i] = points[i * points.size() / few];
+    looked_at = few_;
+  }
+  for (const Vector3f& up : directions_) {
+    Candidate candidate = level_along(looked_at, up);
+    candidate.score *= belief_in(up, lean_cost);
+    if (!(candidate.score > 0)) continue;
+    const auto place =
+        std::ranges::upper_bound(best_, candidate.score, std::ranges::greater(), &Candidate::score);
+    best_.insert(place, candidate);
+    if (best_.size() > most_candidates) best_.pop_back();
+  }
+}
+
+float PlaneSearch::score(std::span<const NearPoint> points,
+                         const GroundPlane& plane) const noexcept {
+  const Turn turn = turn_to_z(plane.up);
+  float in = 0;
+  float below = 0;
+  for (const NearPoint& p : points) {
+    const auto [x, y, z] = turn.apply({p.x, p.y, p.z});
+    const float above = plane.above(x, y, z);
+    const float gate = gate_at(gates.back(), p);
+    const float relative = above / gate;
+    const float left = std::max(1 - relative * relative, 0.0f);
+    in += p.weight * left * left;
+    below += above < -2 * gate ? p.weight : 0;
+  }
+  return in - cost_below * below;
+}
+
+namespace {
+
+GroundPlane refined(std::span<const NearPoint> points, GroundPlane plane) noexcept {
+  for (std::size_t round = 0; round < gates.size(); ++round) {
+    const Turn turn = turn_to_z(plane.up);
+    GroundFit fit;
+    for (const NearPoint& p : points) {
+      const auto [x, y, z] = turn.apply({p.x, p.y, p.z});
+      const float above = plane.above(x, y, z);
+      const float gate = gate_at(gates[round], p);
+      const float relative = above / (above > 0 && round >= one_sided_from ? gate / 2 : gate);
+      const float left = 1 - relative * relative;
+      if (left > 0) fit.add(double{p.weight} * left * left, x, y, z + plane.height);
+    }
+    const auto solution = fit.solve(round < bends_from ? 3 : GroundFit::terms);
+    if (!solution) break;
+    std::array<float, GroundFit::terms> term{};
+    std::ranges::transform(*solution, term.begin(), [](double v) { return static_cast<float>(v); });
+    const auto [c, a, b, xx, xy, yy] = term;
+    // From z = a x + b y + c - height to a plane at right angles to its own up.
+    const float shorter = 1 / std::sqrt(1 + a * a + b * b);
+    plane = {.up = unit(turn.undo({-a * shorter, -b * shorter, shorter})),
+             .height = (plane.height - c) * shorter,
+             .xx = xx,
+             .xy = xy,
+             .yy = yy};
+  }
+  return plane;
+}
+
+}  // namespace
+
+std::optional<GroundPlane> PlaneSearch::find(std::span<const NearPoint> points,
+                                             float lean_cost) noexcept {
+  rank_directions(points, lean_cost);
+  std::optional<GroundPlane> best;
+  float best_score = 0;
+  for (const Candidate& candidate : best_) {
+    const GroundPlane plane = refined(points, candidate.plane);
+    const float reached = score(points, plane) * belief_in(plane.up, lean_cost);
+    if (best && reached <= best_score) continue;
+    best = plane;
+    best_score = reached;
+  }
+  return best;
+}
+
+}  // namespace flagstone::mount

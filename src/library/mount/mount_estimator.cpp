@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "library/core/own_floating_point.hpp"
+#include "flagstone/mount.hpp"
+#include "library/mount/agreement.hpp"
+#include "library/mount/expected_mount.hpp"
+#include "library/mount/ground_plane.hpp"
+#include "library/mount/near_points.hpp"
+#include "library/mount/vectors.hpp"
+
+namespace flagstone {
+
+using mount::Agreement;
+using mount::AgreementCount;
+using mount::degrees_between;
+using mount::GroundPlane;
+using mount::NearPoint;
+using mount::NearPoints;
+using mount::PlaneSearch;
+using mount::Turn;
+using mount::turn_to_z;
+
+namespace {
+
+/// Fewer places with a point do not make a ground.
+constexpr std::size_t fewest_points = 40;
+
+/// Directions of sixteen: ground in so many surrounds the sensor, in so few lies on one side of it.
+constexpr int all_round = 8;
+constexpr int narrow = 4;
+
+/// Ground seen on the average farther away than this share of the reach tells little of how it lies
+/// below the sensor: then it is asked for again within so many times the reach.
+constexpr float far_share = 0.52f;
+constexpr float farther = 2.5f;
+
+/// From afar a lean is easily made up of walls and rows of cars, so that more must speak for one.
+constexpr float lean_cost_afar = 45;
+
+MountSettings checked(const MountSettings& settings) {
+  settings.check();
+  return settings;
+}
+
+}  // namespace
+
+/// Points near the vehicle, a plane through them, what they say of that plane.
+struct MountEstimator::Workings {
+  explicit Workings(const MountSettings& given)
+      : settings(checked(given)),
+        looks_for_tilt(settings.tilt == TiltSource::estimate),
+        expected(mount::expected_mount(settings)),
+        level(turn_to_z(expected.up)),
+        near(settings.limits, looks_for_tilt),
+        search(settings.limits, looks_for_tilt) {}
+
+  MountDecision estimate(CloudView cloud) noexcept;
+  MountDecision look(CloudView cloud, float reach, float lean_cost) noexcept;
+  void take_plane(const GroundPlane& plane, const Agreement& agreed,
+                  MountDecision& decision) const noexcept;
+  [[nodiscard]] std::optional<MountVerdict> beyond_limits(const Mount& mount) const noexcept;
+
+  MountSettings settings;
+  bool looks_for_tilt;
+  Mount expected;
+  Turn level;  // from the cloud's frame to one with the expected up along z
+  NearPoints near;
+  PlaneSearch search;
+  AgreementCount agreement;
+  float ground_range = 0;  // of the last look, metres: its reach if it found no ground
+};
+
+void MountEstimator::Workings::take_plane(const GroundPlane& plane, const Agreement& agreed,
+                                          MountDecision& decision) const noexcept {
+  const auto [x, y, z] = plane.up;
+  if (looks_for_tilt) {
+    decision.mount.up = mount::unit(level.undo(plane.up));
+    decision.mount.sensor_height = plane.height;
+  } else {
+    // Straight down; where ground is seen on one side only, there: nobody knows whether its slope
+    // goes on to the sensor or is the sensor's own.
+    const float off = static_cast<float>(all_round - agreed.directions) / (all_round - narrow);
+    const float to_seen = std::clamp(off, 0.0f, 1.0f);
+    decision.mount.sensor_height = (plane.height + to_seen * (x * agreed.x + y * agreed.y)) / z;
+  }
+  decision.tilt = degrees_between(decision.mount.up, {0, 0, 1});
+}
+
+std::optional<MountVerdict> MountEstimator::Workings::beyond_limits(
+    const Mount& mount) const noexcept {
+  const MountLimits& limits = settings.limits;
+  if (degrees_between(mount.up, expected.up) > limits.most_tilt) return MountVerdict::tilt_limit;
+  const bool is_within =
+      mount.sensor_height >= limits.least_height && mount.sensor_height <= limits.most_height;
+  if (!is_within) return MountVerdict::height_limit;
+  return {};
+}
+
+MountDecision MountEstimator::Workings::look(CloudView cloud, float reach,
+                                             float lean_cost) noexcept {
+  MountDecision decision;
+  decision.mount = expected;
+  decision.tilt = degrees_between(expected.up, {0, 0, 1});
+  decision.verdict = MountVerdict::too_few_points;
+  ground_range = reach;
+  const std::span<const NearPoint> points = near.find(cloud, expected, level, reach);
+  decision.points = static_cast<std::uint32_t>(points.size());
+  if (points.size() < fewest_points) return decision;
+
+  decision.verdict = MountVerdict::no_level;
+  const std::optional<GroundPlane> plane = search.find(points, lean_cost);
+  if (!plane) return decision;
+  const Agreement agreed = agreement.of(points, *plane, reach);
+  ground_range = agreed.range;
+  take_plane(*plane, agreed, decision);
+  decision.cells = agreed.cells;
+  decision.free = agreed.free;
+  decision.below = agreed.below;
+  decision.spread = agreed.spread;
+  decision.directions = agreed.directions;
+  decision.seen = agreed.seen;
+  mount::judge(decision, settings.limits.least_confidence);
+  if (const auto beyond = beyond_limits(decision.mount)) {
+    decision.verdict = *beyond;
+    decision.confidence = 0;
+  }
+  return decision;
+}
+
+MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
+  const OwnFloatingPoint same_everywhere;
+  if (cloud.data() == nullptr) cloud = {};
+  const float reach = settings.limits.reach;
+  const auto begins_afar = [&] { return ground_range > far_share * reach; };
+  MountDecision near_by = look(cloud, reach, lean_cost_afar);
+  if (looks_for_tilt && !begins_afar()) near_by = look(cloud, reach, 0);
+  return begins_afar() ? look(cloud, farther * reach, lean_cost_afar) : near_by;
+}
+
+MountEstimator::MountEstimator(const MountSettings& settings)
+    : workings_(std::make_unique<Workings>(settings)) {}
+MountEstimator::~MountEstimator() = default;
+MountEstimator::MountEstimator(MountEstimator&&) noexcept = default;
+MountEstimator& MountEstimator::operator=(MountEstimator&&) noexcept = default;
+
+MountDecision MountEstimator::estimate(CloudView cloud) noexcept {
+  return workings_->estimate(cloud);
+}
+
+const MountSettings& MountEstimator::settings() const noexcept { return workings_->settings; }
+
+}  // namespace flagstone

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "library/core/setting.hpp"
+#include "flagstone/mount.hpp"
+
+namespace flagstone {
+
+/// All settings of `settings` but the sensor's height, which every method has among its own, in the
+/// order they are printed, in the table `mount`; they point into it.
+std::vector<Setting> settings_of(MountSettings& settings);
+
+}  // namespace flagstone

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "flagstone/patchwork_config.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "library/patchwork/patchwork_settings.hpp"
+
+namespace flagstone {
+namespace {
+
+constexpr std::string_view method = "patchwork";
+
+/// Checks one zone that begins at `inner` metres; returns where it ends.
+float check_zone(const Zone& zone, const std::string& name, float inner) {
+  check_number(method, "length of " + name + ".ring_radii",
+               static_cast<double>(zone.ring_radii.size()),
+               {.low = 1, .high = 1000, .unit = "rings"});
+  for (std::size_t i = 0; i < zone.ring_radii.size(); ++i) {
+    check_number(method, name + ".ring_radii[" + std::to_string(i) + "]", zone.ring_radii[i],
+                 {.low = inner,
+                  .high = 1000,
+                  .unit = "m",
+                  .without_low = true,
+                  .remark = "radii ascend outward, from min_range on"});
+    inner = zone.ring_radii[i];
+  }
+  check_number(method, name + ".sectors", zone.sectors, {.low = 1, .high = 3600});
+  if (!(zone.height_margin < -1.0f)) {
+    refuse_setting(method, name + ".height_margin", zone.height_margin,
+                   "below -1 (minus infinity for no margin)");
+  }
+  return inner;
+}
+
+void check_zones(const PatchworkConfig& config) {
+  check_number(method, "number of zones", static_cast<double>(config.zones.size()),
+               {.low = 1, .high = 16});
+  float inner = config.min_range;
+  std::size_t bins = 0;
+  for (std::size_t m = 0; m < config.zones.size(); ++m) {
+    const Zone& zone = config.zones[m];
+    inner = check_zone(zone, "zones[" + std::to_string(m) + "]", inner);
+    bins += zone.ring_radii.size() * static_cast<std::size_t>(zone.sectors);
+  }
+  check_number(method, "number of bins (rings times sectors over all zones)",
+               static_cast<double>(bins), {.low = 1, .high = 65535});
+}
+
+}  // namespace
+
+std::vector<float> equal_rings(float inner, float outer, int count) {
+  std::vector<float> radii;
+  radii.reserve(static_cast<std::size_t>(std::max(count, 0)));
+  for (int i = 1; i <= count; ++i) {
+    const double share = static_cast<double>(i) / count;
+    radii.push_back(static_cast<float>(inner + share * (static_cast<double>(outer) - inner)));
+  }
+  return radii;
+}
+
+std::vector<Setting> settings_of(PatchworkConfig& c) {
+  return {
+      {"sensor_height",
+       &c.sensor_height,
+       "h_s: sensor above ground",
+       {.low = -100, .high = 100, .unit = "m"}},
+      {"min_range",
+       &c.min_range,
+       "L_min: nearer points are out of range",
+       {.low = 0, .high = 1000, .unit = "m"}},
+      {"noise_depth",
+       &c.noise_depth,
+       "points lower than -h_s - noise_depth - noise_slope * r are noise",
+       {.low = 0, .high = 1000, .unit = "m", .or_infinity = true}},
+      {"noise_slope",
+       &c.noise_slope,
+       "steepest descent of ground still believed",
+       {.low = 0, .high = 10, .unit = "m/m"}},
+      {"min_points",
+       &c.min_points,
+       "bins with fewer points are not fitted",
+       {.low = 3, .high = 1000000}},
+      {"few_points_are_ground", &c.few_points_are_ground, "what the points of such bins are"},
+      {"seed_count",
+       &c.seed_count,
+       "N_seed: lowest points that start the fit",
+       {.low = 1, .high = 1000}},
+      {"seed_height",
+       &c.seed_height,
+       "z_seed, eq. (4)",
+       {.low = 0, .high = 100, .unit = "m", .without_low = true}},
+      {"keep_below_margin", &c.keep_below_margin,
+       "whether points below a zone's height margin may enter the first ground set"},
+      {"distance_margin",
+       &c.distance_margin,
+       "M_d, eqs. (5) and (6)",
+       {.low = 0, .high = 100, .unit = "m", .without_low = true}},
+      {"noise_margin",
+       &c.noise_margin,
+       "points farther below the plane are no part of it but noise",
+       {.low = 0, .high = 1000, .unit = "m", .without_low = true, .or_infinity = true}},
+      {"support_margin",
+       &c.support_margin,
+       "points farther below a ground plane are ground in a plane of their own, else noise",
+       {.low = 0, .high = 1000, .unit = "m", .without_low = true, .or_infinity = true}},
+      {"iterations", &c.iterations, "plane fits a bin", {.low = 1, .high = 100}},
+      {"judge_final_set", &c.judge_final_set,
+       "whether the likelihood judges the final ground set (paper) or the last fitted one (public "
+       "code)"},
+      {"field_of_view.begin",
+       &c.field_of_view.begin,
+       "where sector 0 begins, counter-clockwise from x",
+       {.low = -360, .high = 360, .unit = "degrees"}},
+      {"field_of_view.width",
+       &c.field_of_view.width,
+       "how far the zones go from there; points outside are out of range",
+       {.low = 0, .high = 360, .unit = "degrees", .without_low = true}},
+      {"uprightness.enabled", &c.uprightness.enabled, "phi, eq. (8)"},
+      {"uprightness.angle",
+       &c.uprightness.angle,
+       "theta_tau: smallest angle between normal and x-y plane",
+       {.low = 0, .high = 90, .unit = "degrees"}},
+      {"elevation.enabled", &c.elevation.enabled, "psi, eq. (9)"},
+      {"elevation.base",
+       &c.elevation.base,
+       "kappa(r) = -h_s + base * exp(growth * r)",
+       {.low = 0, .high = 100, .unit = "m"}},
+      {"elevation.growth", &c.elevation.growth, "of kappa", {.low = 0, .high = 1, .unit = "per m"}},
+      {"elevation.range",
+       &c.elevation.range,
+       "L_tau: bins centred beyond are not judged by elevation",
+       {.low = 0, .high = 1000, .unit = "m"}},
+      {"elevation.scale",
+       &c.elevation.scale,
+       "width of the step; 1 is the paper's formula",
+       {.low = 0, .high = 1000, .unit = "m", .without_low = true}},
+      {"flatness.enabled", &c.flatness.enabled, "varphi, eq. (10)"},
+      {"flatness.gain", &c.flatness.gain, "zeta", {.low = 1, .high = 1000, .without_low = true}},
+      {"flatness.thresholds",
+       &c.flatness.thresholds,
+       "sigma_tau of each ring, the last one for all beyond",
+       {.low = 0, .high = 1.0 / 3}},
+      {"flatness.scale",
+       &c.flatness.scale,
+       "width of the step, units of sigma; 1 is the paper's formula",
+       {.low = 0, .high = 1000, .without_low = true}},
+  };
+}
+
+void PatchworkConfig::check() const {
+  PatchworkConfig copy = *this;  // settings point into something that may be written to
+  check_settings(method, settings_of(copy));
+  check_zones(*this);
+}
+
+}  // namespace flagstone

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "library/core/setting.hpp"
+#include "flagstone/patchwork_config.hpp"
+
+namespace flagstone {
+
+/// All settings of `config` but the zones, in the order they are printed; they point into it.
+std::vector<Setting> settings_of(PatchworkConfig& config);
+
+}  // namespace flagstone

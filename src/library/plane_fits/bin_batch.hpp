@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "library/core/buffer.hpp"
+#include "library/core/plane.hpp"
+#include "library/plane_fits/bin_groups.hpp"
+#include "library/plane_fits/moved_points.hpp"
+#include "library/plane_fits/scan_points.hpp"
+
+namespace flagstone::plane_fits {
+
+/// Up to sixteen bins S_n that are fitted together, their points packed so that every pass of the
+/// fit reads contiguous memory. All are added by add() and then gathered, or all by add_sample().
+///
+/// A bin takes a multiple of 16 places. Behind its points z is infinite: such places are above any
+/// plane and need no special case.
+class BinBatch {
+ public:
+  /// Makes room for bins of `points` points together; may throw std::bad_alloc.
+  void reserve(std::size_t points);
+
+  /// No bins.
+  void clear() noexcept { count_ = 0; }
+
+  /// Adds a bin that has points. At most batch_size of them.
+  void add(std::uint32_t bin, std::uint32_t size) noexcept {
+    bins_[count_] = bin;
+    sizes_[count_] = size;
+    firsts_[count_] = count_ == 0 ? 0 : firsts_[count_ - 1] + places(count_ - 1);
+    ++count_;
+  }
+
+  /// Packs the points of the bins: x and y as seen from `origin(i)`, z as it is.
+  void gather(const ScanPoints& scan, const BinGroups& groups) noexcept;
+
+  /// Adds a bin that has these points and packs them likewise. Of n points, where those are more
+  /// than `most`, 1 to 65,535, it takes numbers j * n / most for all j < most. 16 points behind the
+  /// last may be read.
+  void add_sample(std::uint32_t bin, std::span<const MovedPoint> points, std::size_t most) noexcept;
+
+  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+  [[nodiscard]] std::uint32_t bin(std::size_t i) const noexcept { return bins_[i]; }
+
+  /// Points of bin `i` of the batch.
+  [[nodiscard]] std::size_t size(std::size_t i) const noexcept { return sizes_[i]; }
+  /// The places they take.
+  [[nodiscard]] std::size_t places(std::size_t i) const noexcept {
+    return (std::size_t{sizes_[i]} + 15) / 16 * 16;
+  }
+
+  /// Midway between the first and the last point packed, metres; near all of them, so that single
+  /// precision is enough for what is seen from there.
+  struct Origin {
+    float x, y;
+  };
+  [[nodiscard]] Origin origin(std::size_t i) const noexcept { return origins_[i]; }
+
+  /// Packed coordinates of bin `i`, metres; aligned to a vector.
+  [[nodiscard]] float* x(std::size_t i) noexcept { return x_.data() + firsts_[i]; }
+  [[nodiscard]] float* y(std::size_t i) noexcept { return y_.data() + firsts_[i]; }
+  [[nodiscard]] float* z(std::size_t i) noexcept { return z_.data() + firsts_[i]; }
+  [[nodiscard]] const float* x(std::size_t i) const noexcept { return x_.data() + firsts_[i]; }
+  [[nodiscard]] const float* y(std::size_t i) const noexcept { return y_.data() + firsts_[i]; }
+  [[nodiscard]] const float* z(std::size_t i) const noexcept { return z_.data() + firsts_[i]; }
+
+ private:
+  std::size_t count_ = 0;
+  std::array<std::uint32_t, batch_size> bins_{};
+  std::array<std::uint32_t, batch_size> sizes_{};
+  std::array<std::size_t, batch_size> firsts_{};
+  std::array<Origin, batch_size> origins_{};
+  Buffer<float> x_;
+  Buffer<float> y_;
+  Buffer<float> z_;
+};
+
+}  // namespace flagstone::plane_fits

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/plane_fits/plane_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flagstone::plane_fits {
+namespace {
+
+/// The least float that is not below `value`.
+float round_up(double value) {
+  const auto nearest = static_cast<float>(value);
+  return nearest < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
+                         : nearest;
+}
+
+BinMask all_of(const BinBatch& batch) { return (BinMask{1} << batch.count()) - 1; }
+
+}  // namespace
+
+void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
+                   Result& result) noexcept {
+  // z-bar_init, eq. (4)
+  std::array<float, batch_size> floors{};
+  for (std::size_t i = 0; i < batch.count(); ++i) floors[i] = round_up(seeds.floors[i]);
+  Batch initial_heights;
+  seed_heights_.find(batch, floors, seeds.counts, initial_heights);
+  clock.end(Stage::seed);
+
+  // G^0, eq. (4), with the points below the floor kept out where that is wanted. Heights are seen
+  // from z-bar_init from now on; where there was no seed and it is 0, from the first point.
+  GroundSets& sets = result.sets;
+  std::array<FirstSet, batch_size> first_sets{};
+  for (std::size_t i = 0; i < batch.count(); ++i) {
+    const float origin =
+        initial_heights[i] == 0 ? batch.z(i)[0] : static_cast<float>(initial_heights[i]);
+    const double floor =
+        settings_.keep_below_floor ? -std::numeric_limits<double>::infinity() : seeds.floors[i];
+    const double bottom = std::max(floor, initial_heights[i] - settings_.seed_depth) - origin;
+    const double top = initial_heights[i] + settings_.seed_height - origin;
+    first_sets[i] = {origin, round_up(bottom), round_up(top)};
+    sets[i] = {0, 0, 1, first_sets[i].bottom, first_sets[i].top};
+    result.origins[i] = {batch.origin(i).x, batch.origin(i).y, origin};
+  }
+  sum_first_moments(batch, first_sets, moments_);
+
+  // G^(l+1), eqs. (5) and (6): the points less than M_d above the plane of G^l, and not so far
+  // below it that they are noise.
+  PlaneBatch& planes = result.judged;
+  result.exists = fit_sets(batch, sets, all_of(batch), clock, planes);
+  for (int l = 1; l < settings_.iterations; ++l) {
+    choose_next_sets(planes, sets);
+    sum_moments(batch, sets, result.exists, Precision::single, moments_);
+    result.exists = fit_sets(batch, sets, result.exists, clock, planes);
+  }
+  choose_next_sets(planes, sets);
+  if (settings_.judge_final_set) {
+    sum_moments(batch, sets, result.exists, Precision::single, moments_);
+    result.exists = fit_sets(batch, sets, result.exists, clock, planes);
+  }
+}
+
+/// Eq. (3) for the bins in `wanted`, whose moments are taken; returns those that have a plane.
+BinMask PlaneFit::fit_sets(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
+                           StageClock& clock, PlaneBatch& planes) noexcept {
+  clock.end(Stage::moments);
+  const BinMask doubtful = fit_planes(moments_, planes) & wanted;
+  clock.end(Stage::solve);
+  if (doubtful != 0) {
+    sum_moments(batch, sets, doubtful, Precision::full, moments_);
+    clock.end(Stage::moments);
+    fit_planes(moments_, planes);
+    clock.end(Stage::solve);
+  }
+
+  BinMask exists = 0;
+  for (std::size_t i = 0; i < batch.count(); ++i) {
+    exists |= static_cast<BinMask>(planes.count[i] >= 3) << i;
+  }
+  return exists & wanted;
+}
+
+void PlaneFit::choose_next_sets(const PlaneBatch& planes, GroundSets& sets) const noexcept {
+  for (std::size_t i = 0; i < batch_size; ++i) {
+    sets[i] = {.normal_x = static_cast<float>(planes.normal[0][i]),
+               .normal_y = static_cast<float>(planes.normal[1][i]),
+               .normal_z = static_cast<float>(planes.normal[2][i]),
+               .bottom = static_cast<float>(-settings_.noise_margin - planes.d[i]),
+               .top = static_cast<float>(settings_.distance_margin - planes.d[i])};
+  }
+}
+
+}  // namespace flagstone::plane_fits

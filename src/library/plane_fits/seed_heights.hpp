@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "library/core/buffer.hpp"
+#include "library/core/plane.hpp"
+#include "library/plane_fits/bin_batch.hpp"
+
+namespace flagstone::plane_fits {
+
+/// z-bar_init of eq. (4) for the bins of a batch.
+class SeedHeights {
+ public:
+  /// Makes room for bins of `points` points; may throw std::bad_alloc.
+  void reserve(std::size_t points) { heights_.reserve(points + 32); }
+
+  /// For each bin the mean height of its `counts[i]` lowest points, N_seed, at least 1, that are
+  /// not below `floors[i]`; 0 where there are none, as in the public code. Metres. The sum is taken
+  /// from the lowest up, so that it does not depend on the order of the points.
+  void find(const BinBatch& batch, const std::array<float, batch_size>& floors,
+            const std::array<std::uint32_t, batch_size>& counts, Batch& means) noexcept;
+
+ private:
+  Buffer<float> heights_;
+};
+
+}  // namespace flagstone::plane_fits

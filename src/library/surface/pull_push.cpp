@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/surface/pull_push.hpp"
+
+#include <algorithm>
+#include <array>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "library/surface/pull_push.cpp"
+#include <hwy/foreach_target.h>
+// The above includes this file once for each instruction set.
+#include <hwy/highway.h>
+
+#ifndef FLAGSTONE_SURFACE_PULL_PUSH_ONCE
+#define FLAGSTONE_SURFACE_PULL_PUSH_ONCE
+namespace flagstone::surface {
+
+/// A grid in memory, cell (row, column) at `values[row * stride + column]`.
+struct FilledGrid {
+  float* values;
+  float* weights;
+  std::size_t width;
+  std::size_t stride;
+};
+
+}  // namespace flagstone::surface
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::surface::HWY_NAMESPACE {
+namespace {
+
+// Plain loops: the compiler makes vectors of them, for each instruction set its own.
+
+/// Weighted means of two by two cells. Where the width is odd, the last ones have no partner.
+void pull(const FilledGrid& fine, const FilledGrid& coarse, float full) {
+  for (std::size_t row = 0; row < coarse.width; ++row) {
+    const std::size_t upper = 2 * row;
+    const std::size_t lower = std::min(upper + 1, fine.width - 1);
+    const float lower_there = upper + 1 < fine.width ? 1.0f : 0.0f;
+    const float* HWY_RESTRICT v0 = fine.values + upper * fine.stride;
+    const float* HWY_RESTRICT v1 = fine.values + lower * fine.stride;
+    const float* HWY_RESTRICT w0 = fine.weights + upper * fine.stride;
+    const float* HWY_RESTRICT w1 = fine.weights + lower * fine.stride;
+    float* HWY_RESTRICT values = coarse.values + row * coarse.stride;
+    float* HWY_RESTRICT weights = coarse.weights + row * coarse.stride;
+    const auto pull_cell = [&](std::size_t column, std::size_t left, std::size_t right,
+                               float right_there) {
+      const float a = std::min(w0[left], full);
+      const float b = std::min(w0[right], full) * right_there;
+      const float c = std::min(w1[left], full) * lower_there;
+      const float d = std::min(w1[right], full) * right_there * lower_there;
+      const float weight = (a + b) + (c + d);
+      const float sum = (a * v0[left] + b * v0[right]) + (c * v1[left] + d * v1[right]);
+      values[column] = weight > 0 ? sum / weight : 0.0f;
+      weights[column] = weight;
+    };
+    const std::size_t pairs = fine.width / 2;
+    for (std::size_t column = 0; column < pairs; ++column) {
+      pull_cell(column, 2 * column, 2 * column + 1, 1.0f);
+    }
+    if (pairs < coarse.width) pull_cell(pairs, 2 * pairs, 2 * pairs, 0.0f);
+  }
+}
+
+/// Repeats the outermost cells of a grid in a frame around it.
+void frame(const FilledGrid& grid) {
+  for (float* cells : {grid.values, grid.weights}) {
+    const auto stride = static_cast<std::ptrdiff_t>(grid.stride);
+    const auto width = static_cast<std::ptrdiff_t>(grid.width);
+    for (std::ptrdiff_t row = 0; row < width; ++row) {
+      float* const line = cells + row * stride;
+      line[-1] = line[0];
+      line[width] = line[width - 1];
+    }
+    std::copy_n(cells - 1, width + 2, cells - 1 - stride);
+    std::copy_n(cells - 1 + (width - 1) * stride, width + 2, cells - 1 + width * stride);
+  }
+}
+
+/// Takes from the coarser grid, framed and holding confidences, what the finer one does not know.
+void push(const FilledGrid& coarse, const FilledGrid& fine, float full) {
+  const float per_weight = 1 / full;
+  for (std::size_t row = 0; row < fine.width; ++row) {
+    // Bilinear between centres: three quarters of the coarse cell around, a quarter of the next.
+    const auto near = static_cast<std::ptrdiff_t>(row / 2);
+    const std::ptrdiff_t far = row % 2 == 0 ? near - 1 : near + 1;
+    const auto stride = static_cast<std::ptrdiff_t>(coarse.stride);
+    const float* HWY_RESTRICT v_near = coarse.values + near * stride;
+    const float* HWY_RESTRICT v_far = coarse.values + far * stride;
+    const float* HWY_RESTRICT c_near = coarse.weights + near * stride;
+    const float* HWY_RESTRICT c_far = coarse.weights + far * stride;
+    float* HWY_RESTRICT values = fine.values + row * fine.stride;
+    float* HWY_RESTRICT weights = fine.weights + row * fine.stride;
+    const auto push_cell = [&](std::size_t column, std::ptrdiff_t here, std::ptrdiff_t beside) {
+      const float value = 0.75f * (0.75f * v_near[here] + 0.25f * v_far[here]) +
+                          0.25f * (0.75f * v_near[beside] + 0.25f * v_far[beside]);
+      const float confidence = 0.75f * (0.75f * c_near[here] + 0.25f * c_far[here]) +
+                               0.25f * (0.75f * c_near[beside] + 0.25f * c_far[beside]);
+      const float known = std::min(1.0f, weights[column] * per_weight);
+      values[column] = known * values[column] + (1 - known) * value;
+      weights[column] = known + (1 - known) * (0.5f * confidence);
+    };
+    const std::size_t pairs = fine.width / 2;
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+      const auto here = static_cast<std::ptrdiff_t>(pair);
+      push_cell(2 * pair, here, here - 1);
+      push_cell(2 * pair + 1, here, here + 1);
+    }
+    if (fine.width % 2 != 0) {
+      const auto here = static_cast<std::ptrdiff_t>(pairs);
+      push_cell(2 * pairs, here, here - 1);
+    }
+  }
+}
+
+/// The coarsest grid: one cell.
+void settle(const FilledGrid& grid, float full) {
+  grid.weights[0] = std::min(1.0f, grid.weights[0] / full);
+}
+
+void fill_grids(const FilledGrid* grids, std::size_t count, float full) {
+  for (std::size_t i = 1; i < count; ++i) pull(grids[i - 1], grids[i], full);
+  settle(grids[count - 1], full);
+  for (std::size_t i = count - 1; i > 0; --i) {
+    frame(grids[i]);
+    push(grids[i], grids[i - 1], full);
+  }
+}
+
+}  // namespace
+}  // namespace flagstone::surface::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace flagstone::surface {
+namespace {
+HWY_EXPORT(fill_grids);
+
+constexpr std::size_t most_grids = 16;
+
+std::size_t half_of(std::size_t width) { return (width + 1) / 2; }
+
+}  // namespace
+
+PullPush::PullPush(std::size_t width) {
+  std::size_t cells = 0;
+  while (width > 1) {
+    width = half_of(width);
+    cells += (width + 2) * (width + 2);
+  }
+  values_.reserve(cells);
+  weights_.reserve(cells);
+}
+
+void PullPush::fill(float* values, float* weights, std::size_t width, float full) noexcept {
+  std::array<FilledGrid, most_grids> grids{};
+  grids[0] = {.values = values, .weights = weights, .width = width, .stride = width};
+  std::size_t count = 1;
+  std::size_t first = 0;
+  while (grids[count - 1].width > 1) {
+    const std::size_t half = half_of(grids[count - 1].width);
+    const std::size_t stride = half + 2;
+    grids[count] = {.values = values_.data() + first + stride + 1,
+                    .weights = weights_.data() + first + stride + 1,
+                    .width = half,
+                    .stride = stride};
+    first += stride * stride;
+    ++count;
+  }
+  HWY_DYNAMIC_DISPATCH(fill_grids)(grids.data(), count, full);
+}
+
+}  // namespace flagstone::surface
+#endif

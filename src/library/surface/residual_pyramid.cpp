@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/surface/residual_pyramid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "library/surface/grid_steps.hpp"
+
+namespace flagstone::surface {
+namespace {
+
+/// A cell with fewer points is not looked at.
+constexpr std::size_t fewest_points = 3;
+
+/// A cell whose observations weigh as much keeps its correction, whatever is around.
+constexpr float full_weight = 0.5f;
+
+/// Cells that one thread observes at a time.
+constexpr std::size_t cells_of_a_job = 256;
+
+/// Where the cells of a block lie that are numbered along a Z-order curve.
+struct InBlock {
+  std::uint8_t row, column;
+};
+constexpr auto in_z_order = [] {
+  std::array<InBlock, 1024> places{};
+  for (std::uint8_t row = 0; row < 32; ++row) {
+    for (std::uint8_t column = 0; column < 32; ++column) {
+      places[z_order(column, row)] = {.row = row, .column = column};
+    }
+  }
+  return places;
+}();
+
+float reach_of(std::size_t level, const SquareCells& cells) {
+  return std::min(levels[level].reach, cells.extent());
+}
+
+}  // namespace
+
+ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells& cells)
+    : settings_(config.refinement) {
+  const auto grid_count = static_cast<std::size_t>(std::max(settings_.levels, 1));
+  std::size_t total = 0;
+  std::size_t largest = 0;
+  for (std::size_t level = 0; level < grid_count; ++level) {
+    Grid grid{.cell = levels[level].cell};
+    grid.width = static_cast<std::size_t>(std::lround(2 * reach_of(level, cells) / grid.cell));
+    grids_.push_back(grid);
+    total += grid.size();
+    largest = std::max(largest, grid.size());
+  }
+  heights_.reserve(total);
+  confidences_.reserve(total);
+  corrections_.reserve(largest);
+  weights_.reserve(largest);
+  std::size_t first = 0;
+  for (Grid& grid : grids_) {
+    grid.heights = heights_.data() + first;
+    grid.confidences = confidences_.data() + first;
+    first += grid.size();
+  }
+
+  const auto level_total = static_cast<std::size_t>(settings_.levels);
+  cells_.resize(level_total);
+  for (std::size_t level = 0; level < level_total; ++level) {
+    // Every cell may be small, or none.
+    cells_[level].small.reserve(grids_[level].size() + 1);
+    cells_[level].large.reserve(grids_[level].size() + 1);
+    cells_[level].first_block =
+        static_cast<std::uint32_t>((cells.extent() - grids_[level].extent()) / block_size);
+  }
+  const int half = cells.half_blocks();
+  for (int row = 0; row < 2 * half; ++row) {
+    for (int column = 0; column < 2 * half; ++column) {
+      const int ring = std::max({column - half, half - 1 - column, row - half, half - 1 - row});
+      std::size_t reached = 0;
+      while (reached < level_total &&
+             static_cast<float>(ring * block_size) < levels[reached].reach) {
+        ++reached;
+      }
+      blocks_.push_back({.cells = cells.block(column, row),
+                         .column = static_cast<std::uint32_t>(column),
+                         .row = static_cast<std::uint32_t>(row),
+                         .levels = reached});
+    }
+  }
+}
+
+/// Lists the cells of all levels, block by block.
+void ResidualPyramid::list_cells(const plane_fits::BinGroups& groups) noexcept {
+  for (LevelCells& level : cells_) level.small_count = level.large_count = 0;
+  for (const Block& block : blocks_) {
+    if (groups.points(block.cells.first, block.cells.last).size() < fewest_points) continue;
+    groups.list_begins(block.cells.first, block.cells.last, begins_.data());
+    for (std::size_t level = 0; level < block.levels; ++level) list_cells_of(block, level);
+  }
+}
+
+void ResidualPyramid::list_cells_of(const Block& block, std::size_t level) noexcept {
+  LevelCells& list = cells_[level];
+  const auto along = static_cast<std::uint32_t>(block_size / levels[level].cell);
+  const std::size_t each = (block.cells.last - block.cells.first) / (along * along);
+  const std::uint32_t first_row = (block.row - list.first_block) * along;
+  const std::uint32_t first_column = (block.column - list.first_block) * along;
+  OccupiedCell* small = list.small.data() + list.small_count;
+  OccupiedCell* large = list.large.data() + list.large_count;
+  for (std::uint32_t place = 0; place < along * along; ++place) {
+    const std::uint32_t first = begins_[place * each];
+    const std::uint32_t count = begins_[(place + 1) * each] - first;
+    const OccupiedCell cell{.first = first,
+                            .count = count,
+                            .row = first_row + in_z_order[place].row,
+                            .column = first_column + in_z_order[place].column};
+    // Without a branch: whether a cell is occupied is hard to foresee.
+    *small = *large = cell;
+    small += static_cast<std::ptrdiff_t>(count >= fewest_points && count <= small_cell);
+    large += static_cast<std::ptrdiff_t>(count > small_cell);
+  }
+  list.small_count = static_cast<std::size_t>(small - list.small.data());
+  list.large_count = static_cast<std::size_t>(large - list.large.data());
+}
+
+void ResidualPyramid::refine(const plane_fits::BinGroups& groups, PullPush& pull_push,
+                             Crew& crew) noexcept {
+  list_cells(groups);
+  for (std::size_t level = 0; level < cells_.size(); ++level) {
+    const Grid& grid = grids_[level];
+    if (level > 0) upsample(grids_[level - 1], grid);
+    std::fill_n(corrections_.data(), grid.size(), 0.0f);
+    std::fill_n(weights_.data(), grid.size(), 0.0f);
+    observe_level(level, groups, crew);
+    pull_push.fill(corrections_.data(), weights_.data(), grid.width, full_weight);
+    const bool inner = level > 0 && grid.extent() < grids_[level - 1].extent();
+    correct(corrections_.data(), weights_.data(), inner, grid);
+  }
+}
+
+float ResidualPyramid::gate_of(std::size_t level) const noexcept {
+  float gate = settings_.gate;  // step by step: std::pow is not the same everywhere
+  for (std::size_t i = 0; i < level; ++i) gate *= settings_.gate_factor;
+  return gate;
+}
+
+void ResidualPyramid::observe_level(std::size_t level, const plane_fits::BinGroups& groups,
+                                    Crew& crew) noexcept {
+  const Observations observations{.points = groups.points(0, 0).data(),
+                                  .surface = &grids_[level],
+                                  .gate = gate_of(level),
+                                  .gate_growth = settings_.gate_growth,
+                                  .contrast = settings_.contrast,
+                                  .lower_bound_weight = settings_.lower_bound_weight,
+                                  .corrections = corrections_.data(),
+                                  .weights = weights_.data()};
+  const LevelCells& list = cells_[level];
+  const auto jobs_of = [](std::size_t count) {
+    return (count + cells_of_a_job - 1) / cells_of_a_job;
+  };
+  const std::size_t large_jobs = jobs_of(list.large_count);
+  crew.run(large_jobs + jobs_of(list.small_count), [&](std::size_t, std::size_t job) {
+    const bool large = job < large_jobs;
+    const std::size_t first = (large ? job : job - large_jobs) * cells_of_a_job;
+    const std::size_t count = large ? list.large_count : list.small_count;
+    const OccupiedCell* const cells = large ? list.large.data() : list.small.data();
+    observe(observations, {cells + first, std::min(cells_of_a_job, count - first)},
+            large ? CellSize::any : CellSize::small);
+  });
+}
+
+}  // namespace flagstone::surface

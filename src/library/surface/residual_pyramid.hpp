@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "library/core/buffer.hpp"
+#include "library/core/crew.hpp"
+#include "flagstone/surface_config.hpp"
+#include "library/plane_fits/bin_groups.hpp"
+#include "library/surface/cell_observations.hpp"
+#include "library/surface/grid.hpp"
+#include "library/surface/pull_push.hpp"
+#include "library/surface/square_cells.hpp"
+
+namespace flagstone::surface {
+
+/// The surface on grids of 2, 1, 0.5 and 0.25 m, each correcting the one before by what its points'
+/// heights above it say.
+class ResidualPyramid {
+ public:
+  /// May throw std::bad_alloc.
+  ResidualPyramid(const SurfaceConfig& config, const SquareCells& cells);
+
+  /// Coarsest first; they lie one after another in memory, heights as well as confidences.
+  [[nodiscard]] std::span<const Grid> grids() const noexcept { return grids_; }
+
+  /// Refines the surface on the coarsest grid, and from it makes those on the others.
+  void refine(const plane_fits::BinGroups& groups, PullPush& pull_push, Crew& crew) noexcept;
+
+ private:
+  /// A block of 8 m.
+  struct Block {
+    CellRange cells;
+    std::uint32_t column, row;  ///< in blocks from the edge
+    std::size_t levels;         ///< that reach it
+  };
+
+  /// The cells of a level that hold points enough, small ones and others.
+  struct LevelCells {
+    Buffer<OccupiedCell> small, large;
+    std::size_t small_count = 0, large_count = 0;
+    std::uint32_t first_block = 0;  ///< blocks between the edge and where the level begins
+  };
+
+  void list_cells(const plane_fits::BinGroups& groups) noexcept;
+  void list_cells_of(const Block& block, std::size_t level) noexcept;
+  [[nodiscard]] float gate_of(std::size_t level) const noexcept;
+  void observe_level(std::size_t level, const plane_fits::BinGroups& groups, Crew& crew) noexcept;
+
+  Refinement settings_;
+  std::vector<Grid> grids_;
+  std::vector<Block> blocks_;
+  std::vector<LevelCells> cells_;             ///< by level
+  std::array<std::uint32_t, 1025> begins_{};  ///< of one block: where each cell's points begin
+  Buffer<float> heights_;
+  Buffer<float> confidences_;
+  Buffer<float> corrections_;
+  Buffer<float> weights_;
+};
+
+}  // namespace flagstone::surface

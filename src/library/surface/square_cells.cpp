@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/surface/square_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flagstone::surface {
+namespace {
+
+/// Rings of blocks that the levels reach, class by class: 8, 24 and 40 m from the sensor, the rest.
+constexpr std::array<int, level_count> class_of_level = {3, 2, 1, 0};
+
+/// Blocks from the sensor to where the class ends.
+int class_reach(int ring_class, int half_blocks) {
+  for (std::size_t level = 0; level < level_count; ++level) {
+    if (class_of_level[level] != ring_class) continue;
+    return std::min(static_cast<int>(levels[level].reach) / block_size, half_blocks);
+  }
+  return half_blocks;
+}
+
+int class_of_ring(int ring, int half_blocks) {
+  int ring_class = 0;
+  while (ring_class < 3 && ring >= class_reach(ring_class, half_blocks)) ++ring_class;
+  return ring_class;
+}
+
+/// Coordinates up to this share of the extent stay inside where cells are counted from the edge:
+/// the sum of the two is rounded. Only matters where the range ends with a block.
+constexpr float last_inside = 1 - 1.0f / (1 << 22);
+
+float squared(float value) { return value * value; }
+
+/// Cells along a block's side: 32, 16, 8, 4.
+constexpr int cells_along(int ring_class) { return 32 >> ring_class; }
+
+}  // namespace
+
+SquareCells::SquareCells(const SurfaceConfig& config)
+    : half_blocks_(static_cast<int>(std::ceil(config.max_range / block_size))),
+      max_squared_range_(squared(std::min(config.max_range, last_inside * extent()))),
+      noise_height_(-config.sensor_height - config.noise_depth),
+      noise_slope_(config.noise_slope) {
+  std::array<std::uint32_t, level_count> bases{};
+  for (int ring_class = 0; ring_class < 4; ++ring_class) {
+    const auto width = static_cast<std::uint32_t>(2 * class_reach(ring_class, half_blocks_));
+    const auto along = static_cast<std::uint32_t>(cells_along(ring_class));
+    bases[static_cast<std::size_t>(ring_class)] = cell_count_;
+    cell_count_ += width * width * along * along;
+  }
+  for (std::size_t ring = 0; ring < 8; ++ring) {
+    const int ring_class = class_of_ring(static_cast<int>(ring), half_blocks_);
+    const int reach = class_reach(ring_class, half_blocks_);
+    const int inside = half_blocks_ - reach;  // blocks between the edges of class and cells
+    const int cells = cells_along(ring_class) * cells_along(ring_class);
+    class_widths_[ring] = static_cast<float>(2 * reach);
+    cells_per_block_[ring] = static_cast<float>(cells);
+    class_bases_[ring] =
+        static_cast<float>(static_cast<int>(bases[static_cast<std::size_t>(ring_class)]) -
+                           cells * (inside * 2 * reach + inside));
+  }
+}
+
+int SquareCells::block_class(int column, int row) const noexcept {
+  const auto ring = [&](int index) {
+    return index < half_blocks_ ? half_blocks_ - 1 - index : index - half_blocks_;
+  };
+  return class_of_ring(std::max(ring(column), ring(row)), half_blocks_);
+}
+
+CellRange SquareCells::block(int column, int row) const noexcept {
+  const auto distance = [&](int index) {
+    return index < half_blocks_ ? half_blocks_ - 1 - index : index - half_blocks_;
+  };
+  const auto ring =
+      static_cast<std::size_t>(std::min(std::max(distance(column), distance(row)), 7));
+  const float first =
+      class_bases_[ring] + cells_per_block_[ring] * (static_cast<float>(row) * class_widths_[ring] +
+                                                     static_cast<float>(column));
+  return {static_cast<std::uint32_t>(first),
+          static_cast<std::uint32_t>(first + cells_per_block_[ring])};
+}
+
+}  // namespace flagstone::surface

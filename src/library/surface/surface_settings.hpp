@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "library/core/setting.hpp"
+#include "flagstone/surface_config.hpp"
+
+namespace flagstone {
+
+/// All settings of `config`, in the order they are printed; they point into it.
+std::vector<Setting> settings_of(SurfaceConfig& config);
+
+}  // namespace flagstone

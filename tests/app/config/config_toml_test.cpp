@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "app/config/config_toml.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "app/config/same_config.hpp"
+
+namespace flagstone::config {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::SizeIs;
+using testing::StartsWith;
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+/// Any float but NaN, which equals nothing: denormals, infinities and the largest among them.
+rc::Gen<float> any_number() {
+  return rc::gen::suchThat(
+      rc::gen::map(rc::gen::arbitrary<std::uint32_t>(),
+                   [](std::uint32_t bits) { return std::bit_cast<float>(bits); }),
+      [](float value) { return !std::isnan(value); });
+}
+
+rc::Gen<std::vector<float>> any_numbers() {
+  return rc::gen::container<std::vector<float>>(any_number());
+}
+
+/// A configuration of any values; in range or not makes no difference to how it is written.
+PatchworkConfig any_config() {
+  PatchworkConfig c;
+  for (float* value :
+       {&c.sensor_height, &c.min_range, &c.noise_depth, &c.noise_slope, &c.seed_height,
+        &c.distance_margin, &c.noise_margin, &c.support_margin, &c.uprightness.angle,
+        &c.elevation.base, &c.elevation.growth, &c.elevation.range, &c.elevation.scale,
+        &c.flatness.gain, &c.flatness.scale}) {
+    *value = *any_number();
+  }
+  for (int* value : {&c.min_points, &c.seed_count, &c.iterations}) {
+    *value = *rc::gen::inRange(-std::numeric_limits<int>::max(), std::numeric_limits<int>::max());
+  }
+  for (bool* value : {&c.few_points_are_ground, &c.keep_below_margin, &c.judge_final_set,
+                      &c.uprightness.enabled, &c.elevation.enabled, &c.flatness.enabled}) {
+    *value = *rc::gen::arbitrary<bool>();
+  }
+  c.flatness.thresholds = *any_numbers();
+  c.zones.resize(*rc::gen::inRange<std::size_t>(1, 6));
+  for (Zone& zone : c.zones) {
+    zone = {*any_numbers(), *rc::gen::arbitrary<std::uint16_t>(), *any_number()};
+  }
+  return c;
+}
+
+/// What apply_toml says of a text; empty if it is content.
+std::string complaint(const std::string& text) {
+  PatchworkConfig config;
+  try {
+    apply_toml(text, "mine.toml", config);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// One line that begins with source, line and column and says this.
+auto points_at(int line, int column, const std::string& reason) {
+  return AllOf(StartsWith("mine.toml: line " + std::to_string(line) + ", column " +
+                          std::to_string(column) + ": "),
+               HasSubstr(reason), Not(HasSubstr("\n")));
+}
+
+TEST(ConfigToml, EveryPresetReadsBackTheSameOverAnyOther) {
+  for (const std::string_view name : PatchworkConfig::preset_names()) {
+    for (const std::string_view other : PatchworkConfig::preset_names()) {
+      const PatchworkConfig written = PatchworkConfig::preset(name);
+      PatchworkConfig read = PatchworkConfig::preset(other);
+
+      apply_toml(to_toml(written), "preset", read);
+
+      EXPECT_TRUE(is_same(read, written)) << name << " over " << other;
+    }
+  }
+}
+
+RC_GTEST_PROP(ConfigToml, AnyConfigurationReadsBackTheSame, ()) {
+  const PatchworkConfig written = any_config();
+  PatchworkConfig read;
+
+  apply_toml(to_toml(written), "any", read);
+
+  RC_ASSERT(is_same(read, written));
+}
+
+TEST(ConfigToml, EverySettingIsCommented) {
+  const std::string text = to_toml(PatchworkConfig{});
+
+  EXPECT_THAT(
+      text,
+      HasSubstr("\ndistance_margin = 0.125  # M_d, eqs. (5) and (6); above 0, up to 100 m\n"));
+  EXPECT_THAT(text, HasSubstr("\n[elevation]\nenabled = true  # psi, eq. (9)"));
+  EXPECT_THAT(text, HasSubstr("\n[[zones]]\n"));
+}
+
+TEST(ConfigToml, SettingsThatAreNotNamedStay) {
+  PatchworkConfig config = PatchworkConfig::preset("paper");
+  PatchworkConfig expected = config;
+  expected.seed_count = 7;
+  expected.flatness.enabled = false;
+
+  apply_toml("seed_count = 7\n[flatness]\nenabled = false\n", "mine.toml", config);
+
+  EXPECT_TRUE(is_same(config, expected));
+}
+
+TEST(ConfigToml, AWholeNumberIsTakenForANumber) {
+  PatchworkConfig config;
+
+  apply_toml("sensor_height = 2", "mine.toml", config);
+
+  EXPECT_EQ(config.sensor_height, 2.0f);
+}
+
+TEST(ConfigToml, ZonesAreReplacedAsAWhole) {
+  PatchworkConfig config;
+
+  apply_toml("[[zones]]\nring_radii = [10, 20.5]\nsectors = 8\nheight_margin = -inf\n", "mine.toml",
+             config);
+
+  ASSERT_THAT(config.zones, SizeIs(1));
+  EXPECT_THAT(config.zones[0].ring_radii, ElementsAre(10.0f, 20.5f));
+  EXPECT_EQ(config.zones[0].sectors, 8);
+  EXPECT_EQ(config.zones[0].height_margin, -inf);
+}
+
+TEST(ConfigToml, OnlyWhatIsWrittenAsInfIsInfinite) {
+  PatchworkConfig config;
+
+  apply_toml("noise_depth = inf\nnoise_margin = 1e300", "mine.toml", config);
+
+  EXPECT_EQ(config.noise_depth, inf);
+  EXPECT_THROW(config.check(), std::invalid_argument);
+}
+
+TEST(ConfigToml, AWholeNumberTooLargeForItsSettingIsRefusedByTheCheckNotWrapped) {
+  PatchworkConfig config;
+
+  apply_toml("iterations = 4294967299", "mine.toml", config);  // 2^32 + 3
+
+  EXPECT_THROW(config.check(), std::invalid_argument);
+}
+
+TEST(ConfigToml, ASettingThereIsNoneOfIsRefusedWithItsPlace) {
+  EXPECT_THAT(complaint("seed_count = 7\nseed_cuont = 8\n"), points_at(2, 14, "seed_cuont"));
+  EXPECT_THAT(complaint("[elevation]\nwidth = 8\n"), points_at(2, 9, "elevation.width"));
+  EXPECT_THAT(complaint("[walls]\nenabled = true\n"), points_at(1, 1, "walls"));
+  EXPECT_THAT(complaint("elevation = 3\n"), points_at(1, 13, "elevation"));
+  EXPECT_THAT(complaint("\"two\\nlines\" = 3\n"), points_at(1, 16, R"(two\x0alines)"));
+  EXPECT_THAT(complaint("[[zones]]\nrings = 3\n"), points_at(2, 9, "zones[0].rings"));
+}
+
+TEST(ConfigToml, AValueOfTheWrongTypeIsRefusedWithItsPlaceAndTheTypeAllowed) {
+  EXPECT_THAT(complaint("\nseed_height = \"low\"\n"),
+              points_at(2, 15, "seed_height is a number, not a string"));
+  EXPECT_THAT(complaint("iterations = 3.5\n"),
+              points_at(1, 14, "iterations is a whole number, not a floating-point"));
+  EXPECT_THAT(complaint("judge_final_set = 1\n"),
+              points_at(1, 19, "judge_final_set is true or false, not a integer"));
+  EXPECT_THAT(complaint("flatness.thresholds = 0.1\n"),
+              points_at(1, 23, "flatness.thresholds is an array of numbers"));
+  EXPECT_THAT(complaint("flatness.thresholds = [0.1, true]\n"),
+              points_at(1, 23, "flatness.thresholds is a number, not a boolean"));
+  EXPECT_THAT(complaint("zones = 3\n"), points_at(1, 9, "zones is an array of tables"));
+  EXPECT_THAT(complaint("zones = [3]\n"), points_at(1, 10, "zones[0] is a table"));
+}
+
+TEST(ConfigToml, ASyntaxErrorIsRefusedWithItsPlace) {
+  EXPECT_THAT(complaint("iterations = 3\nseed_count 7\n"), points_at(2, 12, "Error"));
+  EXPECT_THAT(complaint("iterations = \n"), points_at(1, 14, "Error"));
+  EXPECT_THAT(complaint("iterations = 3\niterations = 4\n"), points_at(2, 14, "iterations"));
+}
+
+RC_GTEST_PROP(ConfigToml, AnyTextIsReadOrRefusedOnOneLine, ()) {
+  const auto text = *rc::gen::container<std::string>(rc::gen::oneOf(
+      rc::gen::arbitrary<char>(), rc::gen::elementOf(std::string("[]{}=.\"\n a1#"))));
+
+  const std::string said = complaint(text);
+
+  RC_ASSERT(said.empty() || said.starts_with("mine.toml: line "));
+  RC_ASSERT(said.find('\n') == std::string::npos);
+}
+
+}  // namespace
+}  // namespace flagstone::config

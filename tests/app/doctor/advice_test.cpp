@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "app/doctor/advice.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "app/doctor/diagnosis.hpp"
+#include "app/doctor/examination.hpp"
+#include "app/doctor/street_scan.hpp"
+
+namespace flagstone::doctor {
+namespace {
+
+Advice advice_for(const io::Cloud& cloud, const Expected& expected = {}) {
+  const std::array scans{examine(cloud)};
+  const Diagnosis diagnosis = diagnose(summarise(scans), expected);
+  EXPECT_TRUE(diagnosis.advice.has_value());
+  return diagnosis.advice.value_or(Advice());
+}
+
+io::Cloud street_as(const std::function<Point(Point)>& change) {
+  return cloud_of(changed(street_scan(), change));
+}
+
+TEST(Advice, NamesTheSensor) { EXPECT_EQ(advice_for(cloud_of(street_scan())).sensor, "hdl-64e"); }
+
+TEST(Advice, IsTheHeightOfTheGroundWhereAnotherIsSet) {
+  const Advice advice = advice_for(cloud_of(street_scan()), {.sensor_height = 2.5f});
+
+  EXPECT_NEAR(advice.mount.sensor_height, 1.73, 0.03);
+}
+
+TEST(Advice, KeepsTheHeightThatIsSetWhereTheGroundIsThere) {
+  EXPECT_EQ(advice_for(cloud_of(street_scan()), {.sensor_height = 1.74f}).mount.sensor_height,
+            1.74f);
+}
+
+TEST(Advice, IsWhereTheBeamsComeFromWhereTheFrameLiesOnTheGround) {
+  const Mount mount =
+      advice_for(street_as([](Point p) { return Point{p.x, p.y, p.z + 1.4f}; })).mount;
+
+  EXPECT_NEAR(mount.origin[2], 1.4, 0.05);
+  EXPECT_NEAR(mount.sensor_height, 1.73, 0.05);
+}
+
+TEST(Advice, OfATurnedFrameTurnsItBack) {
+  // z points forward, y down, x to the right, the origin below the ground, in millimetres.
+  const Mount mount = advice_for(street_as([](Point p) {
+                        return Point{-1000 * p.y, -1000 * (p.z + 2.5f), 1000 * p.x};
+                      })).mount;
+
+  EXPECT_THAT(mount.up, testing::ElementsAre(0, -1, 0));
+  EXPECT_EQ(mount.scale, 0.001f);
+  EXPECT_NEAR(mount.origin[1], -2.5, 0.05);
+  EXPECT_NEAR(mount.sensor_height, 1.73, 0.05);
+}
+
+TEST(Advice, OfATiltedFrameHasUpWhereItIs) {
+  const float sine = std::sin(0.3f);
+  const float cosine = std::cos(0.3f);
+  const Mount mount = advice_for(street_as([&](Point p) {
+                        return Point{p.x * cosine + p.z * sine, p.y, p.z * cosine - p.x * sine};
+                      })).mount;
+
+  EXPECT_NEAR(mount.up[0], sine, 0.03);
+  EXPECT_NEAR(mount.up[1], 0, 0.05);
+  EXPECT_NEAR(mount.up[2], cosine, 0.03);
+}
+
+TEST(AdviceToml, OfTheUsualMountIsTheHeightAlone) {
+  EXPECT_EQ(to_toml({}),
+            "# Settings by 'flagstone doctor', for --config\n"
+            "sensor_height = 1.73  # metres above the ground\n");
+}
+
+TEST(AdviceToml, HoldsOfTheMountWhatDiffers) {
+  Advice advice{.sensor = "os0-128", .has_mount = true};
+  advice.mount = {
+      .sensor_height = 2, .up = {0, -1, 0}, .origin = {0, 0.25f, -1.5f}, .scale = 0.01f};
+
+  EXPECT_EQ(to_toml(advice),
+            "# Settings by 'flagstone doctor', for --config\n"
+            "sensor = \"os0-128\"\n"
+            "sensor_height = 2.0  # metres above the ground\n"
+            "\n[mount]\n"
+            "tilt = \"given\"\n"
+            "up = [0.0, -1.0, 0.0]  # where up is in the cloud's frame\n"
+            "origin = [0.0, 0.25, -1.5]  # where the sensor is in the cloud's frame, metres\n"
+            "scale = 0.01  # metres a unit\n");
+}
+
+}  // namespace
+}  // namespace flagstone::doctor

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "files/io/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <string>
+#include <vector>
+
+#include "files/io/file_contents.hpp"
+#include "files/io/file_size_limit.hpp"
+#include "files/io/status_matchers.hpp"
+#include "files/io/temporary_folder.hpp"
+#include "files/io/without_root.hpp"
+
+namespace flagstone::io {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TEST(WriteFile, MakesANewFile) {
+  const TemporaryFolder folder;
+
+  EXPECT_THAT(write_file(folder / "a", "hello"), is_ok());
+
+  EXPECT_EQ(contents_of(folder / "a"), "hello");
+  EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(WriteFile, ReplacesAnOldOne) {
+  const TemporaryFolder folder;
+  put_file(folder / "a", "old and longer");
+
+  EXPECT_THAT(write_file(folder / "a", "new"), is_ok());
+
+  EXPECT_EQ(contents_of(folder / "a"), "new");
+  EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(WriteFile, WritesNothingToo) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(write_file(folder / "a", ""), is_ok());
+  EXPECT_TRUE(fs::exists(folder / "a"));
+}
+
+TEST(WriteFile, LeavesNothingBehindWhenTheDiskRefuses) {
+  const TemporaryFolder folder;
+  const FileSizeLimit limit(1000);
+
+  const Status status = write_file(folder / "a", std::string(2000, 'x'));
+
+  EXPECT_THAT(status,
+              fails(StatusCode::unwritable, AllOf(StartsWith((folder / "a").string() + ": "),
+                                                  HasSubstr("File too large"))));
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(WriteFile, KeepsTheOldFileWhenTheDiskRefuses) {
+  const TemporaryFolder folder;
+  put_file(folder / "a", "old");
+  const FileSizeLimit limit(1000);
+
+  EXPECT_THAT(write_file(folder / "a", std::string(2000, 'x')),
+              fails(StatusCode::unwritable, HasSubstr("a: ")));
+
+  EXPECT_EQ(contents_of(folder / "a"), "old");
+  EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(WriteFile, NeedsItsFolder) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(write_file(folder / "none" / "a", "x"),
+              fails(StatusCode::unwritable, HasSubstr("No such file or directory")));
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(WriteFile, NeedsAFolderThatMayBeWrittenTo) {
+  const TemporaryFolder folder;
+  using enum fs::perms;
+  fs::permissions(folder.path(), owner_read | owner_exec | others_read | others_exec);
+
+  const WithoutRoot nobody;
+  EXPECT_THAT(write_file(folder / "a", "x"),
+              fails(StatusCode::unwritable, HasSubstr("Permission denied")));
+}
+
+TEST(WriteFile, DoesNotReplaceAFolder) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(write_file(folder.path(), "x"),
+              fails(StatusCode::unwritable, HasSubstr("is a folder")));
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(WriteFile, DoesNotReplaceAPipeOrDevice) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+
+  EXPECT_THAT(write_file(folder / "pipe", "x"),
+              fails(StatusCode::unwritable, HasSubstr("no regular file")));
+  EXPECT_THAT(write_file("/dev/full", "x"),
+              fails(StatusCode::unwritable, HasSubstr("no regular file")));
+
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+  EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(WriteFile, FollowsASymbolicLink) {
+  const TemporaryFolder folder;
+  put_file(folder / "target", "old");
+  fs::create_symlink("target", folder / "link");
+
+  EXPECT_THAT(write_file(folder / "link", "new"), is_ok());
+
+  EXPECT_TRUE(fs::is_symlink(folder / "link"));
+  EXPECT_EQ(contents_of(folder / "target"), "new");
+}
+
+TEST(WriteFile, RefusesALinkThatLeadsNowhere) {
+  const TemporaryFolder folder;
+  fs::create_symlink("nowhere", folder / "link");
+  EXPECT_THAT(write_file(folder / "link", "x"),
+              fails(StatusCode::unwritable, HasSubstr("leads nowhere")));
+  EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(WriteFile, PassesOverATemporaryThatIsThere) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 100; ++i) {
+    put_file(
+        folder / (".flagstone-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".tmp"),
+        "other");
+  }
+
+  EXPECT_THAT(write_file(folder / "a", "x"), is_ok());
+
+  EXPECT_EQ(folder.entries(), 101);
+}
+
+}  // namespace
+}  // namespace flagstone::io

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "files/io/load_bytes.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <string>
+
+#include "files/io/bytes.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/status_matchers.hpp"
+#include "files/io/temporary_folder.hpp"
+#include "files/io/text.hpp"
+#include "files/io/without_root.hpp"
+
+namespace flagstone::io {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TEST(LoadBytes, ReadsAFileWhole) {
+  const TemporaryFolder folder;
+  const std::string contents = "a\n" + std::string(100000, '\0') + "b";
+  put_file(folder / "a", contents);
+  Bytes bytes;
+
+  ASSERT_THAT(load_bytes(folder / "a", bytes), is_ok());
+
+  EXPECT_EQ(as_text(bytes), contents);
+}
+
+TEST(LoadBytes, ReadsAnEmptyFile) {
+  const TemporaryFolder folder;
+  put_file(folder / "a", "");
+  Bytes bytes;
+  EXPECT_THAT(load_bytes(folder / "a", bytes), is_ok());
+  EXPECT_TRUE(bytes.empty());
+}
+
+TEST(LoadBytes, SaysThatAFileIsMissing) {
+  const TemporaryFolder folder;
+  Bytes bytes;
+  const auto path = folder / "none";
+  EXPECT_THAT(load_bytes(path, bytes),
+              fails(StatusCode::not_found,
+                    AllOf(StartsWith(path.string() + ": "), HasSubstr("No such file"))));
+}
+
+TEST(LoadBytes, KeepsAMessageOnOneLineWhateverThePath) {
+  Bytes bytes;
+  EXPECT_THAT(load_bytes("no\nsuch\nfile", bytes),
+              fails(StatusCode::not_found, StartsWith(R"(no\x0asuch\x0afile: )")));
+}
+
+TEST(LoadBytes, RefusesAFolder) {
+  const TemporaryFolder folder;
+  Bytes bytes;
+  EXPECT_THAT(load_bytes(folder.path(), bytes),
+              fails(StatusCode::unreadable, HasSubstr("is a folder")));
+}
+
+TEST(LoadBytes, RefusesAPipeWithoutWaitingForIt) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  Bytes bytes;
+  EXPECT_THAT(load_bytes(folder / "pipe", bytes),
+              fails(StatusCode::unreadable, HasSubstr("is a pipe")));
+}
+
+TEST(LoadBytes, RefusesADevice) {
+  Bytes bytes;
+  EXPECT_THAT(load_bytes("/dev/zero", bytes),
+              fails(StatusCode::unreadable, HasSubstr("is a device")));
+}
+
+TEST(LoadBytes, RefusesWhatItMayNotRead) {
+  const TemporaryFolder folder;
+  put_file(folder / "a", "x");
+  std::filesystem::permissions(folder / "a", std::filesystem::perms::none);
+  Bytes bytes;
+  const WithoutRoot nobody;
+  EXPECT_THAT(load_bytes(folder / "a", bytes),
+              fails(StatusCode::unreadable, HasSubstr("Permission denied")));
+}
+
+TEST(LoadBytes, RefusesAFileBeyondTheLimitBeforeAllocating) {
+  const TemporaryFolder folder;
+  put_file(folder / "a", "");
+  std::filesystem::resize_file(folder / "a", max_file_size + 1);  // a hole, it takes no room
+  Bytes bytes;
+  EXPECT_THAT(load_bytes(folder / "a", bytes),
+              fails(StatusCode::bad_file, HasSubstr("at most 8589934592")));
+}
+
+TEST(LoadBytes, UsesTheMemoryThatItIsHanded) {
+  const TemporaryFolder folder;
+  put_file(folder / "long", std::string(5000, 'a'));
+  put_file(folder / "short", "bcd");
+  Bytes bytes;
+  ASSERT_THAT(load_bytes(folder / "long", bytes), is_ok());
+  const std::byte* const place = bytes.data();
+
+  ASSERT_THAT(load_bytes(folder / "short", bytes), is_ok());
+
+  EXPECT_EQ(as_text(bytes), "bcd");
+  EXPECT_EQ(bytes.data(), place);
+}
+
+TEST(LoadBytes, LeavesNothingOfAnEarlierFileWhereItFails) {
+  const TemporaryFolder folder;
+  Bytes bytes(100);
+  EXPECT_FALSE(load_bytes(folder / "none", bytes).ok());
+  EXPECT_TRUE(bytes.empty());
+}
+
+TEST(ReadAhead, LeavesFilesReadableAndDoesNotWaitForPipes) {
+  const TemporaryFolder folder;
+  put_file(folder / "a", "x");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+
+  read_ahead(folder / "none");
+  read_ahead(folder / "pipe");
+  read_ahead(folder / "a");
+
+  Bytes bytes;
+  EXPECT_THAT(load_bytes(folder / "a", bytes), is_ok());
+  EXPECT_EQ(as_text(bytes), "x");
+}
+
+}  // namespace
+}  // namespace flagstone::io

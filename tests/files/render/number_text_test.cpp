@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "files/render/number_text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace flagstone::render {
+namespace {
+
+TEST(NumberText, SetsThousandsApart) {
+  EXPECT_EQ(grouped(0), "0");
+  EXPECT_EQ(grouped(999), "999");
+  EXPECT_EQ(grouped(1000), "1,000");
+  EXPECT_EQ(grouped(124668), "124,668");
+  EXPECT_EQ(grouped(10000000), "10,000,000");
+}
+
+TEST(NumberText, GivesSharesWithOneDecimal) {
+  EXPECT_EQ(percent(1, 3), "33.3 %");
+  EXPECT_EQ(percent(7, 7), "100.0 %");
+}
+
+TEST(NumberText, TellsLittleFromNothing) {
+  EXPECT_EQ(percent(0, 1000000), "0.0 %");
+  EXPECT_EQ(percent(1, 1000000), "<0.1 %");
+}
+
+TEST(NumberText, HasNoShareOfNothing) { EXPECT_EQ(percent(0, 0), "0.0 %"); }
+
+}  // namespace
+}  // namespace flagstone::render

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+// Every setting of every method, from the lists that the command line and TOML go by, just below
+// and just above its range, infinite and not a number.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "lab/baselines/settings.hpp"
+
+namespace flagstone {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// What is said of the method's initial settings after `spoil` was at the one of that number; empty
+/// if nothing.
+std::string complaint_of(std::string_view method, std::size_t number,
+                         const std::function<void(Setting&)>& spoil) {
+  MethodConfig config = default_config(method);
+  std::vector<Setting> settings = settings_of(config);
+  spoil(settings.at(number));
+  try {
+    check(config);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Numbers that the setting may not be.
+std::vector<double> numbers_beyond(const Allowed& allowed) {
+  const auto just_beyond = [](double bound, double side) {
+    return bound + side * (std::abs(bound) * 0.01 + 0.001);
+  };
+  const double below = allowed.without_low ? allowed.low : just_beyond(allowed.low, -1);
+  std::vector<double> numbers = {below, just_beyond(allowed.high, 1),
+                                 std::numeric_limits<double>::quiet_NaN(),
+                                 -std::numeric_limits<double>::infinity()};
+  if (!allowed.or_infinity) numbers.push_back(std::numeric_limits<double>::infinity());
+  return numbers;
+}
+
+/// Calls `body` with every setting of every method: its method, number and what it is.
+template <class Body>
+void for_every_setting(const Body& body) {
+  for (const std::string_view method : method_names()) {
+    MethodConfig config = default_config(method);
+    const std::vector<Setting> settings = settings_of(config);
+    ASSERT_FALSE(settings.empty()) << method;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      SCOPED_TRACE(std::string(method) + ", " + std::string(settings[i].key));
+      body(method, i, settings[i]);
+    }
+  }
+}
+
+TEST(EverySetting, BeyondItsRangeIsRefusedWithItsNameAndWhatIsAllowed) {
+  std::size_t refused = 0;
+  for_every_setting([&](std::string_view method, std::size_t i, const Setting& setting) {
+    const bool is_number = std::holds_alternative<float*>(setting.value);
+    if (!is_number) return;
+    for (const double number : numbers_beyond(setting.allowed)) {
+      const std::string complaint = complaint_of(method, i, [&](Setting& spoilt) {
+        *std::get<float*>(spoilt.value) = static_cast<float>(number);
+      });
+      EXPECT_THAT(complaint, AllOf(HasSubstr(std::string(setting.key) + " = "),
+                                   HasSubstr("allowed: " + to_string(setting.allowed))))
+          << number;
+      ++refused;
+    }
+  });
+  EXPECT_GT(refused, 100U);
+}
+
+TEST(EverySetting, ThatIsAWholeNumberBeyondItsRangeIsRefused) {
+  std::size_t refused = 0;
+  for_every_setting([&](std::string_view method, std::size_t i, const Setting& setting) {
+    if (!std::holds_alternative<int*>(setting.value)) return;
+    const std::array<int, 4> numbers = {
+        static_cast<int>(setting.allowed.low) - 1, static_cast<int>(setting.allowed.high) + 1,
+        std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
+    for (const int number : numbers) {
+      const std::string complaint =
+          complaint_of(method, i, [&](Setting& spoilt) { *std::get<int*>(spoilt.value) = number; });
+      EXPECT_THAT(complaint, AllOf(HasSubstr(std::string(setting.key) + " = "),
+                                   HasSubstr("allowed: " + to_string(setting.allowed))))
+          << number;
+      ++refused;
+    }
+  });
+  EXPECT_GT(refused, 10U);
+}
+
+TEST(EverySetting, ThatIsAListIsRefusedEmptyTooLongOrWithOneNumberBeyondItsRange) {
+  std::size_t refused = 0;
+  for_every_setting([&](std::string_view method, std::size_t i, const Setting& setting) {
+    if (!std::holds_alternative<std::vector<float>*>(setting.value)) return;
+    const auto list_of = [](Setting& spoilt) -> std::vector<float>& {
+      return *std::get<std::vector<float>*>(spoilt.value);
+    };
+    const auto length = HasSubstr("length of " + std::string(setting.key));
+    EXPECT_THAT(complaint_of(method, i, [&](Setting& spoilt) { list_of(spoilt).clear(); }), length);
+    EXPECT_THAT(complaint_of(method, i, [&](Setting& spoilt) { list_of(spoilt).resize(1001, 1); }),
+                length);
+    for (const double number : numbers_beyond(setting.allowed)) {
+      const std::string complaint = complaint_of(
+          method, i, [&](Setting& spoilt) { list_of(spoilt).back() = static_cast<float>(number); });
+      EXPECT_THAT(complaint, HasSubstr(std::string(setting.key) + "[")) << number;
+      ++refused;
+    }
+  });
+  EXPECT_GT(refused, 0U);
+}
+
+}  // namespace
+}  // namespace flagstone

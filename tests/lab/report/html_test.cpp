@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/report/html.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace flagstone::report {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::ordered_json;
+
+TEST(Html, EscapesWhatWouldBeMarkup) {
+  EXPECT_EQ(escaped(R"(<b a="1" b='2'>&amp;</b>)"),
+            "&lt;b a=&quot;1&quot; b=&#39;2&#39;&gt;&amp;amp;&lt;/b&gt;");
+}
+
+TEST(Html, LeavesOtherTextAsItIs) { EXPECT_EQ(escaped("00/000123 σ é"), "00/000123 σ é"); }
+
+TEST(Html, JsonInAScriptCannotEndIt) {
+  const Json value = {{"</script><!--", "</SCRIPT>"}};
+
+  const std::string json = script_json(value);
+
+  EXPECT_THAT(json, Not(HasSubstr("<")));
+  EXPECT_EQ(Json::parse(json), value);
+}
+
+TEST(Html, JsonOfBytesThatAreNotUtf8IsStillJson) {
+  EXPECT_EQ(Json::parse(script_json("a\xFF")), "a\uFFFD");
+}
+
+TEST(Html, ShowsSharesInPercentWithTwoDecimals) {
+  EXPECT_EQ(percent_text(0.951234), "95.12");
+  EXPECT_EQ(percent_text(1), "100.00");
+  EXPECT_EQ(percent_text(0.0), "0.00");
+}
+
+TEST(Html, ShowsRatesWithADecimalWhereItMatters) {
+  EXPECT_EQ(number_text(55.23), "55.2");
+  EXPECT_EQ(number_text(1240.4), "1240");
+  EXPECT_EQ(number_text(10), "10");
+}
+
+TEST(Html, ShowsADashForNoNumber) {
+  EXPECT_EQ(percent_text(nullptr), no_number);
+  EXPECT_EQ(number_text(nullptr), no_number);
+}
+
+}  // namespace
+}  // namespace flagstone::report

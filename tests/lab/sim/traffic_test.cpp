@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/sim/traffic.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "lab/sim/ground_plan.hpp"
+
+namespace flagstone::sim {
+namespace {
+
+// Along the x axis, own_speed metres from stop to stop.
+std::vector<Stop> straight_route() {
+  std::vector<Stop> route;
+  for (int stop = 0; stop < frames_per_drive; ++stop) {
+    route.push_back({.x = -half_drive + stop * frame_spacing, .y = 0, .yaw = 0});
+  }
+  return route;
+}
+
+Stop x_axis(double x) { return {.x = x, .y = 0, .yaw = 0}; }
+
+Ground level_ground() {
+  return cut_ground({.x = {-100, 100},
+                     .t = {-50, 50},
+                     .offset = [](double) { return 0.0; },
+                     .height = [](double, double) { return 0.0; },
+                     .surface = [](double, double) { return Surface{}; }});
+}
+
+double mean_x(const Mesh& mesh) {
+  double sum = 0;
+  for (const Vector3& vertex : mesh.vertices()) sum += vertex.x;
+  return sum / static_cast<double>(mesh.vertices().size());
+}
+
+TEST(Traffic, LeavesOutWhoWouldMeetTheSensorBetweenTwoStops) {
+  Traffic traffic(straight_route());
+  // Across the road, where the sensor is half a second after its fifth stop.
+  const double x = -half_drive + 4.5 * frame_spacing;
+  const Stop begin{.x = x, .y = -45, .yaw = std::numbers::pi / 2};
+
+  EXPECT_FALSE(traffic.join({.kind = RoadUser::cyclist, .at = straight(begin, 10, 90)}));
+  EXPECT_TRUE(traffic.join({.kind = RoadUser::cyclist, .at = straight(begin, 6, 90)}));
+}
+
+TEST(Traffic, TrucksMayPassNearerThanCars) {
+  for (const auto& [kind, half_width] :
+       {std::pair{RoadUser::car, 0.985}, std::pair{RoadUser::truck, 1.25}}) {
+    Traffic traffic(straight_route());
+    const auto passes = [&, kind = kind, half_width = half_width](double clearance) {
+      return traffic.join({.kind = kind, .at = along(x_axis, half_width + clearance, 60, -8)});
+    };
+    EXPECT_FALSE(passes(2.4));
+    EXPECT_EQ(passes(2.7), kind == RoadUser::truck);
+    Traffic others(straight_route());
+    EXPECT_TRUE(others.join({.kind = kind, .at = along(x_axis, half_width + 3.1, 60, -8)}));
+  }
+}
+
+TEST(Traffic, LeavesOutWhoWouldRunIntoAnother) {
+  Traffic traffic(straight_route());
+  ASSERT_TRUE(traffic.join({.kind = RoadUser::car, .at = along(x_axis, 6, 0, 5)}));
+
+  EXPECT_FALSE(traffic.join({.kind = RoadUser::car, .at = along(x_axis, 6, -20, 9)}));
+  EXPECT_FALSE(traffic.join({.kind = RoadUser::car, .at = along(x_axis, 6, 50, -5)}));
+  EXPECT_TRUE(traffic.join({.kind = RoadUser::car, .at = along(x_axis, 6, -20, 5)}));
+  EXPECT_TRUE(traffic.join({.kind = RoadUser::car, .at = along(x_axis, 9, 50, -5)}));
+}
+
+TEST(Traffic, ComesAsFarAsItDrivesFromStopToStop) {
+  const Ground ground = level_ground();
+  Traffic traffic(straight_route());
+  ASSERT_TRUE(traffic.join({.kind = RoadUser::bus, .at = along(x_axis, 8, 10, -4)}));
+
+  EXPECT_NEAR(mean_x(traffic.at(ground, 5)) - mean_x(traffic.at(ground, 2)), -12 * stop_interval,
+              1e-9);
+}
+
+TEST(Traffic, ALaneIsFilledFromEndToEndAtEveryStop) {
+  const Ground ground = level_ground();
+  for (const double speed : {-25.0, 15.0}) {
+    Traffic traffic(straight_route());
+    Random random(1);
+    traffic.fill(
+        {.path = x_axis, .t = 10, .speed = speed, .x = {-80, 80}, .gap = {5, 10}},
+        [](Random&) { return RoadUser::car; }, random);
+    for (const int stop : {0, 9}) {
+      double lowest = 100;
+      double highest = -100;
+      const Mesh mesh = traffic.at(ground, stop);
+      for (const Vector3& vertex : mesh.vertices()) {
+        lowest = std::min(lowest, vertex.x);
+        highest = std::max(highest, vertex.x);
+      }
+      EXPECT_LT(lowest, -70) << "speed " << speed << ", stop " << stop;
+      EXPECT_GT(highest, 70) << "speed " << speed << ", stop " << stop;
+    }
+  }
+}
+
+TEST(Traffic, WhoHasLeftTheGroundIsNotThere) {
+  Traffic traffic(straight_route());
+  ASSERT_TRUE(traffic.join({.kind = RoadUser::car, .at = along(x_axis, 10, 60, 10)}));
+
+  EXPECT_FALSE(traffic.at(level_ground(), 0).triangles().empty());
+  EXPECT_TRUE(traffic.at(level_ground(), 9).triangles().empty());
+}
+
+}  // namespace
+}  // namespace flagstone::sim

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+// What is kept from scan to scan.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "flagstone/levelled_segmenter.hpp"
+#include "library/mount/recording_method.hpp"
+#include "library/mount/yard.hpp"
+
+namespace flagstone {
+namespace {
+
+using tests::level_ground;
+using tests::RecordingMethod;
+
+/// A levelled method, asked scan by scan.
+class Asked {
+ public:
+  explicit Asked(const MountSettings& settings)
+      : levelled_(std::make_unique<RecordingMethod>(seen_), 1.73f, settings) {}
+
+  /// The verdict about level ground so far below the sensor; 0 for an empty scan.
+  MountVerdict about(float height) {
+    const std::vector<Point> points = height > 0 ? level_ground(height) : std::vector<Point>();
+    Segmentation result;
+    EXPECT_TRUE(levelled_.segment(CloudView(std::span<const Point>(points)), result).ok());
+    return levelled_.decision().verdict;
+  }
+  [[nodiscard]] float height() const { return levelled_.mount().sensor_height; }
+  /// Where the method got the ground of the last scan, z.
+  [[nodiscard]] float ground() const { return seen_.points.front().z; }
+  void reset() { levelled_.reset(); }
+
+ private:
+  RecordingMethod::Seen seen_;
+  LevelledSegmenter levelled_;
+};
+
+TEST(EstimatedMount, IsThatOfTheFirstScanThatTellsIt) {
+  Asked asked({.height = HeightSource::estimate});
+
+  EXPECT_EQ(asked.about(0), MountVerdict::too_few_points);
+  EXPECT_EQ(asked.height(), 1.73f);
+  EXPECT_EQ(asked.about(1.2f), MountVerdict::accepted);
+  EXPECT_NEAR(asked.height(), 1.2f, 0.001f);
+  EXPECT_NEAR(asked.ground(), -1.73f, 0.001f);  // that very scan is already levelled
+  EXPECT_EQ(asked.about(2.0f), MountVerdict::given);
+  EXPECT_NEAR(asked.height(), 1.2f, 0.001f);
+}
+
+TEST(EstimatedMount, OfTheTiltAloneLeavesTheHeight) {
+  MountSettings settings{.tilt = TiltSource::estimate};
+  settings.mount.sensor_height = 1.9f;
+  Asked asked(settings);
+
+  EXPECT_EQ(asked.about(1.2f), MountVerdict::accepted);
+
+  EXPECT_EQ(asked.height(), 1.9f);
+}
+
+TEST(EstimatedMount, IsForgottenByAReset) {
+  Asked asked({.height = HeightSource::estimate});
+  asked.about(1.2f);
+
+  asked.reset();
+
+  EXPECT_EQ(asked.height(), 1.73f);
+  EXPECT_EQ(asked.about(2.0f), MountVerdict::accepted);
+  EXPECT_NEAR(asked.height(), 2.0f, 0.001f);
+}
+
+TEST(TrackedMount, IsTheMeanOfTheFirstScans) {
+  Asked asked({.height = HeightSource::track});
+
+  for (const float height : {1.70f, 1.76f, 1.73f, 1.77f}) asked.about(height);
+
+  EXPECT_NEAR(asked.height(), 1.74f, 0.002f);
+}
+
+TEST(TrackedMount, FollowsASlowChange) {
+  Asked asked({.height = HeightSource::track, .tracking = {.memory = 5}});
+
+  for (int i = 0; i <= 60; ++i) {
+    EXPECT_EQ(asked.about(1.5f + 0.01f * static_cast<float>(i)), MountVerdict::accepted) << i;
+  }
+
+  EXPECT_NEAR(asked.height(), 2.1f, 0.06f);  // some scans behind
+}
+
+TEST(TrackedMount, RefusesAnOutlier) {
+  Asked asked({.height = HeightSource::track});
+  for (int i = 0; i < 5; ++i) asked.about(1.7f);
+
+  EXPECT_EQ(asked.about(2.3f), MountVerdict::outlier);
+
+  EXPECT_NEAR(asked.height(), 1.7f, 0.001f);
+  EXPECT_NEAR(asked.ground(), -2.3f + (1.7f - 1.73f), 0.002f);
+  EXPECT_EQ(asked.about(1.7f), MountVerdict::accepted);
+}
+
+TEST(TrackedMount, BelievesWhatManyScansOnEndSay) {
+  Asked asked({.height = HeightSource::track, .tracking = {.patience = 4}});
+  for (int i = 0; i < 5; ++i) asked.about(1.7f);
+
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(asked.about(2.3f), MountVerdict::outlier) << i;
+  EXPECT_EQ(asked.about(2.3f), MountVerdict::accepted);
+
+  EXPECT_NEAR(asked.height(), 2.3f, 0.001f);
+}
+
+TEST(TrackedMount, OutliersThatDisagreeAreNeverBelieved) {
+  Asked asked({.height = HeightSource::track, .tracking = {.patience = 3}});
+  for (int i = 0; i < 5; ++i) asked.about(1.7f);
+
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(asked.about(i % 2 == 0 ? 2.3f : 1.0f), MountVerdict::outlier) << i;
+  }
+
+  EXPECT_NEAR(asked.height(), 1.7f, 0.001f);
+}
+
+TEST(TrackedMount, KeepsItsStateOverScansThatTellNothing) {
+  Asked asked({.height = HeightSource::track});
+  asked.about(2.0f);
+
+  EXPECT_EQ(asked.about(0), MountVerdict::too_few_points);
+
+  EXPECT_NEAR(asked.height(), 2.0f, 0.001f);
+}
+
+TEST(TrackedMount, IsForgottenByAReset) {
+  Asked asked({.height = HeightSource::track});
+  asked.about(2.0f);
+
+  asked.reset();
+
+  EXPECT_EQ(asked.height(), 1.73f);
+  EXPECT_EQ(asked.about(1.4f), MountVerdict::accepted);
+  EXPECT_NEAR(asked.height(), 1.4f, 0.001f);
+}
+
+}  // namespace
+}  // namespace flagstone

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+// Clouds in every memory layout: the labels are those of packed points, and nothing outside of the
+// points is read.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "library/core/simd_target.hpp"
+#include "flagstone/patchwork.hpp"
+#include "forced_target.hpp"
+#include "guarded_memory.hpp"
+#include "made_up_cloud.hpp"
+#include "library/patchwork/outcome.hpp"
+
+namespace flagstone {
+namespace {
+
+using tests::corrupted_cloud;
+using tests::view_of;
+
+/// Writes the points so that `CloudView(first, points.size(), layout)` sees them.
+void write(const std::vector<Point>& points, std::byte* first, const CloudLayout& layout) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::byte* const record = first + static_cast<std::ptrdiff_t>(i) * layout.stride;
+    std::memcpy(record + layout.x, &points[i].x, sizeof(float));
+    std::memcpy(record + layout.y, &points[i].y, sizeof(float));
+    std::memcpy(record + layout.z, &points[i].z, sizeof(float));
+  }
+}
+
+/// The parameter is the instruction set. Sizes make whole vectors, rests, and more than one chunk.
+class Layouts : public testing::TestWithParam<std::string> {
+ protected:
+  /// `first` is where point 0 begins in `bytes` bytes; what is not a coordinate is 0xA5.
+  static void expect_same_as_packed(std::size_t bytes, std::size_t first, const CloudLayout& layout,
+                                    const std::vector<Point>& points) {
+    std::vector<std::byte> memory(bytes, std::byte{0xA5});
+    write(points, memory.data() + first, layout);
+    Patchwork patchwork;
+    EXPECT_TRUE(tests::is_same(
+        tests::segmented(PatchworkConfig{}, view_of(points)),
+        tests::segmented(patchwork, CloudView(memory.data() + first, points.size(), layout))))
+        << points.size() << " points";
+  }
+
+  /// The layout, at several sizes, in records one after another.
+  static void expect_same_as_packed(const CloudLayout& layout, std::size_t first = 0) {
+    const tests::ForcedTarget forced(GetParam());
+    for (const std::size_t size : {1U, 15U, 16U, 17U, 33U, 1000U, 8192U, 8193U, 20000U}) {
+      const std::vector<Point> points = corrupted_cloud(size, 3);
+      expect_same_as_packed(first + size * static_cast<std::size_t>(layout.stride) + 16, first,
+                            layout, points);
+    }
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(On, Layouts, testing::ValuesIn(simd_targets()),
+                         [](const auto& target) { return target.param; });
+
+TEST_P(Layouts, PackedXyz) { expect_same_as_packed({.stride = 12, .x = 0, .y = 4, .z = 8}); }
+
+TEST_P(Layouts, PackedXyzi) { expect_same_as_packed({.stride = 16, .x = 0, .y = 4, .z = 8}); }
+
+TEST_P(Layouts, IntensityFirst) { expect_same_as_packed({.stride = 16, .x = 4, .y = 8, .z = 12}); }
+
+TEST_P(Layouts, FiveFloats) { expect_same_as_packed({.stride = 20, .x = 0, .y = 4, .z = 8}); }
+
+TEST_P(Layouts, StructsOf32Bytes) { expect_same_as_packed({.stride = 32, .x = 0, .y = 4, .z = 8}); }
+
+TEST_P(Layouts, StructsOfOddSize) { expect_same_as_packed({.stride = 13, .x = 1, .y = 5, .z = 9}); }
+
+TEST_P(Layouts, MisalignedByOneByte) {
+  expect_same_as_packed({.stride = 12, .x = 0, .y = 4, .z = 8}, 1);
+  expect_same_as_packed({.stride = 16, .x = 0, .y = 4, .z = 8}, 1);
+  expect_same_as_packed({.stride = 16, .x = 1, .y = 5, .z = 9});
+}
+
+TEST_P(Layouts, CoordinatesInAnotherOrder) {
+  for (const std::ptrdiff_t stride : {12, 16}) {
+    expect_same_as_packed({.stride = stride, .x = 8, .y = 4, .z = 0});
+    expect_same_as_packed({.stride = stride, .x = 4, .y = 0, .z = 8});
+    expect_same_as_packed({.stride = stride, .x = 0, .y = 8, .z = 4});
+  }
+}
+
+TEST_P(Layouts, CoordinatesApartInARecordOf16Bytes) {
+  expect_same_as_packed({.stride = 16, .x = 0, .y = 4, .z = 12});
+  expect_same_as_packed({.stride = 16, .x = 0, .y = 8, .z = 12});
+}
+
+TEST_P(Layouts, Planar) {
+  const tests::ForcedTarget forced(GetParam());
+  for (const std::size_t size : {1U, 16U, 33U, 8193U, 20000U}) {
+    const auto plane = static_cast<std::ptrdiff_t>(4 * size);
+    expect_same_as_packed(12 * size, 0, {.stride = 4, .x = 0, .y = plane, .z = 2 * plane},
+                          corrupted_cloud(size, 3));
+  }
+}
+
+TEST_P(Layouts, BackwardsThroughMemory) {
+  const tests::ForcedTarget forced(GetParam());
+  for (const std::ptrdiff_t stride : {12, 16, 20}) {
+    for (const std::size_t size : {1U, 16U, 33U, 8193U, 20000U}) {
+      const std::size_t bytes = size * static_cast<std::size_t>(stride);
+      expect_same_as_packed(bytes, bytes - static_cast<std::size_t>(stride),
+                            {.stride = -stride, .x = 0, .y = 4, .z = 8}, corrupted_cloud(size, 3));
+    }
+  }
+}
+
+TEST_P(Layouts, AllPointsInOneRecord) {
+  const tests::ForcedTarget forced(GetParam());
+  const std::vector<Point> points(500, Point{6.1f, 2.3f, -1.7f});
+  expect_same_as_packed(12, 0, {.stride = 0, .x = 0, .y = 4, .z = 8}, points);
+}
+
+TEST_P(Layouts, OffsetsBeforeTheRecord) {
+  const tests::ForcedTarget forced(GetParam());
+  for (const std::ptrdiff_t stride : {12, 16}) {
+    expect_same_as_packed(static_cast<std::size_t>(1000 * stride) + 16, 16,
+                          {.stride = stride, .x = -12, .y = -8, .z = -4}, corrupted_cloud(1000, 3));
+  }
+}
+
+TEST_P(Layouts, NothingIsReadBehindTheLastCoordinate) {
+  const tests::ForcedTarget forced(GetParam());
+  const tests::GuardedMemory memory(std::size_t{16448} * 20);
+  const std::vector<Point> points = corrupted_cloud(16448, 6);
+  Patchwork patchwork;
+  for (const CloudLayout& layout : {CloudLayout{.stride = 12, .x = 0, .y = 4, .z = 8},
+                                    CloudLayout{.stride = 16, .x = 0, .y = 4, .z = 8},
+                                    CloudLayout{.stride = 16, .x = 4, .y = 8, .z = 12},
+                                    CloudLayout{.stride = 20, .x = 0, .y = 4, .z = 8}}) {
+    const auto expect_same_at_the_end = [&](std::size_t size) {
+      const std::vector<Point> some(points.begin(),
+                                    points.begin() + static_cast<std::ptrdiff_t>(size));
+      // Ends with the last z, though the record of 16 or 20 bytes would go on.
+      const std::size_t bytes = (size - 1) * static_cast<std::size_t>(layout.stride) +
+                                static_cast<std::size_t>(layout.z) + sizeof(float);
+      std::byte* const first = memory.last(bytes).data();
+      write(some, first, layout);
+      EXPECT_TRUE(tests::is_same(tests::segmented(PatchworkConfig{}, view_of(some)),
+                                 tests::segmented(patchwork, CloudView(first, size, layout))))
+          << size << " points, stride " << layout.stride << ", x at " << layout.x;
+    };
+    for (std::size_t size = 1; size <= 80; ++size) expect_same_at_the_end(size);
+    for (std::size_t size = 8190; size <= 8210; ++size) expect_same_at_the_end(size);
+    expect_same_at_the_end(points.size());
+  }
+}
+
+TEST_P(Layouts, NothingIsReadBeforeTheFirstCoordinate) {
+  const tests::ForcedTarget forced(GetParam());
+  const tests::GuardedMemory memory(std::size_t{20} * 100);
+  Patchwork patchwork;
+  for (const std::ptrdiff_t stride : {12, 16, 20}) {
+    for (std::size_t size = 1; size <= 80; ++size) {
+      const std::vector<Point> points = corrupted_cloud(size, 6);
+      // Point 0 is the last in memory, and x the first number of its record.
+      const CloudLayout layout{.stride = -stride, .x = 0, .y = 4, .z = 8};
+      std::byte* const first =
+          memory.first(1).data() + (size - 1) * static_cast<std::size_t>(stride);
+      write(points, first, layout);
+      EXPECT_TRUE(tests::is_same(tests::segmented(PatchworkConfig{}, view_of(points)),
+                                 tests::segmented(patchwork, CloudView(first, size, layout))));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flagstone

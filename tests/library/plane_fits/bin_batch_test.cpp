@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/plane_fits/bin_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "forced_target.hpp"
+#include "library/plane_fits/sorted_scan.hpp"
+
+namespace flagstone::plane_fits {
+namespace {
+
+/// The parameter is the instruction set.
+class BinBatchOn : public testing::TestWithParam<std::string> {
+ protected:
+  /// Gathers all bins of the scan, sixteen at a time, and compares each with its points.
+  static void expect_gathered(const std::vector<Point>& cloud) {
+    const tests::SortedScan sorted(cloud, {});
+    BinBatch batch;
+    batch.reserve(cloud.size());
+    std::size_t gathered = 0;
+    for (std::uint32_t bin = 0; bin < sorted.zones.bin_count();) {
+      batch.clear();
+      for (; bin < sorted.zones.bin_count() && batch.count() < batch_size; ++bin) {
+        if (sorted.groups.size(bin) > 0) batch.add(bin, sorted.groups.size(bin));
+      }
+      batch.gather(sorted.scan, sorted.groups);
+      for (std::size_t i = 0; i < batch.count(); ++i) expect_gathered(sorted, batch, i, cloud);
+      gathered += batch.count();
+    }
+    EXPECT_GT(gathered, 0U);
+  }
+
+  static void expect_padded(const BinBatch& batch, std::size_t i) {
+    ASSERT_EQ(batch.places(i) % 16, 0U);
+    for (std::size_t k = batch.size(i); k < batch.places(i); ++k) {
+      ASSERT_EQ(batch.x(i)[k], 0);
+      ASSERT_EQ(batch.y(i)[k], 0);
+      ASSERT_EQ(batch.z(i)[k], std::numeric_limits<float>::infinity());
+    }
+  }
+
+ private:
+  static void expect_gathered(const tests::SortedScan& sorted, const BinBatch& batch, std::size_t i,
+                              const std::vector<Point>& cloud) {
+    const std::vector<std::uint32_t> points = tests::points_of(sorted.groups, batch.bin(i));
+    const Point& first = cloud[points.front()];
+    const Point& last = cloud[points.back()];
+    ASSERT_EQ(batch.size(i), points.size());
+    ASSERT_EQ(batch.origin(i).x, (first.x + last.x) / 2);
+    ASSERT_EQ(batch.origin(i).y, (first.y + last.y) / 2);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      ASSERT_EQ(batch.x(i)[k], cloud[points[k]].x - batch.origin(i).x);
+      ASSERT_EQ(batch.y(i)[k], cloud[points[k]].y - batch.origin(i).y);
+      ASSERT_EQ(batch.z(i)[k], cloud[points[k]].z);
+    }
+    expect_padded(batch, i);
+  }
+
+  tests::ForcedTarget forced{GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(Target, BinBatchOn, testing::ValuesIn(simd_targets()),
+                         [](const auto& target) { return target.param; });
+
+TEST_P(BinBatchOn, HoldsThePointsOfItsBinsAsSeenFromTheirOrigins) {
+  expect_gathered(tests::made_up_cloud(60000, 1));
+}
+
+TEST_P(BinBatchOn, HoldsThemWhereTheCloudIsInNoOrder) {
+  std::vector<Point> cloud = tests::made_up_cloud(60000, 2);
+  std::ranges::shuffle(cloud, std::mt19937(1));
+  expect_gathered(cloud);
+}
+
+TEST_P(BinBatchOn, HoldsThemWhereBinsHaveFewPoints) {
+  for (std::size_t size = 20; size < 60; ++size) {
+    expect_gathered(tests::made_up_cloud(size, static_cast<std::uint32_t>(size)));
+  }
+}
+
+TEST_P(BinBatchOn, HoldsABinOfAnySize) {
+  for (std::size_t size = 1; size <= 70; ++size) {
+    std::vector<Point> cloud;
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto step = static_cast<float>(i);
+      cloud.push_back({6.5f + 0.01f * step, 0.7f, -1.7f - 0.01f * step});
+    }
+    expect_gathered(cloud);
+  }
+}
+
+/// Points of a patch from `first` on, as they are after a sort.
+std::vector<MovedPoint> moved(std::size_t count, float first) {
+  std::vector<MovedPoint> points(count + 16, {1e9f, 1e9f, 1e9f, 0});  // what may be read behind
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto step = static_cast<float>(i);
+    points[i] = {first + 0.01f * step, 7 - 0.02f * step, -1.7f + 0.001f * step, 0};
+  }
+  return points;
+}
+
+TEST_P(BinBatchOn, HoldsASampleOfEachPatchAtEvenSteps) {
+  for (const std::size_t most : {1U, 2U, 16U, 63U, 64U, 65U, 128U, 65535U}) {
+    // As many points as are taken at most, fewer, and more, by a little and by far.
+    const std::vector<std::size_t> sizes = {
+        1, 2, 15, 16, 17, most, most + 1, 2 * most, 2 * most + 1, 127, 128, 129, 1000, 70001};
+    ASSERT_LE(sizes.size(), batch_size);
+    BinBatch batch;
+    batch.reserve(batch_size * most);
+    batch.clear();
+    std::vector<std::vector<MovedPoint>> patches;
+    for (const std::size_t size : sizes) {
+      patches.push_back(moved(size, static_cast<float>(size % 50)));
+      batch.add_sample(static_cast<std::uint32_t>(100 + size),
+                       std::span(patches.back()).first(size), most);
+    }
+
+    ASSERT_EQ(batch.count(), sizes.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const std::size_t taken = std::min(sizes[i], most);
+      const auto number = [&](std::size_t j) { return patches[i][j * sizes[i] / taken]; };
+      ASSERT_EQ(batch.bin(i), 100 + sizes[i]);
+      ASSERT_EQ(batch.size(i), taken);
+      ASSERT_EQ(batch.origin(i).x, (number(0).x + number(taken - 1).x) / 2);
+      ASSERT_EQ(batch.origin(i).y, (number(0).y + number(taken - 1).y) / 2);
+      for (std::size_t j = 0; j < taken; ++j) {
+        ASSERT_EQ(batch.x(i)[j], number(j).x - batch.origin(i).x) << j << " of " << sizes[i];
+        ASSERT_EQ(batch.y(i)[j], number(j).y - batch.origin(i).y) << j << " of " << sizes[i];
+        ASSERT_EQ(batch.z(i)[j], number(j).z) << j << " of " << sizes[i];
+      }
+      expect_padded(batch, i);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flagstone::plane_fits

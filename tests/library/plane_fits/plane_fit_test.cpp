@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+// What each setting of the fit does, on bins of which the right sets are plain. That whole fits are
+// right, Patchwork's oracle tells.
+#include "library/plane_fits/plane_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "library/plane_fits/batch_of.hpp"
+#include "library/plane_fits/stage_clock.hpp"
+
+namespace flagstone::plane_fits {
+namespace {
+
+using Heights = std::vector<float>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// 300 points of level ground, 1.7 m below the sensor, and these.
+Heights ground_and(const Heights& others) {
+  Heights heights(300, -1.7f);
+  heights.insert(heights.end(), others.begin(), others.end());
+  return heights;
+}
+
+/// One plane, through the first set.
+FitSettings first_set_only() {
+  return {.seed_height = 0.5,
+          .distance_margin = 0.125,
+          .noise_margin = 0.375,
+          .iterations = 1,
+          .keep_below_floor = true,
+          .judge_final_set = false};
+}
+
+/// The same for each bin.
+Seeds same_seeds(double floor, std::uint32_t count) {
+  Seeds seeds{};
+  seeds.floors.fill(floor);
+  seeds.counts.fill(count);
+  return seeds;
+}
+
+PlaneFit::Result fitted(const std::vector<Heights>& bins, const FitSettings& settings,
+                        const Seeds& seeds) {
+  BinBatch batch = tests::batch_of(bins);
+  std::size_t points = 0;
+  for (const Heights& heights : bins) points += heights.size();
+  PlaneFit fit(settings);
+  fit.reserve(points);
+  StageClock clock(nullptr);
+  PlaneFit::Result result;
+  fit.fit(batch, seeds, clock, result);
+  return result;
+}
+
+TEST(PlaneFit, FirstSetReachesAsFarAboveTheSeedsMeanAsTheSeedHeight) {
+  const Heights heights = ground_and({-1.25f, -1.15f});
+
+  const PlaneFit::Result result = fitted({heights}, first_set_only(), same_seeds(-infinity, 20));
+
+  EXPECT_EQ(result.judged.count[0], 301);
+}
+
+TEST(PlaneFit, FirstSetReachesAsFarBelowTheSeedsMeanAsTheSeedDepth) {
+  const Heights heights = ground_and({-2.65f, -3.5f});
+  FitSettings settings = first_set_only();
+  const Seeds seeds = same_seeds(-infinity, 200);  // whose mean is 1.4 cm below the ground
+
+  EXPECT_EQ(fitted({heights}, settings, seeds).judged.count[0], 302);
+  settings.seed_depth = 1;
+  EXPECT_EQ(fitted({heights}, settings, seeds).judged.count[0], 301);
+}
+
+TEST(PlaneFit, FirstSetHoldsPointsBelowTheFloorOfTheSeedsOnlyIfAskedTo) {
+  const Heights heights = ground_and({-3.0f, -2.0f});
+  FitSettings settings = first_set_only();
+  const Seeds seeds = same_seeds(-2.25, 20);
+
+  EXPECT_EQ(fitted({heights}, settings, seeds).judged.count[0], 302);
+  settings.keep_below_floor = false;
+  EXPECT_EQ(fitted({heights}, settings, seeds).judged.count[0], 301);
+}
+
+TEST(PlaneFit, SeedDepthAndFloorBothHold) {
+  const Heights heights = ground_and({-3.0f, -2.0f});
+  FitSettings settings = first_set_only();
+  settings.keep_below_floor = false;
+
+  settings.seed_depth = 0.1;
+  EXPECT_EQ(fitted({heights}, settings, same_seeds(-2.25, 200)).judged.count[0], 300);
+  settings.seed_depth = 10;
+  EXPECT_EQ(fitted({heights}, settings, same_seeds(-2.25, 200)).judged.count[0], 301);
+}
+
+TEST(PlaneFit, FloorIsEachBinsOwn) {
+  const Heights heights = ground_and({-3.5f, -3.5f});
+  Seeds seeds = same_seeds(-infinity, 1);
+  seeds.floors[1] = -2;
+
+  const PlaneFit::Result result = fitted({heights, heights}, first_set_only(), seeds);
+
+  EXPECT_EQ(result.exists, 0b10U);  // two points that are far below all others have no plane
+  EXPECT_EQ(result.judged.count[1], 302);
+}
+
+TEST(PlaneFit, NumberOfSeedsIsEachBinsOwn) {
+  const Heights heights = ground_and({-3.5f, -3.5f});
+  Seeds seeds = same_seeds(-infinity, 2);
+  seeds.counts[1] = 100;
+  seeds.counts[2] = 30;
+
+  const PlaneFit::Result result = fitted({heights, heights, heights}, first_set_only(), seeds);
+
+  EXPECT_EQ(result.exists, 0b110U);
+  EXPECT_EQ(result.judged.count[1], 302);
+}
+
+TEST(PlaneFit, LaterSetsReachFromTheNoiseMarginBelowThePlaneToTheDistanceMarginAbove) {
+  const Heights heights = ground_and({-1.6f, -1.55f, -2.05f, -2.15f});
+  FitSettings settings = first_set_only();
+  settings.iterations = 2;
+
+  const PlaneFit::Result result = fitted({heights}, settings, same_seeds(-infinity, 20));
+
+  EXPECT_EQ(result.judged.count[0], 302);
+}
+
+TEST(PlaneFit, JudgingTheFinalSetIsOnePlaneMore) {
+  const Heights heights = ground_and({-1.6f, -1.55f, -1.4f, -2.05f, -2.15f});
+  FitSettings settings = first_set_only();
+  settings.iterations = 2;
+  settings.judge_final_set = true;
+  const Seeds seeds = same_seeds(-infinity, 20);
+
+  const PlaneFit::Result judged = fitted({heights}, settings, seeds);
+  settings.iterations = 3;
+  settings.judge_final_set = false;
+  const PlaneFit::Result three = fitted({heights}, settings, seeds);
+
+  EXPECT_EQ(judged.judged.d[0], three.judged.d[0]);
+  EXPECT_EQ(judged.judged.normal[2][0], three.judged.normal[2][0]);
+}
+
+TEST(PlaneFit, PlanesAreSeenFromTheirOrigins) {
+  const PlaneFit::Result result =
+      fitted({ground_and({})}, first_set_only(), same_seeds(-infinity, 20));
+
+  const Plane plane = result.judged[0].moved_by(result.origins[0]);
+
+  EXPECT_NEAR(plane.d, 1.7, 1e-6);
+  EXPECT_NEAR(plane.normal[2], 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace flagstone::plane_fits

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/surface/patch_judge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "library/surface/accepted_patches.hpp"
+
+namespace flagstone::surface {
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+/// A plane through many points at this place, this far from upright, degrees.
+Plane plane_at(double x, double z, double tilt = 0) {
+  const double angle = tilt * 3.14159265358979 / 180;
+  Plane plane{.count = 100, .mean = {x, 0, z}};
+  plane.normal = {std::sin(angle), 0, std::cos(angle)};
+  plane.d = -(plane.normal[0] * x + plane.normal[2] * z);
+  return plane;
+}
+
+constexpr SlabCounts clear{.within = 100, .above = 0};
+
+FittedPatch level_at(float x, float z) {
+  return {.x = x, .y = 0, .z = z, .slope_x = 0, .slope_y = 0, .points = 100};
+}
+
+TEST(PatchJudge, LevelPatchesAtTheFootOfTheSensorAreGround) {
+  EXPECT_EQ(PatchJudge({}).judge_alone(plane_at(10, -1.73), clear), Verdict::ground);
+}
+
+TEST(PatchJudge, AFewPointsMakeNoPlane) {
+  Plane plane = plane_at(10, -1.73);
+  plane.count = 4;
+
+  EXPECT_EQ(PatchJudge({}).judge_alone(plane, clear), Verdict::no_plane);
+}
+
+TEST(PatchJudge, SteepPatchesAreNotUpright) {
+  SurfaceConfig config;
+  config.acceptance.upright_angle = 60;  // between normal and ground: a tilt of 30 degrees
+
+  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 29.9), clear), Verdict::ground);
+  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 30.1), clear), Verdict::not_upright);
+}
+
+TEST(PatchJudge, AWallIsNeverGround) {
+  SurfaceConfig config;
+  config.acceptance.upright_angle = 0;
+
+  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 90), clear), Verdict::not_upright);
+  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 80), clear), Verdict::ground);
+}
+
+TEST(PatchJudge, PatchesWithAsManyPointsAboveThemAreMixed) {
+  SurfaceConfig config;
+  config.acceptance.contrast = 0.5f;
+  const PatchJudge judge(config);
+
+  EXPECT_EQ(judge.judge_alone(plane_at(10, -1.73), {.within = 100, .above = 50}), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(plane_at(10, -1.73), {.within = 100, .above = 51}), Verdict::mixed);
+}
+
+TEST(PatchJudge, WithoutALimitNothingIsMixed) {
+  SurfaceConfig config;
+  config.acceptance.contrast = inf;
+
+  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73), {.within = 0, .above = 100}),
+            Verdict::ground);
+}
+
+TEST(PatchJudge, PatchesAboveTheConeAreTooHigh) {
+  SurfaceConfig config;
+  config.acceptance.height = 1;
+  config.acceptance.rise = 0.2f;
+  const PatchJudge judge(config);
+
+  // Up to -1.73 + 1 near the sensor, and to -1.73 + 0.2 * 20 at 20 m.
+  EXPECT_EQ(judge.judge_alone(plane_at(4, -0.74), clear), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(plane_at(4, -0.72), clear), Verdict::too_high);
+  EXPECT_EQ(judge.judge_alone(plane_at(20, 2.26), clear), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(plane_at(20, 2.28), clear), Verdict::too_high);
+}
+
+TEST(PatchJudge, TheFirstPatchIsMeasuredByTheSensorsHeight) {
+  SurfaceConfig config;
+  config.acceptance.step = 0.5f;
+  config.acceptance.step_growth = 0.1f;
+  const PatchJudge judge(config);
+  AcceptedPatches none;
+  none.reserve(1);
+
+  // At 5 m: 0.5 + 0.1 * 5 above, 0.5 more below.
+  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f + 0.99f), none), Verdict::ground);
+  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f + 1.01f), none), Verdict::off_surface);
+  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f - 1.49f), none), Verdict::ground);
+  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f - 1.51f), none), Verdict::off_surface);
+}
+
+TEST(PatchJudge, LaterPatchesAreMeasuredByNearerOnes) {
+  SurfaceConfig config;
+  config.acceptance.step = 0.5f;
+  config.acceptance.step_growth = 0.1f;
+  const PatchJudge judge(config);
+  AcceptedPatches nearer;
+  nearer.reserve(1);
+  nearer.add(level_at(16, 3));
+
+  // 4 m away: 0.5 + 0.1 * 4 above.
+  EXPECT_EQ(judge.judge_step(level_at(20, 3.89f), nearer), Verdict::ground);
+  EXPECT_EQ(judge.judge_step(level_at(20, 3.91f), nearer), Verdict::off_surface);
+  EXPECT_EQ(judge.judge_step(level_at(20, -1.73f), nearer), Verdict::off_surface);
+}
+
+TEST(PatchJudge, TheAllowanceStopsGrowingAt15Metres) {
+  SurfaceConfig config;
+  config.acceptance.step = 0.5f;
+  config.acceptance.step_growth = 0.1f;
+  const PatchJudge judge(config);
+  AcceptedPatches none;
+  none.reserve(1);
+
+  EXPECT_EQ(judge.judge_step(level_at(60, -1.73f + 1.99f), none), Verdict::ground);
+  EXPECT_EQ(judge.judge_step(level_at(60, -1.73f + 2.01f), none), Verdict::off_surface);
+}
+
+TEST(PatchJudge, WithoutALimitEveryStepIsGround) {
+  SurfaceConfig config;
+  config.acceptance.step = inf;
+  AcceptedPatches none;
+  none.reserve(1);
+
+  EXPECT_EQ(PatchJudge(config).judge_step(level_at(5, 900), none), Verdict::ground);
+  EXPECT_EQ(PatchJudge(config).judge_step(level_at(5, -900), none), Verdict::ground);
+}
+
+}  // namespace
+}  // namespace flagstone::surface

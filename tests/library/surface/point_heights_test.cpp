@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/surface/point_heights.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "library/core/simd_target.hpp"
+#include "flagstone/surface.hpp"
+#include "forced_target.hpp"
+#include "made_up_surface.hpp"
+#include "library/surface/square_scan.hpp"
+
+namespace flagstone::surface {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+/// The grids of a made-up surface, one after another in memory.
+class JoinedGrids {
+ public:
+  explicit JoinedGrids(const Surface& made) {
+    for (const Surface::Grid& grid : made.grids()) {
+      heights_.insert(heights_.end(), grid.heights.begin(), grid.heights.end());
+    }
+    std::size_t first = 0;
+    for (const Surface::Grid& grid : made.grids()) {
+      grids_.push_back({.cell = grid.cell,
+                        .width = grid.width,
+                        .heights = heights_.data() + first,
+                        .confidences = nullptr});
+      first += grid.heights.size();
+    }
+  }
+
+  [[nodiscard]] std::span<const Grid> grids() const { return grids_; }
+
+ private:
+  std::vector<float> heights_;
+  std::vector<Grid> grids_;
+};
+
+/// Grids for 104 m around the sensor, as wide as the cells for the default range.
+const std::vector<tests::GridSize> wide_grids = {{.cell = 2, .width = 104},
+                                                 {.cell = 1, .width = 80},
+                                                 {.cell = 0.5f, .width = 96},
+                                                 {.cell = 0.25f, .width = 64}};
+
+/// What is said of points above a surface.
+struct Measured {
+  std::vector<float> heights;
+  std::vector<Label> labels;
+  LabelTotals totals{};
+};
+
+/// The parameter is the instruction set.
+class PointHeightsOn : public testing::TestWithParam<std::string> {
+ protected:
+  Measured measured(const std::vector<Point>& cloud, const Surface& made,
+                    const SurfaceConfig& config = {}) {
+    const tests::SquareScan sorted(cloud, config);
+    PointHeights point_heights(config, sorted.cells);
+    const JoinedGrids joined(made);
+    Measured out;
+    out.heights.resize(cloud.size());
+    out.labels.resize(cloud.size());
+    const std::size_t chunks = plane_fits::ScanPoints::chunk_count(cloud.size());
+    point_heights.set_surface(joined.grids());
+    for (std::size_t i = 0; i < chunks; ++i) point_heights.measure(sorted.scan, i, out.heights);
+    for (std::size_t i = 0; i < chunks; ++i) {
+      point_heights.label(sorted.scan, i, out.heights, out.labels, out.totals);
+    }
+    return out;
+  }
+
+  /// The label of one point above level ground at z = -2, seen with whatever else is there.
+  Label label_of(const Point& point, std::vector<Point> others = {},
+                 const SurfaceConfig& config = {}) {
+    others.push_back(point);
+    return measured(others, level_, config).labels.back();
+  }
+
+  const Surface level_ = tests::made_up_surface([](float, float) { return -2.0f; }, wide_grids);
+
+ private:
+  tests::ForcedTarget forced_{GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(Target, PointHeightsOn, testing::ValuesIn(simd_targets()),
+                         [](const auto& target) { return target.param; });
+
+TEST_P(PointHeightsOn, AreTakenFromTheSurfaceToTheBit) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> rough(-2.5f, -1.5f);
+  const Surface made = tests::made_up_surface(
+      [&](float, float) { return random() % 8 == 0 ? nan : rough(random); }, wide_grids);
+  std::vector<Point> cloud;
+  std::uniform_real_distribution<float> place(-100, 100);
+  for (int i = 0; i < 20000; ++i) {
+    // Anywhere, near the sensor, and at edges of cells and grids.
+    const float scale = i % 3 == 0 ? 0.1f : 1.0f;
+    Point p{scale * place(random), scale * place(random), rough(random)};
+    if (i % 5 == 0) p.x = std::round(8 * p.x) / 8;
+    if (i % 7 == 0) p.y = std::round(p.y);
+    cloud.push_back(p);
+  }
+
+  const Measured found = measured(cloud, made);
+
+  std::size_t known = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Point& p = cloud[i];
+    if (std::hypot(p.x, p.y) >= 100) continue;
+    const float ground = made.height(p.x, p.y);
+    ASSERT_EQ(std::isnan(found.heights[i]), std::isnan(ground)) << p.x << ", " << p.y;
+    if (std::isnan(ground)) continue;
+    ASSERT_EQ(found.heights[i], p.z - ground) << p.x << ", " << p.y;
+    ++known;
+  }
+  EXPECT_GT(known, 5000U);
+}
+
+TEST_P(PointHeightsOn, AreNotKnownForPointsThatAreInvalidOrOutOfRange) {
+  const Measured found =
+      measured({{nan, 0, 0}, {0, 0, 0}, {150, 0, 0}, {5, 5, 20000}, {5, 5, -2}}, level_);
+
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(std::isnan(found.heights[i])) << i;
+  EXPECT_EQ(found.labels, (std::vector{Label::invalid, Label::invalid, Label::out_of_range,
+                                       Label::out_of_range, Label::ground}));
+}
+
+TEST_P(PointHeightsOn, LowerThanTheMarginIsGround) {
+  const float margin = PointRule{}.margin;
+
+  EXPECT_EQ(label_of({10, 0, -2 + margin - 0.001f}), Label::ground);
+  EXPECT_EQ(label_of({10, 0, -2 + margin + 0.001f}), Label::nonground);
+  EXPECT_EQ(label_of({10, 0, -2 - 0.3f}), Label::ground);
+}
+
+TEST_P(PointHeightsOn, WhereSomethingStandsTheMarginIsSmaller) {
+  const PointRule rule;
+  const float margin = rule.margin_at_obstacles;
+  const std::vector<Point> pole = {{10.1f, 0.1f, -2 + 1.25f * rule.standing_height + 0.01f}};
+
+  EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin - 0.001f}, pole), Label::ground);
+  EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin + 0.001f}, pole), Label::nonground);
+  EXPECT_EQ(label_of({10.6f, 0.4f, -2 + margin + 0.001f}, pole), Label::ground) << "the next cell";
+}
+
+TEST_P(PointHeightsOn, WhereSomethingLowStandsTheMeanOfBothMarginsHolds) {
+  const PointRule rule;
+  const float margin = (rule.margin + rule.margin_at_obstacles) / 2;
+  for (const float height :
+       {0.75f * rule.standing_height + 0.01f, 1.25f * rule.standing_height - 0.01f}) {
+    const std::vector<Point> stone = {{10.1f, 0.1f, -2 + height}};
+
+    EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin - 0.001f}, stone), Label::ground);
+    EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin + 0.001f}, stone), Label::nonground);
+  }
+}
+
+TEST_P(PointHeightsOn, OnlyWhatIsHighEnoughAndDoesNotHangOverTheGroundStands) {
+  const PointRule rule;
+  const Point low{10.4f, 0.4f, -2 + rule.margin - 0.01f};
+
+  EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 0.75f * rule.standing_height - 0.01f}}),
+            Label::ground);
+  EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 2.49f}}), Label::nonground);
+  EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 2.51f}}), Label::ground);
+}
+
+TEST_P(PointHeightsOn, AThingStandsInTheCellThatHoldsItWhereverThatIs) {
+  for (const float x : {-99.9f, -40.0f, -0.25f, 0.0f, 0.3f, 24.0f, 99.4f}) {
+    for (const float y : {-0.3f, 0.0f, 3.7f}) {
+      const float in_x = std::floor(x * 2) / 2 + 0.3f;
+      const float in_y = std::floor(y * 2) / 2 + 0.3f;
+      EXPECT_EQ(label_of({in_x, in_y, -1.9f}, {{x, y, -0.5f}}), Label::nonground) << x << " " << y;
+      EXPECT_EQ(label_of({in_x, in_y + 0.5f, -1.9f}, {{x, y, -0.5f}}), Label::ground);
+      EXPECT_EQ(label_of({in_x, in_y - 0.5f, -1.9f}, {{x, y, -0.5f}}), Label::ground);
+    }
+  }
+}
+
+TEST_P(PointHeightsOn, WhatStoodInOneScanIsForgottenInTheNext) {
+  const std::vector<Point> pole = {{10.1f, 0.1f, -1}, {10.4f, 0.4f, -1.9f}};
+  const std::vector<Point> none = {{10.1f, 0.1f, -2}, {10.4f, 0.4f, -1.9f}};
+  const SurfaceConfig config;
+  const tests::SquareScan with_pole(pole, config);
+  const tests::SquareScan without(none, config);
+  PointHeights point_heights(config, with_pole.cells);
+  const JoinedGrids joined(level_);
+  std::vector<float> heights(2);
+  std::vector<Label> labels(2);
+  LabelTotals totals{};
+
+  for (const tests::SquareScan* sorted : {&with_pole, &without}) {
+    point_heights.set_surface(joined.grids());
+    point_heights.measure(sorted->scan, 0, heights);
+    point_heights.label(sorted->scan, 0, heights, labels, totals);
+    EXPECT_EQ(labels.back(), sorted == &without ? Label::ground : Label::nonground);
+  }
+}
+
+TEST_P(PointHeightsOn, FarBelowTheSurfaceIsNoiseAndTheFartherAwayTheDeeper) {
+  EXPECT_EQ(label_of({10, 0, -2 - 0.34f}), Label::ground);
+  EXPECT_EQ(label_of({10, 0, -2 - 0.36f}), Label::noise);
+  EXPECT_EQ(label_of({50, 0, -2 - 1.14f}), Label::ground);
+  EXPECT_EQ(label_of({50, 0, -2 - 1.16f}), Label::noise);
+}
+
+TEST_P(PointHeightsOn, BelowAnyGroundIsNoiseEvenIfTheSurfaceIsThere) {
+  const Surface pit = tests::made_up_surface([](float, float) { return -20.0f; }, wide_grids);
+
+  EXPECT_EQ(measured({{10, 0, -20}}, pit).labels.front(), Label::noise);
+}
+
+TEST_P(PointHeightsOn, WhereTheSurfaceIsNotKnownNothingIsGround) {
+  const Surface unknown = tests::made_up_surface([](float, float) { return nan; }, wide_grids);
+
+  EXPECT_EQ(measured({{10, 0, -2}}, unknown).labels.front(), Label::nonground);
+  EXPECT_EQ(measured({{10, 0, -200}}, unknown).labels.front(), Label::noise);
+}
+
+TEST_P(PointHeightsOn, TotalsCountTheLabelsOfEveryChunk) {
+  const std::vector<Point> cloud = tests::corrupted_cloud(20000, 3);
+
+  const Measured found = measured(cloud, level_);
+
+  LabelTotals counted{};
+  for (const Label label : found.labels) ++counted.at(static_cast<std::size_t>(label));
+  for (const Label label : {Label::ground, Label::noise, Label::out_of_range, Label::invalid}) {
+    const auto code = static_cast<std::size_t>(label);
+    EXPECT_EQ(found.totals.at(code), counted.at(code)) << to_string(label);
+    EXPECT_GT(counted.at(code), 0U) << to_string(label);
+  }
+}
+
+}  // namespace
+}  // namespace flagstone::surface

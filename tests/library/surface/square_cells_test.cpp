@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/surface/square_cells.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "library/core/simd_target.hpp"
+#include "flagstone/surface_segmenter.hpp"
+#include "forced_target.hpp"
+#include "guarded_memory.hpp"
+#include "made_up_cloud.hpp"
+#include "library/surface/square_scan.hpp"
+
+namespace flagstone::surface {
+namespace {
+
+constexpr std::array<float, 9> ranges = {8, 9, 16, 24, 24.1f, 40, 63, 100, 200};
+
+SurfaceConfig with_range(float range) {
+  SurfaceConfig config;
+  config.max_range = range;
+  return config;
+}
+
+/// Side of the cells at a place, metres: the finest level that reaches there.
+float side_at(double x, double y) {
+  // Levels reach whole blocks: what counts is where the block begins.
+  const double reach = std::max(std::floor(std::abs(x < 0 ? -x - 1e-12 : x) / 8),
+                                std::floor(std::abs(y < 0 ? -y - 1e-12 : y) / 8)) *
+                       8;
+  float side = levels[0].cell;
+  for (const Level& level : levels) {
+    if (reach < static_cast<double>(level.reach)) side = level.cell;
+  }
+  return side;
+}
+
+/// The cell that a place lies in, by block() and the Z-order of what side_at() says; a point less
+/// than 1e-4 m from an edge may count to either side.
+std::uint32_t naive_cell(const SquareCells& cells, double x, double y) {
+  const auto edge = static_cast<double>(cells.extent());
+  const auto block_of = [&](double v) { return static_cast<int>(std::floor((v + edge) / 8)); };
+  const CellRange block = cells.block(block_of(x), block_of(y));
+  const auto inside = [&](double v) { return v + edge - 8 * block_of(v); };
+  const auto side = static_cast<double>(side_at(x, y));
+  return block.first + z_order(static_cast<std::uint32_t>(inside(x) / side),
+                               static_cast<std::uint32_t>(inside(y) / side));
+}
+
+/// All that a point may be told within the rounding of its coordinates.
+std::vector<std::uint32_t> allowed_cells(const SquareCells& cells, const Point& p) {
+  std::vector<std::uint32_t> allowed;
+  const auto most = static_cast<double>(cells.extent()) - 1e-6;
+  for (const double dx : {-1e-4, 0.0, 1e-4}) {
+    for (const double dy : {-1e-4, 0.0, 1e-4}) {
+      allowed.push_back(naive_cell(cells, std::clamp(static_cast<double>(p.x) + dx, -most, most),
+                                   std::clamp(static_cast<double>(p.y) + dy, -most, most)));
+    }
+  }
+  return allowed;
+}
+
+/// The parameter is the instruction set.
+class SquareCellsOn : public testing::TestWithParam<std::string> {
+  tests::ForcedTarget forced{GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(Target, SquareCellsOn, testing::ValuesIn(simd_targets()),
+                         [](const auto& target) { return target.param; });
+
+TEST_P(SquareCellsOn, APointIsToldTheCellItLiesIn) {
+  EXPECT_TRUE(rc::check([] {
+    const float range = *rc::gen::elementOf(ranges);
+    const SquareCells cells(with_range(range));
+    const auto most = static_cast<int>(range * 1000);
+    std::vector<Point> cloud;
+    for (int i = 0; i < 40; ++i) {
+      // Millimetres, or whole quarters of a metre: edges of cells, blocks and levels.
+      const auto millimetres = *rc::gen::inRange(-most, most);
+      const auto quarters = *rc::gen::inRange(-most / 250, most / 250);
+      const bool on_edges = *rc::gen::arbitrary<bool>();
+      cloud.push_back(
+          {on_edges ? static_cast<float>(quarters) / 4 : static_cast<float>(millimetres) / 1000,
+           static_cast<float>(*rc::gen::inRange(-most, most)) / 1000, -1.5f});
+    }
+
+    const std::vector<std::uint32_t> found = tests::cells_of(cloud, cells);
+
+    RC_ASSERT(found.size() == cloud.size());
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (std::hypot(cloud[i].x, cloud[i].y) > range - 1e-3f) continue;
+      const std::vector<std::uint32_t> allowed = allowed_cells(cells, cloud[i]);
+      RC_ASSERT(std::ranges::count(allowed, found[i]) > 0);
+    }
+  }));
+}
+
+TEST_P(SquareCellsOn, EveryPointInRangeHasACellUpToTheLastOne) {
+  for (const float range : ranges) {
+    const SquareCells cells(with_range(range));
+    const float last = std::nextafter(range, 0.0f);
+    std::vector<Point> cloud;
+    for (const float v : {last, std::nextafter(last, 0.0f), 0.9999999f * range}) {
+      for (const float w : {0.0f, 1e-30f, -1e-30f, 1e-4f, -1e-4f}) {
+        for (const Point& p :
+             {Point{v, w, -1}, Point{-v, w, -1}, Point{w, v, -1}, Point{w, -v, -1}}) {
+          cloud.push_back(p);
+        }
+      }
+    }
+
+    const std::vector<std::uint32_t> found = tests::cells_of(cloud, cells);
+
+    ASSERT_EQ(found.size(), cloud.size());
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (found[i] == cells.out_of_range()) continue;
+      const std::vector<std::uint32_t> allowed = allowed_cells(cells, cloud[i]);
+      EXPECT_GT(std::ranges::count(allowed, found[i]), 0)
+          << "range " << range << ", (" << cloud[i].x << ", " << cloud[i].y << "), cell "
+          << found[i] << " of " << cells.cell_count();
+    }
+  }
+}
+
+TEST_P(SquareCellsOn, PointsWithoutACellAreToldWhy) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  const SquareCells cells{SurfaceConfig{}};
+  struct Case {
+    Point point;
+    std::uint32_t told;
+  };
+  const std::vector<Case> cases = {{{0, 0, 0}, cells.invalid()},
+                                   {{-0.0f, 0, -0.0f}, cells.invalid()},
+                                   {{nan, 5, 1}, cells.invalid()},
+                                   {{5, nan, 1}, cells.invalid()},
+                                   {{5, 5, nan}, cells.invalid()},
+                                   {{inf, 5, 1}, cells.invalid()},
+                                   {{5, -inf, 1}, cells.invalid()},
+                                   {{5, 5, -inf}, cells.invalid()},
+                                   {{1e30f, 5, 1}, cells.out_of_range()},
+                                   {{5, -3e38f, 1}, cells.out_of_range()},
+                                   {{5, 5, 3e38f}, cells.out_of_range()},
+                                   {{5, 5, 10001}, cells.out_of_range()},
+                                   {{5, 5, -10001}, cells.out_of_range()},
+                                   {{100, 0, 1}, cells.out_of_range()},
+                                   {{-71, 71, 1}, cells.out_of_range()},
+                                   // Lowest at 10 m: -1.73 - 2 - 0.35 * 10.
+                                   {{10, 0, -7.24f}, cells.noise()},
+                                   {{0, -10, -9999}, cells.noise()}};
+  std::vector<Point> cloud(cases.size());
+  std::ranges::transform(cases, cloud.begin(), &Case::point);
+
+  const std::vector<std::uint32_t> found = tests::cells_of(cloud, cells);
+
+  ASSERT_EQ(found.size(), cases.size());
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    EXPECT_EQ(found[i], cases[i].told) << "point " << i;
+  }
+  EXPECT_LT(tests::cells_of({{10, 0, -7.22f}}, cells).front(), cells.cell_count());
+  EXPECT_LT(tests::cells_of({{1e-40f, 0, 0}}, cells).front(), cells.cell_count());
+}
+
+TEST_P(SquareCellsOn, AnyBitPatternIsToldSomething) {
+  const SquareCells cells{SurfaceConfig{}};
+  EXPECT_TRUE(rc::check([&](const std::vector<std::array<std::uint32_t, 3>>& bits) {
+    std::vector<Point> cloud(bits.size());
+    std::ranges::transform(bits, cloud.begin(), [](const std::array<std::uint32_t, 3>& xyz) {
+      return std::bit_cast<Point>(xyz);
+    });
+
+    const std::vector<std::uint32_t> found = tests::cells_of(cloud, cells);
+
+    RC_ASSERT(found.size() == cloud.size());
+    for (const std::uint32_t cell : found) RC_ASSERT(cell < cells.group_count());
+  }));
+}
+
+TEST_P(SquareCellsOn, NothingIsReadBehindTheirTables) {
+  const tests::GuardedMemory memory(sizeof(SquareCells));
+  const SquareCells* const cells =
+      new (memory.last(sizeof(SquareCells)).data()) SquareCells(SurfaceConfig{});
+
+  const std::vector<std::uint32_t> found = tests::cells_of(tests::made_up_cloud(1000, 1), *cells);
+
+  EXPECT_EQ(found, tests::cells_of(tests::made_up_cloud(1000, 1), SquareCells(SurfaceConfig{})));
+}
+
+TEST(SquareCells, BlocksAreNumberedApart) {
+  for (const float range : ranges) {
+    const SquareCells cells(with_range(range));
+    std::vector<bool> taken(cells.cell_count());
+    for (int row = 0; row < 2 * cells.half_blocks(); ++row) {
+      for (int column = 0; column < 2 * cells.half_blocks(); ++column) {
+        const auto [first, last] = cells.block(column, row);
+        const int along = 32 >> cells.block_class(column, row);
+        ASSERT_EQ(last - first, static_cast<std::uint32_t>(along * along));
+        ASSERT_LE(last, cells.cell_count());
+        for (std::uint32_t cell = first; cell < last; ++cell) {
+          ASSERT_FALSE(taken[cell]) << "range " << range << ", cell " << cell;
+          taken[cell] = true;
+        }
+      }
+    }
+  }
+}
+
+TEST(SquareCells, NumbersFitTheBinsOfAScanAtEveryRange) {
+  for (float range = 8; range <= 200; range += 0.5f) {
+    EXPECT_LT(SquareCells(with_range(range)).group_count(), 1U << plane_fits::bin_bits) << range;
+  }
+}
+
+TEST(SquareCells, AreAsFineAsTheFinestLevelThatReachesThere) {
+  const SquareCells cells{SurfaceConfig{}};
+  const int half = cells.half_blocks();
+
+  for (int row = 0; row < 2 * half; ++row) {
+    for (int column = 0; column < 2 * half; ++column) {
+      const double x = 8.0 * (column - half) + 4;
+      const double y = 8.0 * (row - half) + 4;
+      const float side = 8.0f / static_cast<float>(32 >> cells.block_class(column, row));
+      EXPECT_EQ(side, side_at(x, y)) << x << ", " << y;
+    }
+  }
+}
+
+TEST(SquareCells, CoverTheRangeInWholeBlocks) {
+  for (const float range : ranges) {
+    const float extent = SquareCells(with_range(range)).extent();
+    EXPECT_GE(extent, range);
+    EXPECT_LT(extent, range + 8.001f);
+    EXPECT_EQ(std::fmod(extent, 8.0f), 0);
+  }
+}
+
+TEST(ZOrder, EveryAlignedSquareIsARange) {
+  for (std::uint32_t side = 1; side <= 32; side *= 2) {
+    for (std::uint32_t row = 0; row < 32; row += side) {
+      for (std::uint32_t column = 0; column < 32; column += side) {
+        const std::uint32_t first = z_order(column, row);
+        EXPECT_EQ(first % (side * side), 0U);
+        for (std::uint32_t y = row; y < row + side; ++y) {
+          for (std::uint32_t x = column; x < column + side; ++x) {
+            EXPECT_EQ(z_order(x, y) / (side * side), first / (side * side));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(ZOrder, NumbersEveryPlaceOnce) {
+  std::vector<bool> taken(1024);
+  for (std::uint32_t row = 0; row < 32; ++row) {
+    for (std::uint32_t column = 0; column < 32; ++column) {
+      const std::uint32_t place = z_order(column, row);
+      ASSERT_LT(place, 1024U);
+      EXPECT_FALSE(taken[place]);
+      taken[place] = true;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flagstone::surface

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "flagstone/surface_config.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "library/core/setting.hpp"
+#include "flagstone/surface_segmenter.hpp"
+#include "made_up_cloud.hpp"
+#include "library/surface/surface_settings.hpp"
+
+namespace flagstone {
+namespace {
+
+/// Gives the setting of that number this value.
+void set(SurfaceConfig& config, std::size_t setting, double value) {
+  const Setting chosen = settings_of(config)[setting];
+  if (float* const* number = std::get_if<float*>(&chosen.value)) {
+    **number = static_cast<float>(value);
+  }
+  if (int* const* number = std::get_if<int*>(&chosen.value)) **number = static_cast<int>(value);
+}
+
+/// What check() says if a setting has this value; empty if it is content.
+std::string complaint(std::size_t setting, double value) {
+  SurfaceConfig config;
+  set(config, setting, value);
+  try {
+    config.check();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(SurfaceConfigCheck, TheInitialSettingsAreValid) { EXPECT_NO_THROW(SurfaceConfig().check()); }
+
+TEST(SurfaceConfigCheck, EverySettingIsHeldToItsRange) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  SurfaceConfig config;
+  const std::vector<Setting> settings = settings_of(config);
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const auto& [low, high, unit, without_low, or_infinity, remark] = settings[i].allowed;
+    const std::string key(settings[i].key);
+    EXPECT_EQ(complaint(i, high), "") << key;
+    EXPECT_EQ(complaint(i, low).empty(), !without_low) << key;
+    for (const double value : {low - 1, high + 1}) {
+      EXPECT_THAT(complaint(i, value), testing::HasSubstr("surface: " + key)) << value;
+    }
+    if (std::holds_alternative<int*>(settings[i].value)) continue;
+    EXPECT_EQ(complaint(i, inf).empty(), or_infinity) << key;
+    EXPECT_THAT(complaint(i, std::nan("")), testing::HasSubstr(key));
+  }
+}
+
+TEST(SurfaceConfigCheck, EverySettingAtEitherEndOfItsRangeLeavesHeightsThatAreNumbers) {
+  const std::vector<Point> cloud = tests::corrupted_cloud(6000, 1);
+  SurfaceConfig initial;
+  const std::size_t count = settings_of(initial).size();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const bool highest : {false, true}) {
+      SurfaceConfig config;
+      const Setting setting = settings_of(config)[i];
+      const Allowed& allowed = setting.allowed;
+      const double lowest = allowed.without_low ? 1e-6 : allowed.low;
+      const double value = highest ? allowed.high : lowest;
+      set(config, i, value);
+      SurfaceSegmenter segmenter(config);
+      Segmentation result;
+
+      ASSERT_TRUE(segmenter.segment(tests::view_of(cloud), result).ok());
+
+      EXPECT_EQ(result.labels().size(), cloud.size());
+      for (const Surface::Grid& grid : result.surface().grids()) {
+        for (std::size_t k = 0; k < grid.heights.size(); ++k) {
+          ASSERT_FALSE(std::isinf(grid.heights[k])) << setting.key << " " << value;
+          ASSERT_EQ(std::isnan(grid.heights[k]), grid.confidences[k] == 0)
+              << setting.key << " " << value;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flagstone
