@@ -6,8 +6,8 @@
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
 
-.PHONY: help build demo test test-python test-ray wheel docs sanitize sanitize-thread format format-check tidy growth latency primitives sharpness \
-        edges soak bench-compare surface-study surface-figures worlds-study contact-sheet install clean
+.PHONY: help build demo test test-python test-ray wheel docs sanitize sanitize-thread format format-check tidy bench-scaling latency primitives bench-steps \
+        bench-edges soak-test bench-compare surface-study surface-figures worlds-study contact-sheet install clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
@@ -49,7 +49,7 @@ format-check: ## fail where `make format` would change something
 tidy: ## run clang-tidy over our sources
 	@scripts/setup build test tidy && scripts/tidy
 
-growth: ## time and memory over points, beams, bins and threads; draws docs/images/growth.png
+bench-scaling: ## time and memory over points, beams, bins and threads; draws docs/images/growth.png
 	@scripts/setup build benchmark plot && scripts/benchmark growth
 
 latency: ## time of 10,000 different scans, with those meant to take long
@@ -58,13 +58,13 @@ latency: ## time of 10,000 different scans, with those meant to take long
 primitives: ## time of each step for every instruction set
 	@scripts/setup build benchmark && scripts/benchmark primitives
 
-sharpness: ## how sharp the surface shows kerbs, ditches and drops of known shape
+bench-steps: ## how sharp the surface shows kerbs, ditches and drops of known shape
 	@scripts/setup build benchmark && scripts/benchmark sharpness
 
-edges: ## what methods make of the ground on both sides of kerbs, ditches and drops, and of ghosts below
+bench-edges: ## what methods make of the ground on both sides of kerbs, ditches and drops, and of ghosts below
 	@scripts/setup build benchmark && scripts/benchmark edges
 
-soak: ## 100,000 different scans by one segmenter: does it hold its memory? draws docs/images/soak.png
+soak-test: ## 100,000 different scans by one segmenter: does it hold its memory? draws docs/images/soak.png
 	@scripts/setup build benchmark plot && scripts/benchmark soak
 
 bench-compare: build ## is METHOD in the working tree slower than in REVISION, on SCANS?

@@ -76,7 +76,7 @@ def build(name, source):
         "cmake", "-G", "Ninja", "-S", ROOT / "bench" / "segment_loop", "-B", tree,
         f"-DFLAGSTONE_REVISION={source}", "-DCMAKE_BUILD_TYPE=Release",
     )  # fmt: skip
-    call("cmake", "--build", tree, "--target", "segment_loop")
+    call("cmake", "--build", tree, "--isa", "segment_loop")
     return tree / "segment_loop"
 
 

@@ -75,7 +75,7 @@ def simulated_scan(command, scene, sensor, options):
 
 
 def panel(points, classes, size, extent):
-    """A picture (size, size, 3): x, forward, up and y, left, to the left, as `flagstone segment --picture` does."""
+    """A picture (size, size, 3): x, forward, up and y, left, to the left, as `flagstone segment --image` does."""
     picture = np.empty((size, size, 3), np.uint8)
     picture[:] = rgb(PANEL_COLOR)
     column = np.floor((extent - points[:, 1]) / (2 * extent) * size).astype(int)

@@ -3,7 +3,7 @@
 """Measures how time and memory of Patchwork and surface grow, draws the plot and prints the tables. Needs
 Matplotlib.
 
-    make growth                                              # all of it, a minute or two
+    make bench-scaling                                              # all of it, a minute or two
     scripts/benchmark growth --method surface                # one of them; the other stays as it was measured
     python3 bench/growth.py --from docs/results/growth.json  # plot and tables of what was measured
 
@@ -311,7 +311,7 @@ def main():
         results = json.loads(arguments.file.read_text())
     else:
         if not arguments.program.exists():
-            sys.exit(f"{arguments.program} is not built: `make growth` builds it")
+            sys.exit(f"{arguments.program} is not built: `make bench-scaling` builds it")
         results = {}
         if arguments.method:
             results = json.loads(RESULTS.read_text())

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Runs one of the peers of peers.py for `flagstone bench --peers`, which starts it and talks to it:
+"""Runs one of the peers of peers.py for `flagstone bench --compare`, which starts it and talks to it:
 
     python3 bench/peer_worker.py PEER SENSOR_HEIGHT
 

@@ -3,7 +3,7 @@
 """Lets patchwork and surface segment 100,000 different scans each, one after the other, and draws the memory
 that the process holds meanwhile. Needs Matplotlib.
 
-    make soak                                            # minutes
+    make soak-test                                            # minutes
     python3 bench/soak.py --from docs/results/soak.json  # plot and table of what was measured
 
 The figures go to docs/results/soak.json, the plot to docs/images/soak.png, a table in Markdown to standard
@@ -82,7 +82,7 @@ def main():
         results = json.loads(arguments.file.read_text())
     else:
         if not arguments.program.exists():
-            sys.exit(f"{arguments.program} is not built: `make soak` builds it")
+            sys.exit(f"{arguments.program} is not built: `make soak-test` builds it")
         measured = {m: measure(arguments.program, m, arguments.scans) for m in COLORS}
         results = {
             "date": datetime.date.today().isoformat(),

@@ -10,18 +10,18 @@ from tables import points_more, table, with_interval
 # A part, and the settings that take it out; {margin} and the like stand for the settings' own values.
 REMOVALS = [
     ("uprightness: patches up to 60° steep", ["acceptance.upright_angle=30"]),
-    ("contrast of patches", ["acceptance.contrast=inf"]),
-    ("cone", ["acceptance.height=1000"]),
-    ("consistency with nearer patches", ["acceptance.step=inf"]),
+    ("contrast of patches", ["acceptance.max_clutter_ratio=inf"]),
+    ("cone", ["acceptance.max_height=1000"]),
+    ("consistency with nearer patches", ["acceptance.max_step=inf"]),
     ("all refinement: the coarse surface alone", ["refinement.levels=0"]),
     ("cells of 1 m and less", ["refinement.levels=1"]),
     ("cells of 0.5 m and less", ["refinement.levels=2"]),
     ("cells of 0.25 m", ["refinement.levels=3"]),
-    ("contrast of cells", ["refinement.contrast=inf"]),
+    ("contrast of cells", ["refinement.max_clutter_ratio=inf"]),
     ("lower bound", ["refinement.lower_bound_weight=0"]),
     ("narrower gates on finer levels", ["refinement.gate_factor=1"]),
-    ("smaller margin at obstacles", ["point.margin_at_obstacles={point.margin}"]),
-    ("wider margin elsewhere", ["point.margin={point.margin_at_obstacles}"]),
+    ("smaller margin at obstacles", ["point.obstacle_margin={point.margin}"]),
+    ("wider margin elsewhere", ["point.margin={point.obstacle_margin}"]),
     ("noise below the surface", ["point.noise_depth=1000"]),
 ]
 

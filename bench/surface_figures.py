@@ -233,7 +233,7 @@ def profile_of(axes, stages, where, across, limits, half_slice):
     margin = np.array(
         [
             stages.about[
-                "margin_at_obstacles" if (np.floor(2 * where), np.floor(2 * v)) in stands else "margin"
+                "obstacle_margin" if (np.floor(2 * where), np.floor(2 * v)) in stands else "margin"
             ]
             for v in y
         ]
@@ -272,7 +272,7 @@ def profile_of(axes, stages, where, across, limits, half_slice):
 def standing_cells(stages):
     """The cells of 0.5 m in which something stands, as the point rule has them."""
     height = stages.points[:, HEIGHT]
-    stands = stages.points[(height > stages.about["standing_height"]) & (height < 2.5)]
+    stands = stages.points[(height > stages.about["obstacle_height"]) & (height < 2.5)]
     return set(zip(np.floor(2 * stands[:, X]), np.floor(2 * stands[:, Y])))
 
 

@@ -39,7 +39,7 @@ int main() {
 
   flagstone::SurfaceConfig config;
   config.sensor_height = 1.73f;  // how high the sensor sits above the ground
-  flagstone::SurfaceSegmenter segmenter(config);
+  flagstone::Surface segmenter(config);
   flagstone::Segmentation scan;
   const flagstone::Status status = segmenter.segment(flagstone::CloudView(xyz.data(), count), scan);
   if (!status.ok()) {

@@ -37,7 +37,7 @@ std::vector<Return> make_scan() {
 
 int main() {
   const std::vector<Return> returns = make_scan();
-  flagstone::SurfaceSegmenter segmenter;
+  flagstone::Surface segmenter;
   flagstone::Segmentation scan;
 
   const flagstone::CloudView structs{std::span<const Return>(returns)};

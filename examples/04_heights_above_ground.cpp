@@ -34,7 +34,7 @@ int main() {
   const std::vector<float> xyz = make_scan();
   const std::size_t count = xyz.size() / 3;
 
-  flagstone::SurfaceSegmenter segmenter({.sensor_height = 1.73f});
+  flagstone::Surface segmenter({.sensor_height = 1.73f});
   flagstone::Segmentation scan;
   if (!segmenter.segment(flagstone::CloudView(xyz.data(), count), scan).ok()) return 1;
   std::printf("ground: %zu of %zu points\n", scan.count(flagstone::Label::ground), count);
@@ -44,9 +44,9 @@ int main() {
   std::printf("the post is %.2f m high\n", static_cast<double>(scan.heights().back()));
 
   // The ground can be asked anywhere, whether a point lies there or not.
-  const flagstone::Surface& surface = scan.surface();
+  const flagstone::GroundSurface& surface = scan.surface();
   for (const float x : {10.0f, 20.0f, 30.0f}) {
-    const flagstone::GroundAt ground = surface.at(x, 0);
+    const flagstone::GroundSample ground = surface.at(x, 0);
     std::printf("x %.0f m: ground at z %.2f m, slope %.3f rad, confidence %.2f, cells of %.2f m\n",
                 static_cast<double>(x), static_cast<double>(ground.height),
                 static_cast<double>(ground.slope), static_cast<double>(ground.confidence),

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "flagstone/status.hpp"
 #include "files/io/cloud.hpp"
+#include "flagstone/status.hpp"
 
 /// What must hold of every reader, whatever the bytes. A broken property aborts, which the fuzzer
 /// takes for a finding.

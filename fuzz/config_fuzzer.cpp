@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "cloud_properties.hpp"
 #include "app/config/config_toml.hpp"
+#include "cloud_properties.hpp"
 #include "flagstone/make_segmenter.hpp"
-#include "made_up_cloud.hpp"
+#include "random_cloud.hpp"
 #include "text_properties.hpp"
 
 namespace flagstone {
@@ -37,7 +37,7 @@ void check_round_trip(std::string_view method, const MethodConfig& config) {
 }
 
 void segment(std::string_view method, const MethodConfig& config) {
-  static const std::vector<Point> cloud = tests::made_up_cloud(300, 1);
+  static const std::vector<Point> cloud = tests::random_cloud(300, 1);
   static Segmentation result;
   const std::unique_ptr<Segmenter> segmenter = make_segmenter(method, config);
   const CloudView view = tests::view_of(cloud);

@@ -205,9 +205,9 @@ void add_texts(SeedFolder& seeds) {
   std::string method = R"({"points":)" + counts + R"(,"area":)" + counts + R"(,"range":[)";
   for (int band = 0; band < 6; ++band) method += counts + (band < 5 ? "," : "");
   method += R"(],"ms":1.5})";
-  seeds.add("journal", "scan",
+  seeds.add("checkpoint", "scan",
             chosen(1, R"({"scan":"a","read":1.0,"score":2.0,"methods":[)" + method + "]}\n"));
-  seeds.add("journal", "whole", chosen(129, "{\"flagstone-journal\":\"fuzzed\"}\n"));
+  seeds.add("checkpoint", "whole", chosen(129, "{\"flagstone-checkpoint\":\"fuzzed\"}\n"));
 }
 
 }  // namespace

@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "cloud_properties.hpp"
-#include "library/core/simd_target.hpp"
-#include "flagstone/levelled_segmenter.hpp"
+#include "flagstone/gravity_aligned_segmenter.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/mount.hpp"
 #include "flagstone/patchwork.hpp"
-#include "flagstone/surface_segmenter.hpp"
+#include "flagstone/surface.hpp"
+#include "library/core/simd_target.hpp"
 
 namespace flagstone {
 namespace {
@@ -60,24 +60,24 @@ SurfaceConfig surface_config(std::size_t choice) {
       config.noise_depth = 1000;
       config.noise_slope = 10;
       config.acceptance = {.upright_angle = 0,
-                           .contrast = infinite,
-                           .height = 1000,
-                           .rise = 10,
-                           .step = infinite,
-                           .step_growth = 10};
+                           .max_clutter_ratio = infinite,
+                           .max_height = 1000,
+                           .max_slope = 10,
+                           .max_step = infinite,
+                           .max_step_per_metre = 10};
       break;
     case 7:
       config.refinement = {.levels = 4,
                            .gate = 10,
                            .gate_factor = 1,
-                           .gate_growth = 1,
-                           .contrast = infinite,
+                           .gate_per_metre = 1,
+                           .max_clutter_ratio = infinite,
                            .lower_bound_weight = 1};
       config.point = {.margin = 10,
-                      .margin_at_obstacles = 0,
-                      .standing_height = 0,
+                      .obstacle_margin = 0,
+                      .obstacle_height = 0,
                       .noise_depth = 0,
-                      .noise_growth = 0};
+                      .noise_depth_per_metre = 0};
       break;
     default: break;
   }
@@ -105,8 +105,7 @@ Segmenters made_segmenters(std::size_t choice) {
     return {make_segmenter(baselines.at(choice - patchwork_count - surface_count)), nullptr};
   }
   const SurfaceConfig config = surface_config(choice - patchwork_count);
-  return {std::make_unique<SurfaceSegmenter>(config),
-          std::make_unique<SurfaceSegmenter>(config, 3)};
+  return {std::make_unique<Surface>(config), std::make_unique<Surface>(config, 3)};
 }
 
 Segmenters& chosen_segmenters(std::size_t byte) {
@@ -197,8 +196,8 @@ bool has_same_bytes(std::span<const T> a, std::span<const T> b) {
          (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
-bool has_same_surface(const Surface& a, const Surface& b) {
-  const auto is_same = [](const Surface::Grid& left, const Surface::Grid& right) {
+bool has_same_surface(const GroundSurface& a, const GroundSurface& b) {
+  const auto is_same = [](const GroundSurface::Grid& left, const GroundSurface::Grid& right) {
     return left.cell == right.cell &&
            has_same_bytes(std::span(left.heights), std::span(right.heights)) &&
            has_same_bytes(std::span(left.confidences), std::span(right.confidences));
@@ -227,9 +226,9 @@ void check_counts(const Segmentation& result, std::size_t points) {
 
 /// What must hold of heights and of the ground where a method makes a surface.
 void check_surface(const Segmentation& result, CloudView cloud) {
-  const Surface& surface = result.surface();
+  const GroundSurface& surface = result.surface();
   if (surface.empty()) return fuzz::require(result.heights().empty(), "heights need a surface");
-  for (const Surface::Grid& grid : surface.grids()) {
+  for (const GroundSurface::Grid& grid : surface.grids()) {
     for (std::size_t i = 0; i < grid.heights.size(); ++i) {
       const float confidence = grid.confidences[i];
       fuzz::require(confidence >= 0 && confidence <= 1, "confidence is 0 to 1");
@@ -267,13 +266,14 @@ namespace {
 
 /// A method whose mount is found out from the scan: any verdict, but a mount that is in range.
 void segment_estimating(std::size_t choice, CloudView cloud) {
-  static std::array<std::unique_ptr<LevelledSegmenter>, 3> made;
-  std::unique_ptr<LevelledSegmenter>& levelled = made.at(choice % made.size());
+  static std::array<std::unique_ptr<GravityAlignedSegmenter>, 3> made;
+  std::unique_ptr<GravityAlignedSegmenter>& levelled = made.at(choice % made.size());
   if (!levelled) {
     MountSettings settings;
     settings.height = choice % 2 == 0 ? HeightSource::estimate : HeightSource::track;
     if (choice % made.size() != 0) settings.tilt = TiltSource::estimate;
-    levelled = std::make_unique<LevelledSegmenter>(std::make_unique<Patchwork>(), 1.723f, settings);
+    levelled =
+        std::make_unique<GravityAlignedSegmenter>(std::make_unique<Patchwork>(), 1.723f, settings);
   }
   static Segmentation result;
   levelled->reset();

@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "cloud_properties.hpp"
+#include "files/io/sensor_file.hpp"
 #include "flagstone/patchwork_config.hpp"
 #include "flagstone/sensor.hpp"
 #include "flagstone/surface_config.hpp"
-#include "files/io/sensor_file.hpp"
 #include "text_properties.hpp"
 
 // Any text as the file of a sensor: refused in one line, or the methods' settings can be derived

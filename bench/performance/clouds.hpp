@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "library/core/random.hpp"
 #include "flagstone/cloud_view.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::performance {
 

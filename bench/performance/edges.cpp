@@ -28,9 +28,9 @@
 #include <utility>
 #include <vector>
 
-#include "library/core/random.hpp"
 #include "lab/sim/drive.hpp"
 #include "lab/sim/scene_kind.hpp"
+#include "library/core/random.hpp"
 #include "terminal.hpp"
 
 namespace flagstone::performance {

@@ -27,11 +27,11 @@
 #include <variant>
 #include <vector>
 
+#include "clouds.hpp"
 #include "lab/bench/allocation_count.hpp"
 #include "lab/bench/timed_method.hpp"
-#include "clouds.hpp"
-#include "library/core/simd_target.hpp"
 #include "lab/eval/machine.hpp"
+#include "library/core/simd_target.hpp"
 #include "terminal.hpp"
 #include "timing.hpp"
 

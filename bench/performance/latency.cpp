@@ -15,7 +15,7 @@
 #include <flagstone/patchwork.hpp>
 #include <flagstone/segmentation.hpp>
 #include <flagstone/segmenter.hpp>
-#include <flagstone/surface_segmenter.hpp>
+#include <flagstone/surface.hpp>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -23,10 +23,10 @@
 #include <vector>
 
 #include "clouds.hpp"
-#include "library/core/simd_target.hpp"
-#include "library/core/stopwatch.hpp"
 #include "lab/eval/machine.hpp"
 #include "latency_scans.hpp"
+#include "library/core/simd_target.hpp"
+#include "library/core/stopwatch.hpp"
 #include "terminal.hpp"
 #include "timing.hpp"
 
@@ -59,7 +59,7 @@ struct Times {
 using Table = std::vector<std::vector<Times>>;
 
 std::unique_ptr<Segmenter> make(std::string_view method) {
-  if (method == "surface") return std::make_unique<SurfaceSegmenter>();
+  if (method == "surface") return std::make_unique<Surface>();
   return std::make_unique<Patchwork>();
 }
 

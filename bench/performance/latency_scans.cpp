@@ -13,8 +13,8 @@
 #include <numbers>
 #include <utility>
 
-#include "flagstone/patchwork_config.hpp"
 #include "files/io/read_cloud.hpp"
+#include "flagstone/patchwork_config.hpp"
 #include "sorting_adversary.hpp"
 
 namespace flagstone::performance {

@@ -14,7 +14,7 @@
 #include <flagstone/patchwork.hpp>
 #include <flagstone/segmentation.hpp>
 #include <flagstone/segmenter.hpp>
-#include <flagstone/surface_segmenter.hpp>
+#include <flagstone/surface.hpp>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -25,14 +25,14 @@
 #include "clouds.hpp"
 #include "library/core/plane.hpp"
 #include "library/core/simd_target.hpp"
+#include "library/patchwork/bin_labels.hpp"
+#include "library/patchwork/concentric_zones.hpp"
+#include "library/patchwork/read_scan.hpp"
 #include "library/plane_fits/bin_batch.hpp"
 #include "library/plane_fits/bin_groups.hpp"
 #include "library/plane_fits/ground_sets.hpp"
 #include "library/plane_fits/scan_points.hpp"
 #include "library/plane_fits/seed_heights.hpp"
-#include "library/patchwork/bin_labels.hpp"
-#include "library/patchwork/concentric_zones.hpp"
-#include "library/patchwork/read_scan.hpp"
 #include "library/surface/grid.hpp"
 #include "library/surface/square_cells.hpp"
 #include "surface_steps.hpp"
@@ -40,8 +40,8 @@
 namespace flagstone::performance {
 namespace {
 
-using namespace flagstone::plane_fits;    // NOLINT(google-build-using-namespace): what is measured
-using namespace flagstone::patchwork;  // NOLINT(google-build-using-namespace): the same
+using namespace flagstone::plane_fits;  // NOLINT(google-build-using-namespace): what is measured
+using namespace flagstone::patchwork;   // NOLINT(google-build-using-namespace): the same
 
 /// A scan after every step, so that each can be done again.
 class Steps {
@@ -223,7 +223,7 @@ int main(int argc, char** argv) {
   SurfaceSteps surface_scattered(scattered.cloud);
   add_all_of_surface(surface_ordered, surface_scattered);
   flagstone::Patchwork patchwork;
-  flagstone::SurfaceSegmenter surface;
+  flagstone::Surface surface;
   add_whole("patchwork", patchwork, ordered.cloud);
   add_whole("patchwork_shuffled", patchwork, scattered.cloud);
   add_whole("surface", surface, ordered.cloud);

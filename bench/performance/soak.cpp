@@ -17,7 +17,7 @@
 #include <exception>
 #include <flagstone/patchwork.hpp>
 #include <flagstone/segmentation.hpp>
-#include <flagstone/surface_segmenter.hpp>
+#include <flagstone/surface.hpp>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -40,7 +40,7 @@ constexpr std::size_t rows = 100;  ///< of the table of memory over time
 constexpr long allowed_growth = 1 << 20;
 
 std::unique_ptr<Segmenter> make(std::string_view method) {
-  if (method == "surface") return std::make_unique<SurfaceSegmenter>();
+  if (method == "surface") return std::make_unique<Surface>();
   if (method == "patchwork") return std::make_unique<Patchwork>();
   throw std::invalid_argument("METHOD is patchwork or surface");
 }

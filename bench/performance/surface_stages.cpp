@@ -14,7 +14,7 @@
 #include <exception>
 #include <filesystem>
 #include <flagstone/segmentation.hpp>
-#include <flagstone/surface_segmenter.hpp>
+#include <flagstone/surface.hpp>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -26,12 +26,12 @@
 
 #include "files/io/atomic_file.hpp"
 #include "files/io/npy.hpp"
-#include "library/plane_fits/bin_groups.hpp"
-#include "library/plane_fits/scan_points.hpp"
 #include "lab/sim/drive.hpp"
 #include "lab/sim/noise.hpp"
 #include "lab/sim/scene_kind.hpp"
 #include "lab/sim/step_view.hpp"
+#include "library/plane_fits/bin_groups.hpp"
+#include "library/plane_fits/scan_points.hpp"
 #include "library/surface/cell_observations.hpp"
 #include "library/surface/grid.hpp"
 #include "library/surface/grid_steps.hpp"
@@ -80,7 +80,7 @@ struct OwnGrid {
              .width = width,
              .heights = heights.data(),
              .confidences = confidences.data()} {}
-  explicit OwnGrid(const Surface::Grid& from) : OwnGrid(from.cell, from.width) {
+  explicit OwnGrid(const GroundSurface::Grid& from) : OwnGrid(from.cell, from.width) {
     std::ranges::copy(from.heights, heights.begin());
     std::ranges::copy(from.confidences, confidences.begin());
   }
@@ -98,7 +98,7 @@ struct OwnGrid {
 Segmentation segment(const sim::SimulatedScan& scan, SurfaceConfig config, int levels) {
   config.refinement.levels = levels;
   Segmentation result;
-  if (!SurfaceSegmenter(config).segment(CloudView(scan.xyzi.data(), scan.size(), 4), result).ok()) {
+  if (!Surface(config).segment(CloudView(scan.xyzi.data(), scan.size(), 4), result).ok()) {
     throw std::runtime_error("not enough memory");
   }
   return result;
@@ -212,8 +212,8 @@ void write_observations(const Folder& folder, const SortedPoints& points,
       {.points = points.all().data(),
        .surface = &grid,
        .gate = settings.gate * std::pow(settings.gate_factor, static_cast<float>(level)),
-       .gate_growth = settings.gate_growth,
-       .contrast = settings.contrast,
+       .gate_per_metre = settings.gate_per_metre,
+       .max_clutter_ratio = settings.max_clutter_ratio,
        .lower_bound_weight = settings.lower_bound_weight,
        .corrections = corrections.data(),
        .weights = weights.data()},
@@ -259,7 +259,7 @@ void write_stages(const Folder& folder, std::string_view scene_name, std::uint64
   Json grids = Json::array();
   for (int levels = 0; levels <= config.refinement.levels; ++levels) {
     const Segmentation result = segment(scan, config, levels);
-    const Surface::Grid& finest = result.surface().grids().back();
+    const GroundSurface::Grid& finest = result.surface().grids().back();
     std::vector<float> all = finest.heights;
     all.insert(all.end(), finest.confidences.begin(), finest.confidences.end());
     folder.write("grid-" + std::to_string(levels), all,
@@ -278,8 +278,8 @@ void write_stages(const Folder& folder, std::string_view scene_name, std::uint64
                               {"sensor_height", config.sensor_height},
                               {"lower_bound_weight", config.refinement.lower_bound_weight},
                               {"margin", config.point.margin},
-                              {"margin_at_obstacles", config.point.margin_at_obstacles},
-                              {"standing_height", config.point.standing_height},
+                              {"obstacle_margin", config.point.obstacle_margin},
+                              {"obstacle_height", config.point.obstacle_height},
                               {"truth", {{"cell", truth_cell}, {"extent", truth_extent}}},
                               {"grids", grids}});
 }

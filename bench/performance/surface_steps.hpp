@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "clouds.hpp"
-#include "library/core/crew.hpp"
 #include "flagstone/cloud_view.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/surface_config.hpp"
+#include "library/core/thread_pool.hpp"
 #include "library/plane_fits/bin_batch.hpp"
 #include "library/plane_fits/bin_groups.hpp"
 #include "library/plane_fits/scan_points.hpp"
@@ -69,7 +69,7 @@ class SurfaceSteps {
   surface::ResidualPyramid pyramid_;
   surface::PullPush pull_push_;
   surface::PointHeights point_heights_;
-  Crew crew_{1};
+  ThreadPool crew_{1};
   plane_fits::ScanPoints scan_;
   plane_fits::BinGroups groups_{plane_fits::Listing::points};
   plane_fits::BinBatch batch_;

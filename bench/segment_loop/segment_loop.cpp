@@ -36,8 +36,8 @@ std::vector<float> read_floats(const char* path) {
 /// Null where this revision has no such method.
 std::unique_ptr<flagstone::Segmenter> make_segmenter(const std::string& method) {
   if (method == "patchwork") return std::make_unique<flagstone::Patchwork>();
-#if __has_include(<flagstone/surface_segmenter.hpp>)
-  if (method == "surface") return std::make_unique<flagstone::SurfaceSegmenter>();
+#if __has_include(<flagstone/surface.hpp>)
+  if (method == "surface") return std::make_unique<flagstone::Surface>();
 #endif
   return nullptr;
 }

@@ -4,19 +4,19 @@
 
 /// Everything a user of the library includes.
 
-#include "flagstone/cloud_view.hpp"          // IWYU pragma: export
-#include "flagstone/label.hpp"               // IWYU pragma: export
-#include "flagstone/levelled_segmenter.hpp"  // IWYU pragma: export
-#include "flagstone/mount.hpp"               // IWYU pragma: export
-#include "flagstone/patch.hpp"               // IWYU pragma: export
-#include "flagstone/patchwork.hpp"           // IWYU pragma: export
-#include "flagstone/patchwork_config.hpp"    // IWYU pragma: export
-#include "flagstone/segmentation.hpp"        // IWYU pragma: export
-#include "flagstone/segmenter.hpp"           // IWYU pragma: export
-#include "flagstone/sensor.hpp"              // IWYU pragma: export
-#include "flagstone/stage_times.hpp"         // IWYU pragma: export
-#include "flagstone/status.hpp"              // IWYU pragma: export
-#include "flagstone/surface.hpp"             // IWYU pragma: export
-#include "flagstone/surface_config.hpp"      // IWYU pragma: export
-#include "flagstone/surface_segmenter.hpp"   // IWYU pragma: export
-#include "flagstone/version.hpp"             // IWYU pragma: export
+#include "flagstone/cloud_view.hpp"                 // IWYU pragma: export
+#include "flagstone/gravity_aligned_segmenter.hpp"  // IWYU pragma: export
+#include "flagstone/ground_surface.hpp"             // IWYU pragma: export
+#include "flagstone/label.hpp"                      // IWYU pragma: export
+#include "flagstone/mount.hpp"                      // IWYU pragma: export
+#include "flagstone/patch.hpp"                      // IWYU pragma: export
+#include "flagstone/patchwork.hpp"                  // IWYU pragma: export
+#include "flagstone/patchwork_config.hpp"           // IWYU pragma: export
+#include "flagstone/segmentation.hpp"               // IWYU pragma: export
+#include "flagstone/segmenter.hpp"                  // IWYU pragma: export
+#include "flagstone/sensor.hpp"                     // IWYU pragma: export
+#include "flagstone/stage_times.hpp"                // IWYU pragma: export
+#include "flagstone/status.hpp"                     // IWYU pragma: export
+#include "flagstone/surface.hpp"                    // IWYU pragma: export
+#include "flagstone/surface_config.hpp"             // IWYU pragma: export
+#include "flagstone/version.hpp"                    // IWYU pragma: export

@@ -39,40 +39,40 @@ enum class HeightSource : std::uint8_t {
 /// Where `up` is taken from.
 enum class TiltSource : std::uint8_t {
   off,       ///< up is z, whatever the given mount says
-  given,     ///< from the given mount
+  fixed,     ///< from the given mount
   estimate,  ///< from the scans, as the height is, looked for around the given mount's
 };
 
 /// Name as configurations spell it, e.g. "estimate".
 const char* to_string(HeightSource height) noexcept;
-/// Name as configurations spell it, e.g. "given".
+/// Name as configurations spell it, e.g. "fixed".
 const char* to_string(TiltSource tilt) noexcept;
 
 /// What is believed of an estimate.
 struct MountLimits {
-  float least_height = 0.15f;     ///< metres above the ground, 0.01 to 100
-  float most_height = 6;          ///< metres, more than `least_height`, up to 100
-  float most_tilt = 32;           ///< degrees between `up` and the given mount's, 0 to 45
-  float least_confidence = 0.5f;  ///< 0 to 1
+  float min_height = 0.15f;     ///< metres above the ground, 0.01 to 100
+  float max_height = 6;         ///< metres, more than `min_height`, up to 100
+  float max_tilt = 32;          ///< degrees between `up` and the given mount's, 0 to 45
+  float min_confidence = 0.5f;  ///< 0 to 1
   /// Points nearer than this are the own vehicle, metres, 0 to 100.
-  float own_vehicle = 2.7f;
+  float ego_radius = 2.7f;
   /// Points farther than this say nothing about the ground below the vehicle, metres; 2 to 100, and
-  /// at least 1.5 times `own_vehicle`. Where the ground begins so far away that it is badly told
+  /// at least 1.5 times `ego_radius`. Where the ground begins so far away that it is badly told
   /// within it, 2.5 times as far is looked.
   float reach = 16;
 };
 
 /// How `track` smooths. The state is the mount and how many scans have told it: the first counts in
-/// full, the k-th with 1 / k, and once there are `memory` of them each with 1 / `memory`.
+/// full, the k-th with 1 / k, and once there are `window` of them each with 1 / `window`.
 struct MountTracking {
-  int memory = 20;  ///< scans, 1 to 10,000
+  int window = 20;  ///< scans, 1 to 10,000
   /// A height that differs by more from the state is an outlier and not followed; metres, above 0,
   /// up to 100.
-  float most_jump = 0.25f;
+  float max_height_step = 0.25f;
   /// The same for the direction of `up`; degrees, above 0, up to 90.
-  float most_turn = 5;
-  /// So many outliers on end, all within `most_jump` and `most_turn` of the one before, are the new
-  /// state; 1 to 10,000.
+  float max_tilt_step = 5;
+  /// So many outliers on end, all within `max_height_step` and `max_tilt_step` of the one before,
+  /// are the new state; 1 to 10,000.
   int patience = 10;
 };
 
@@ -98,24 +98,24 @@ struct MountSettings {
 
 /// What was made of a scan, and why.
 enum class MountVerdict : std::uint8_t {
-  given,           ///< nothing was asked of this scan: the mount is given, or already estimated
+  fixed,           ///< nothing was asked of this scan: the mount is given, or already estimated
   accepted,        ///< the scan tells the mount
   too_few_points,  ///< refused: hardly any points where ground can be
-  no_level,        ///< refused: no plane that near points agree on
-  not_free,        ///< refused: what agrees is the foot of what stands above it: walls, bushes
-  not_lowest,      ///< refused: too much lies below it
+  no_plane,        ///< refused: no plane that near points agree on
+  obstructed,      ///< refused: what agrees is the foot of what stands above it: walls, bushes
+  points_below,    ///< refused: too much lies below it
   one_sided,       ///< refused: seen in too few directions to tell how it lies
   height_limit,    ///< refused: the height is not within the limits
   tilt_limit,      ///< refused: the tilt is beyond the limit
   outlier,         ///< refused: too far from what scans before have told (`track`)
 };
 
-/// Name of a verdict, e.g. "not_lowest".
+/// Name of a verdict, e.g. "points_below".
 const char* to_string(MountVerdict verdict) noexcept;
 
 /// The decision about one scan and the numbers it stands on.
 struct MountDecision {
-  MountVerdict verdict = MountVerdict::given;  ///< what was decided, and why
+  MountVerdict verdict = MountVerdict::fixed;  ///< what was decided, and why
   /// What the scan says, if `accepted`; what it seems to say, if refused for another reason than
   /// too few points; else the given mount.
   Mount mount{};
@@ -161,8 +161,8 @@ class MountEstimator {
   [[nodiscard]] const MountSettings& settings() const noexcept;
 
  private:
-  struct Workings;
-  std::unique_ptr<Workings> workings_;
+  struct Impl;
+  std::unique_ptr<Impl> workings_;
 };
 
 }  // namespace flagstone

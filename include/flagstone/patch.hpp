@@ -50,7 +50,7 @@ struct Patch {
   std::uint32_t point_count = 0;  ///< points of the bin, |S_n|
   std::uint32_t ground_count =
       0;  ///< points of the bin labelled ground; 0 if the patch is rejected
-  std::uint32_t sunken_count =
+  std::uint32_t lower_ground_count =
       0;  ///< of those, points below the plane in one of their own: a ditch's bottom
 
   std::array<float, 3> mean{};         ///< mean of the ground set, metres, sensor frame

@@ -120,7 +120,7 @@ struct PatchworkConfig {
   int min_points = 6;
 
   /// What the points of such bins are: ground, or nonground.
-  bool few_points_are_ground = false;
+  bool sparse_bins_are_ground = false;
 
   /// N_seed: the lowest points whose mean height starts the fit, 1 to 1,000.
   int seed_count = 20;
@@ -145,7 +145,7 @@ struct PatchworkConfig {
   /// Points of a ground patch farther than this below its plane are ground where they lie in a
   /// plane of their own, as the bottom of a ditch does, else noise; metres, above 0, up to 1,000,
   /// or infinity for neither: then noise_margin alone decides. No more than noise_margin counts.
-  float support_margin = 0.25f;
+  float lower_plane_margin = 0.25f;
 
   /// Plane fits a bin; the paper's and everybody's 3. 1 to 100.
   int iterations = 3;
@@ -155,7 +155,7 @@ struct PatchworkConfig {
 
   /// Whether the likelihood judges the final ground set, as the paper has it, at the price of one
   /// more fit, or the set that the last plane was fitted to, as the public code does.
-  bool judge_final_set = false;
+  bool evaluate_final_set = false;
 
   UprightnessTerm uprightness{};  ///< phi, eq. (8)
   ElevationTerm elevation{};      ///< psi, eq. (9)

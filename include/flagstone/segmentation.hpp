@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "flagstone/ground_surface.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/patch.hpp"
-#include "flagstone/surface.hpp"
 
 namespace flagstone {
 
@@ -35,7 +35,7 @@ class Segmentation {
   }
 
   /// The ground itself. Empty for methods that make no surface.
-  [[nodiscard]] const Surface& surface() const noexcept { return surface_; }
+  [[nodiscard]] const GroundSurface& surface() const noexcept { return surface_; }
 
   /// How many points have this label. Over all labels the counts add up to labels().size().
   [[nodiscard]] std::size_t count(Label label) const noexcept {
@@ -74,7 +74,7 @@ class Segmentation {
   }
 
   /// The surface to fill.
-  [[nodiscard]] Surface& mutable_surface() noexcept { return surface_; }
+  [[nodiscard]] GroundSurface& mutable_surface() noexcept { return surface_; }
 
   /// Counts the labels; call it once they are final.
   void finish() noexcept {
@@ -99,7 +99,7 @@ class Segmentation {
   std::vector<Patch> patches_;
   std::vector<float> heights_;  // as many as the largest scan has had
   std::size_t height_count_ = 0;
-  Surface surface_;
+  GroundSurface surface_;
   std::array<std::size_t, label_count> counts_{};
 };
 

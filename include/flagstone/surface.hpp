@@ -2,85 +2,41 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <span>
-#include <vector>
+#include <memory>
+
+#include "flagstone/segmenter.hpp"
+#include "flagstone/stage_times.hpp"
+#include "flagstone/surface_config.hpp"
 
 namespace flagstone {
 
-/// What the ground is like at one place.
-struct GroundAt {
-  float height = 0;               ///< z of the ground, metres, sensor frame; NaN: not known here
-  std::array<float, 3> normal{};  ///< unit length, z > 0; NaN: not known here
-  float slope = 0;       ///< angle between normal and z axis, radians, 0 to pi/2, or NaN too
-  float confidence = 0;  ///< 0 (not known) to 1 (measured right here)
-};
-
-/// The ground of a scan as one continuous surface, z = height(x, y) in the sensor frame, made by
-/// methods that join patches to one (`surface`).
+/// The method `surface`: planes of square patches, those that are ground joined to one continuous
+/// surface, that surface refined where points say more, and every point judged by its height above
+/// it. See docs/surface.md.
 ///
-/// It is a nest of square grids around the sensor, finer towards it. A grid holds heights at the
-/// centres of its cells, between which they are bilinear. A place belongs to the finest grid among
-/// whose centres it lies; where grids meet they agree but for what lies between centres: the
-/// surface is continuous to some millimetres, where it bends strongly to some centimetres. Where
-/// nothing lies beyond, in the outer half of the outermost cells, the ground is as at the nearest
-/// place between centres.
-class Surface {
+/// One object serves one thread at a time; make one for each.
+class Surface final : public Segmenter {
  public:
-  /// A square grid of heights, centred on the sensor.
-  struct Grid {
-    float cell = 0;         ///< side of a cell, metres
-    std::size_t width = 0;  ///< cells along a side, even
-    /// Row by row, y ascending, x ascending within a row: cell (row, column) has its centre at
-    /// x = (column + 0.5 - width / 2) * cell, y = (row + 0.5 - width / 2) * cell.
-    std::vector<float> heights;      ///< metres; NaN where not known
-    std::vector<float> confidences;  ///< 0 to 1
+  /// `threads` work on one scan together, 1 to 1,024; the result does not depend on how many. See
+  /// Patchwork::Patchwork. Throws std::invalid_argument naming the field, its value and the range
+  /// allowed, or std::bad_alloc.
+  explicit Surface(SurfaceConfig config = {}, unsigned threads = 1);
+  ~Surface() override;
+  Surface(Surface&&) noexcept;
+  Surface& operator=(Surface&&) noexcept;
 
-    /// It covers |x| <= extent and |y| <= extent, metres.
-    [[nodiscard]] float extent() const noexcept { return static_cast<float>(width) * cell / 2; }
-  };
+  /// See Segmenter::segment. Also fills result.patches(), result.heights() and result.surface().
+  Status segment(CloudView cloud, Segmentation& result) noexcept override;
 
-  /// Is there no surface? Queries then answer "not known".
-  [[nodiscard]] bool empty() const noexcept { return grids().empty(); }
+  /// The configuration it was made with.
+  [[nodiscard]] const SurfaceConfig& config() const noexcept;
 
-  /// It covers |x| <= extent() and |y| <= extent(), metres; 0 if empty.
-  [[nodiscard]] float extent() const noexcept;
-
-  /// Side of the cells at (x, y), metres; NaN outside.
-  [[nodiscard]] float resolution(float x, float y) const noexcept;
-
-  /// The ground at (x, y), metres. Not known outside of the extent and far from any measured
-  /// ground: its height is NaN if one of the four around it is and has a share in it, and its
-  /// normal and slope if one of the four is. Any bit pattern is allowed.
-  [[nodiscard]] GroundAt at(float x, float y) const noexcept;
-
-  /// at(x, y).height, in less time.
-  [[nodiscard]] float height(float x, float y) const noexcept;
-
-  /// The grids, coarsest and largest first.
-  [[nodiscard]] std::span<const Grid> grids() const noexcept {
-    return filled_ ? std::span<const Grid>(grids_) : std::span<const Grid>();
-  }
-
-  /// @name For those who write a Segmenter
-  /// @{
-
-  /// Empty from now on; memory is kept.
-  void clear() noexcept { filled_ = false; }
-
-  /// The grids to fill: coarsest first, each inside the one before. They hold what they held before
-  /// the surface was cleared.
-  [[nodiscard]] std::vector<Grid>& start() noexcept {
-    filled_ = true;
-    return grids_;
-  }
-
-  /// @}
+  /// See Patchwork::time_stages.
+  void time_stages(StageTimes* times) noexcept;
 
  private:
-  std::vector<Grid> grids_;
-  bool filled_ = false;
+  struct Pipeline;
+  std::unique_ptr<Pipeline> pipeline_;
 };
 
 }  // namespace flagstone

@@ -17,19 +17,19 @@ struct PatchAcceptance {
   /// As many points as this share of those within 12.5 cm of the plane may lie 19 to 89 cm above
   /// it; 0 to 1,000, or infinity for no limit. A wall or bush has as many just above its foot as in
   /// it, ground has not.
-  float contrast = 0.6f;
+  float max_clutter_ratio = 0.6f;
 
-  /// Ground is believed up to this height above -h_s, or up to `rise` times the range if that is
-  /// more; metres, 0 to 1,000.
-  float height = 1.5f;
+  /// Ground is believed up to this height above -h_s, or up to `max_slope` times the range if that
+  /// is more; metres, 0 to 1,000.
+  float max_height = 1.5f;
   /// Metres a metre, 0 to 10.
-  float rise = 0.35f;
+  float max_slope = 0.35f;
 
   /// How far a patch may lie above what nearer patches let expect (0.5 m more below it), next to
   /// them; metres, 0 to 100, or infinity for no limit.
-  float step = 0.5f;
+  float max_step = 0.5f;
   /// How much more for each metre to the nearest of them, up to 15 m; metres a metre, 0 to 10.
-  float step_growth = 0.15f;
+  float max_step_per_metre = 0.15f;
 };
 
 /// How the surface follows the points closer than the patches do.
@@ -43,12 +43,12 @@ struct Refinement {
   /// What the gate of one level is of that of the one before; above 0, up to 1.
   float gate_factor = 0.65f;
   /// Added to every gate for each metre of range; metres a metre, 0 to 1.
-  float gate_growth = 0.004f;
+  float gate_per_metre = 0.004f;
 
   /// In a cell, as many points as this share of those at the surface may lie 18 to 88 cm above it;
   /// 0 to 1,000, or infinity for no limit. Where there are more, something stands there, and the
   /// cell says only that the ground is not above its lowest point.
-  float contrast = 0.5f;
+  float max_clutter_ratio = 0.5f;
 
   /// Weight of that lower bound beside a measured cell's 1; 0 to 1, 0 for none.
   float lower_bound_weight = 0.15f;
@@ -59,18 +59,18 @@ struct PointRule {
   /// Points lower than this above the surface are ground; metres, 0 to 10.
   float margin = 0.24f;
 
-  /// The same where something stands: in cells of 0.5 m with a point 1.25 times `standing_height`
-  /// to 2.5 m above the surface. Where the highest lies above 0.75 times `standing_height` only,
+  /// The same where something stands: in cells of 0.5 m with a point 1.25 times `obstacle_height`
+  /// to 2.5 m above the surface. Where the highest lies above 0.75 times `obstacle_height` only,
   /// the mean of both margins holds. Metres, 0 to 10. Smaller keeps feet of walls out, and loses
   /// ground beside them.
-  float margin_at_obstacles = 0.06f;
+  float obstacle_margin = 0.06f;
   /// Metres, 0 to 2.
-  float standing_height = 0.72f;
+  float obstacle_height = 0.72f;
 
   /// Points farther below the surface are noise; metres, 0 to 1,000.
   float noise_depth = 0.15f;
   /// Added to that for each metre of range; metres a metre, 0 to 10.
-  float noise_growth = 0.02f;
+  float noise_depth_per_metre = 0.02f;
 };
 
 /// Settings of the method `surface`. They are the same for every sensor but for its height.

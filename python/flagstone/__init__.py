@@ -20,7 +20,7 @@ from flagstone._evaluate import Evaluation, evaluate
 from flagstone._score import Score, score
 from flagstone._simulate import simulate
 from flagstone.codes import Label, Verdict
-from flagstone.ground_surface import Grid, GroundAt, GroundSurface
+from flagstone.ground_surface import Grid, GroundSample, GroundSurface
 from flagstone.segmentation import Mount, Segmentation
 from flagstone.segmenters import Patchwork, Segmenter, Surface, make_segmenter, method_names
 from flagstone.sensors import Sensor, sensors
@@ -29,7 +29,7 @@ from flagstone.viewer import show
 __all__ = [
     "Evaluation",
     "Grid",
-    "GroundAt",
+    "GroundSample",
     "GroundSurface",
     "Label",
     "Mount",

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from flagstone import _core
 
 
-class GroundAt(NamedTuple):
+class GroundSample(NamedTuple):
     """What the ground is like at places of shape S, which x and y broadcast to."""
 
     height: npt.NDArray[np.float32]
@@ -92,11 +92,11 @@ class GroundSurface:
         places_x, places_y, shape = _places(x, y)
         return self._result.resolution_at(places_x, places_y).reshape(shape)
 
-    def at(self, x: npt.ArrayLike, y: npt.ArrayLike) -> GroundAt:
+    def at(self, x: npt.ArrayLike, y: npt.ArrayLike) -> GroundSample:
         """Height, normal, slope and confidence at places. Arguments are those of `height`."""
         places_x, places_y, shape = _places(x, y)
         table = self._result.ground_at(places_x, places_y)
-        return GroundAt(
+        return GroundSample(
             height=table[:, 0].reshape(shape),
             normal=table[:, 1:4].reshape((*shape, 3)),
             slope=table[:, 4].reshape(shape),

@@ -97,7 +97,7 @@ class Segmentation:
 
         - `zone`, `ring`, `sector` (uint16): place in the zone model, from 0, the innermost; sectors counter-clockwise
           from the rear. Of `surface`: zone 0 are squares of 4 m, zone 1 of 8 m, ring the row, sector the column.
-        - `verdict` (uint16): see `Verdict`. `point_count` |S_n|, `ground_count`, and of those `sunken_count`, below
+        - `verdict` (uint16): see `Verdict`. `point_count` |S_n|, `ground_count`, and of those `lower_ground_count`, below
           the plane in one of their own (uint32).
         - `mean` (3 float32), metres; `normal` (3 float32) n = v_3, unit length, upward, eq. (3); `d` (float32): the
           plane is normal . p + d = 0; `eigenvalues` (3 float32) of the covariance, descending, square metres. Zero

@@ -27,15 +27,15 @@ class SurfaceAcceptance(TypedDict, total=False):
 
     upright_angle: float
     """smallest angle between a patch's normal and the x-y plane; 0 to 90 degrees."""
-    contrast: float
+    max_clutter_ratio: float
     """share of points just above a patch, of those in it, from which on it is no ground; 0 to 1000, or inf for none."""
-    height: float
+    max_height: float
     """how high above -h_s ground is believed; 0 to 1000 m."""
-    rise: float
+    max_slope: float
     """the same as a share of the range; the larger of both holds; 0 to 10 m/m."""
-    step: float
+    max_step: float
     """how far above the height that nearer patches let expect a patch may lie; 0 to 100 m, or inf for none."""
-    step_growth: float
+    max_step_per_metre: float
     """more of it for each metre to the nearest of them; 0 to 10 m/m."""
 
 
@@ -48,9 +48,9 @@ class SurfaceRefinement(TypedDict, total=False):
     """points within this of the surface say where it is, in cells of 2 m; above 0, up to 10 m."""
     gate_factor: float
     """gate of a level as a share of that of the one before; above 0, up to 1."""
-    gate_growth: float
+    gate_per_metre: float
     """added to the gate for each metre of range; 0 to 1 m/m."""
-    contrast: float
+    max_clutter_ratio: float
     """share of points just above the surface in a cell, of those at it, from which on something stands there; 0 to
     1000, or inf for none.
     """
@@ -63,13 +63,13 @@ class SurfacePoint(TypedDict, total=False):
 
     margin: float
     """ground lies lower than this above the surface; 0 to 10 m."""
-    margin_at_obstacles: float
+    obstacle_margin: float
     """the same where something stands; 0 to 10 m."""
-    standing_height: float
+    obstacle_height: float
     """how high, within a quarter, a point must be for something to stand there; 0 to 2 m."""
     noise_depth: float
     """points farther below the surface are noise; 0 to 1000 m."""
-    noise_growth: float
+    noise_depth_per_metre: float
     """added to that for each metre of range; 0 to 10 m/m."""
 
 
@@ -146,7 +146,7 @@ class PatchworkSettings(TypedDict, total=False):
     """steepest descent of ground still believed; 0 to 10 m/m."""
     min_points: int
     """bins with fewer points are not fitted; 3 to 1e+06."""
-    few_points_are_ground: bool
+    sparse_bins_are_ground: bool
     """what the points of such bins are."""
     seed_count: int
     """N_seed: lowest points that start the fit; 1 to 1000."""
@@ -158,13 +158,13 @@ class PatchworkSettings(TypedDict, total=False):
     """M_d, eqs. (5) and (6); above 0, up to 100 m."""
     noise_margin: float
     """points farther below the plane are no part of it but noise; above 0, up to 1000 m, or inf for none."""
-    support_margin: float
+    lower_plane_margin: float
     """points farther below a ground plane are ground in a plane of their own, else noise; above 0, up to 1000 m, or inf
     for none.
     """
     iterations: int
     """plane fits a bin; 1 to 100."""
-    judge_final_set: bool
+    evaluate_final_set: bool
     """whether the likelihood judges the final ground set (paper) or the last fitted one (public code)."""
     field_of_view: PatchworkFieldOfView
     uprightness: PatchworkUprightness

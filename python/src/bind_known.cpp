@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "lab/baselines/settings.hpp"
 #include "bindings.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/patch.hpp"
 #include "flagstone/sensor.hpp"
+#include "lab/baselines/settings.hpp"
 
 namespace nb = nanobind;
 

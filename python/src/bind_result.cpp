@@ -67,7 +67,7 @@ nb::tuple counts(const Result& result) {
 /// For every grid: side of a cell, heights, confidences.
 nb::list grids(nb::handle self) {
   nb::list list;
-  for (const Surface::Grid& grid : result_of(self).segmentation().surface().grids()) {
+  for (const GroundSurface::Grid& grid : result_of(self).segmentation().surface().grids()) {
     const std::size_t width = grid.width;
     list.append(nb::make_tuple(grid.cell, Table<float>(grid.heights.data(), {width, width}, self),
                                Table<float>(grid.confidences.data(), {width, width}, self)));
@@ -82,7 +82,7 @@ Row<float> asked(const Result& result, const Places& x, const Places& y, Ask ask
   const std::size_t places = x.size();
   auto* const values = new float[places == 0 ? 1 : places];
   nb::capsule owner = owner_of(values);
-  const Surface& surface = result.segmentation().surface();
+  const GroundSurface& surface = result.segmentation().surface();
   {
     const nb::gil_scoped_release released;
     for (std::size_t i = 0; i < places; ++i) values[i] = ask(surface, x.data()[i], y.data()[i]);
@@ -97,12 +97,12 @@ Table<float> ground_at(const Result& result, const Places& x, const Places& y) {
   const std::size_t places = x.size();
   auto* const values = new float[places == 0 ? 1 : columns * places];
   nb::capsule owner = owner_of(values);
-  const Surface& surface = result.segmentation().surface();
+  const GroundSurface& surface = result.segmentation().surface();
   {
     const nb::gil_scoped_release released;
     float* to = values;
     for (std::size_t i = 0; i < places; ++i) {
-      const GroundAt at = surface.at(x.data()[i], y.data()[i]);
+      const GroundSample at = surface.at(x.data()[i], y.data()[i]);
       *to++ = at.height;
       for (const float component : at.normal) *to++ = component;
       *to++ = at.slope;
@@ -124,7 +124,7 @@ nb::tuple patch_fields() {
   add("verdict", "u2", offsetof(Patch, verdict));
   add("point_count", "u4", offsetof(Patch, point_count));
   add("ground_count", "u4", offsetof(Patch, ground_count));
-  add("sunken_count", "u4", offsetof(Patch, sunken_count));
+  add("lower_ground_count", "u4", offsetof(Patch, lower_ground_count));
   add("mean", "3f4", offsetof(Patch, mean));
   add("normal", "3f4", offsetof(Patch, normal));
   add("d", "f4", offsetof(Patch, d));
@@ -167,7 +167,7 @@ void bind_result(nb::module_& module) {
       .def(
           "height_at",
           [](const Result& result, const Places& x, const Places& y) {
-            return asked(result, x, y, [](const Surface& surface, float at_x, float at_y) {
+            return asked(result, x, y, [](const GroundSurface& surface, float at_x, float at_y) {
               return surface.height(at_x, at_y);
             });
           },
@@ -177,7 +177,7 @@ void bind_result(nb::module_& module) {
       .def(
           "resolution_at",
           [](const Result& result, const Places& x, const Places& y) {
-            return asked(result, x, y, [](const Surface& surface, float at_x, float at_y) {
+            return asked(result, x, y, [](const GroundSurface& surface, float at_x, float at_y) {
               return surface.resolution(at_x, at_y);
             });
           },

@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "lab/baselines/settings.hpp"
 #include "bindings.hpp"
-#include "flagstone/levelled_segmenter.hpp"
-#include "method.hpp"
+#include "flagstone/gravity_aligned_segmenter.hpp"
+#include "lab/baselines/settings.hpp"
 #include "library/mount/mount_settings.hpp"
+#include "method.hpp"
 #include "points.hpp"
 #include "result.hpp"
 
@@ -34,8 +34,8 @@ class SharedSegmenter {
   SharedSegmenter(const MethodChoice& choice, unsigned threads)
       : method_(choice.method), config_(resolve(choice, mount_settings_)) {
     const float height = sensor_height_of(config_, mount_settings_.mount.sensor_height);
-    segmenter_ = std::make_unique<LevelledSegmenter>(make_method(method_, config_, threads), height,
-                                                     mount_settings_);
+    segmenter_ = std::make_unique<GravityAlignedSegmenter>(make_method(method_, config_, threads),
+                                                           height, mount_settings_);
   }
 
   /// None where they are not rows of points; segment() says then whether they are points at all.
@@ -79,7 +79,7 @@ class SharedSegmenter {
   std::string method_;
   MountSettings mount_settings_;
   MethodConfig config_;
-  std::unique_ptr<LevelledSegmenter> segmenter_;
+  std::unique_ptr<GravityAlignedSegmenter> segmenter_;
   std::shared_ptr<SpareResults> spare_ = std::make_shared<SpareResults>();
   std::vector<float> copy_;
 };

@@ -7,13 +7,13 @@
 #include <optional>
 #include <stdexcept>
 
-#include "lab/baselines/settings.hpp"
 #include "app/config/config_file.hpp"
 #include "app/config/config_toml.hpp"
 #include "app/config/sensor_settings.hpp"
-#include "flagstone/patchwork.hpp"
-#include "flagstone/surface_segmenter.hpp"
 #include "files/io/sensor_file.hpp"
+#include "flagstone/patchwork.hpp"
+#include "flagstone/surface.hpp"
+#include "lab/baselines/settings.hpp"
 
 namespace flagstone::python {
 namespace {
@@ -53,7 +53,7 @@ void apply_height(const MethodChoice& choice, MethodConfig& config, MountSetting
 
 void apply_tilt(const MethodChoice& choice, MountSettings& mount) {
   if (const auto* up = std::get_if<std::array<float, 3>>(&choice.tilt)) {
-    mount.tilt = TiltSource::given;
+    mount.tilt = TiltSource::fixed;
     mount.mount.up = *up;
   } else if (const auto* word = std::get_if<std::string>(&choice.tilt)) {
     if (*word != "estimate" && *word != "off") {
@@ -102,7 +102,7 @@ std::unique_ptr<Segmenter> make_method(const std::string& name, const MethodConf
     return std::make_unique<Patchwork>(std::get<PatchworkConfig>(config), threads);
   }
   if (name == "surface") {
-    return std::make_unique<SurfaceSegmenter>(std::get<SurfaceConfig>(config), threads);
+    return std::make_unique<Surface>(std::get<SurfaceConfig>(config), threads);
   }
   if (threads != 1) {
     throw std::invalid_argument(fmt::format(

@@ -127,7 +127,7 @@ def test_cpp_of_a_page_compiles(page: Path, block: Block, tmp_path: Path) -> Non
 
 # Words in capitals are the reader's to fill in.
 PLACEHOLDERS = {"METRES": "1.73", "PROTOCOL": "simulation", "METHOD": "surface", "NAME": "vlp-16", "SCENE": "park"}
-FLAGS = ("--json", "--peers", "--picture", "--tint-patches", "--heights", "--surface", "--speed")
+FLAGS = ("--json", "--compare", "--image", "--color-patches", "--heights", "--surface", "--speed")
 SHORTEST = {"simulate": ("--frames", "1"), "bench": ("--rounds", "1")}
 
 

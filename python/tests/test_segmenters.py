@@ -45,7 +45,7 @@ def test_a_file_the_command_prints_makes_the_same_segmenter(tmp_path: Path) -> N
 
 
 def test_presets_are_of_patchwork() -> None:
-    assert Patchwork(preset="paper").settings["judge_final_set"] is True
+    assert Patchwork(preset="paper").settings["evaluate_final_set"] is True
     assert make_segmenter("czm+u", preset="reference").method == "czm+u"
     with pytest.raises(ValueError, match='preset = "paper": method surface has none'):
         make_segmenter("surface", preset="paper")

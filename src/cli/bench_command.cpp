@@ -17,18 +17,18 @@
 #include <variant>
 #include <vector>
 
-#include "lab/bench/benchmark.hpp"
-#include "lab/bench/results_json.hpp"
-#include "lab/bench/results_text.hpp"
-#include "lab/bench/timed_method.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/method_options.hpp"
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
 #include "cli/scan_inputs.hpp"
-#include "library/core/simd_target.hpp"
 #include "files/io/message.hpp"
 #include "files/io/read_cloud.hpp"
+#include "lab/bench/benchmark.hpp"
+#include "lab/bench/results_json.hpp"
+#include "lab/bench/results_text.hpp"
+#include "lab/bench/timed_method.hpp"
+#include "library/core/simd_target.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -108,7 +108,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "bench",
       "Time surface or Patchwork on scans, stage by stage, beside other programs.\n\n"
-      "Example:  flagstone bench scans/ --peers\n\n"
+      "Example:  flagstone bench scans/ --compare\n\n"
       "Scans are taken in rotation. The bare pass reads x, y and z of every point and writes one\n"
       "byte a point. Ratios are medians of times of the same scan and round.\n");
   command
@@ -133,11 +133,11 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--target", options->settings.target, "Instruction set. Default: the best")
+  command->add_option("--isa", options->settings.target, "Instruction set. Default: the best")
       ->check(CLI::IsMember(simd_targets()))
       ->type_name("NAME");
   CLI::Option* const peers = command->add_flag(
-      "--peers", options->peers,
+      "--compare", options->peers,
       "Time pypatchworkpp, Open3D's and PCL's plane RANSAC on the same points too, as far as they "
       "are installed");
   command->add_option("--python", options->places.python, "Python that has the peers' packages")
@@ -145,7 +145,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->capture_default_str()
       ->type_name("COMMAND");
   command
-      ->add_option("--peer-worker", options->places.worker,
+      ->add_option("--compare-worker", options->places.worker,
                    "bench/peer_worker.py. Default: that of the source tree around the command")
       ->needs(peers)
       ->type_name("FILE");

@@ -11,9 +11,9 @@
 #include <string>
 #include <variant>
 
+#include "app/config/config_toml.hpp"
 #include "cli/method_options.hpp"
 #include "cli/sensors_command.hpp"
-#include "app/config/config_toml.hpp"
 
 namespace flagstone::cli {
 namespace {

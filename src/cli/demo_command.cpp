@@ -18,18 +18,18 @@
 #include <thread>
 #include <vector>
 
-#include "library/core/stopwatch.hpp"
-#include "lab/eval/confusion.hpp"
-#include "lab/eval/height_score.hpp"
-#include "lab/eval/protocol.hpp"
-#include "flagstone/surface_segmenter.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/write_cloud.hpp"
 #include "files/render/birds_eye.hpp"
-#include "files/render/can_draw.hpp"
+#include "files/render/rendering_available.hpp"
 #include "files/render/surface_picture.hpp"
+#include "flagstone/surface.hpp"
+#include "lab/eval/confusion.hpp"
+#include "lab/eval/height_score.hpp"
+#include "lab/eval/protocol.hpp"
 #include "lab/sim/simulate_street.hpp"
+#include "library/core/stopwatch.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;
@@ -110,7 +110,7 @@ void run_demo(const DemoOptions& options) {
   io::Cloud cloud;
   must(io::Cloud::from_floats(scan.xyzi, 4, cloud));
 
-  SurfaceSegmenter surface;
+  Surface surface;
   Segmentation result;
   const double ms = median_time(surface, cloud.view(), result);
 
@@ -128,8 +128,8 @@ void run_demo(const DemoOptions& options) {
 
   const DemoFiles files(options.output);
   write_files(files, scan, cloud, result);
-  const Status can_draw = render::can_draw();
-  if (can_draw.ok()) {
+  const Status rendering_available = render::rendering_available();
+  if (rendering_available.ok()) {
     draw_pictures(files, cloud, result, truth, scores,
                   fmt::format("median error {:.1f} cm within 20 m, where the ground was seen",
                               100 * heights.median));
@@ -148,12 +148,12 @@ void run_demo(const DemoOptions& options) {
       "  heights      {:.1f} cm   (median error of ground within 20 m, 95 % below {:.1f} cm)\n",
       100 * heights.median, 100 * heights.percentile95);
   fmt::print("  time         {:.2f} ms  (one core, median of 21 runs)\n\n", ms);
-  if (can_draw.ok()) {
+  if (rendering_available.ok()) {
     fmt::print("  picture      {}\n", files.picture.string());
     fmt::print("  compared     {}\n", files.comparison.string());
     fmt::print("  surface      {}\n", files.surface.string());
   } else {
-    fmt::print("  pictures     none: {}\n", can_draw.message());
+    fmt::print("  pictures     none: {}\n", rendering_available.message());
   }
   fmt::print("  labels       {}\n", files.labels.string());
   fmt::print("  scan, truth  {}, {}\n", files.scan.string(), files.truth.string());

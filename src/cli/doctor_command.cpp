@@ -18,17 +18,17 @@
 #include <variant>
 #include <vector>
 
-#include "lab/baselines/settings.hpp"
+#include "app/doctor/examination.hpp"
+#include "app/doctor/summary.hpp"
 #include "cli/doctor_report.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/method_options.hpp"
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
 #include "cli/scan_inputs.hpp"
-#include "app/doctor/examination.hpp"
-#include "app/doctor/summary.hpp"
 #include "files/io/atomic_file.hpp"
 #include "files/io/read_cloud.hpp"
+#include "lab/baselines/settings.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -24,12 +24,12 @@
 #include "cli/print_error.hpp"
 #include "cli/result_files.hpp"
 #include "cli/scan_pictures.hpp"
+#include "files/io/message.hpp"
+#include "files/render/rendering_available.hpp"
 #include "lab/eval/machine.hpp"
 #include "lab/eval/results_csv.hpp"
 #include "lab/eval/results_json.hpp"
 #include "lab/eval/results_text.hpp"
-#include "files/io/message.hpp"
-#include "files/render/can_draw.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -80,12 +80,13 @@ void print_tables(const eval::Results& results, bool speed) {
 }
 
 int evaluate(const EvalOptions& options) {
-  if (const Status can_draw = render::can_draw(); options.pictures > 0 && !can_draw.ok()) {
-    throw std::invalid_argument("--pictures: " + can_draw.message());
+  if (const Status rendering_available = render::rendering_available();
+      options.pictures > 0 && !rendering_available.ok()) {
+    throw std::invalid_argument("--images: " + rendering_available.message());
   }
   EvaluationOptions how = options.evaluation;
   if (options.speed) how.threads = 1;
-  Evaluation evaluation(how, options.methods.resolve(), options.files.journal());
+  Evaluation evaluation(how, options.methods.resolve(), options.files.checkpoint());
   options.files.prepare();
   if (options.pictures > 0) make_folder(options.output);
   const eval::Results results = evaluation.run();
@@ -100,7 +101,7 @@ int evaluate(const EvalOptions& options) {
   const std::vector<report::ReportPicture> pictures =
       draw_worst_scans(evaluation, results, options.pictures, options.output);
   write_result(options.files.html, [&] { return report::eval_report(json(), pictures); });
-  evaluation.remove_journal();
+  evaluation.remove_checkpoint();
   if (interrupted()) {
     print_error(fmt::format("interrupted, {} of {} pictures are drawn", pictures.size(),
                             std::min(options.pictures, results.scans)));
@@ -121,7 +122,7 @@ void add_eval_command(CLI::App& app, int& exit_code) {
   options->methods.add_to(*command);
   options->files.add_to(*command);
   command
-      ->add_option("--pictures", options->pictures,
+      ->add_option("--images", options->pictures,
                    "Draw the N worst scans, methods side by side, into the folder of --output")
       ->check(CLI::Range(0, 1000))
       ->type_name("N");

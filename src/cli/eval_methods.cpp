@@ -13,11 +13,11 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/method_options.hpp"
-#include "cli/sensor_option.hpp"
 #include "app/config/config_file.hpp"
 #include "app/config/config_toml.hpp"
 #include "app/config/sensor_settings.hpp"
+#include "cli/method_options.hpp"
+#include "cli/sensor_option.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/mount_options.hpp"
-#include "lab/eval/method.hpp"
 #include "flagstone/sensor.hpp"
+#include "lab/eval/method.hpp"
 
 namespace flagstone::cli {
 

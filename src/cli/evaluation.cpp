@@ -16,16 +16,16 @@
 #include <system_error>
 #include <utility>
 
-#include "cli/crew.hpp"
+#include "app/config/config_toml.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
-#include "app/config/config_toml.hpp"
-#include "lab/eval/journal.hpp"
+#include "cli/thread_pool.hpp"
+#include "files/io/message.hpp"
+#include "flagstone/version.hpp"
+#include "lab/eval/checkpoint.hpp"
 #include "lab/eval/protocol_file.hpp"
 #include "lab/eval/scan_evaluator.hpp"
-#include "flagstone/version.hpp"
-#include "files/io/message.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;
@@ -118,15 +118,17 @@ void EvaluationOptions::add_to(CLI::App& command) {
 }
 
 Evaluation::Evaluation(EvaluationOptions options, std::vector<eval::Method> methods,
-                       fs::path journal)
-    : options_(std::move(options)), methods_(std::move(methods)), journal_(std::move(journal)) {
+                       fs::path checkpoint)
+    : options_(std::move(options)),
+      methods_(std::move(methods)),
+      checkpoint_(std::move(checkpoint)) {
   throw_if_bad(eval::find_protocol(options_.protocol, protocol_));
   scans_ = list_scans(options_);
   check_ids(protocol_, scans_);
   for (const eval::Method& method : methods_) {
     if (method.config) check(*method.config);
   }
-  if (options_.resume && journal_.empty()) {
+  if (options_.resume && checkpoint_.empty()) {
     throw std::invalid_argument(
         "--resume needs the results file that the interrupted run had: --json, --csv or --html");
   }
@@ -159,12 +161,12 @@ std::string Evaluation::fingerprint() const {
 eval::Results Evaluation::run() {
   catch_interrupts();
   std::vector<std::optional<eval::ScanOutcome>> outcomes(scans_.size());
-  eval::Journal journal;
-  if (!journal_.empty()) {
+  eval::Checkpoint checkpoint;
+  if (!checkpoint_.empty()) {
     std::map<std::string, eval::ScanOutcome> finished;
     throw_if_bad(options_.resume
-                     ? journal.resume(journal_, fingerprint(), methods_.size(), finished)
-                     : journal.start(journal_, fingerprint()));
+                     ? checkpoint.resume(checkpoint_, fingerprint(), methods_.size(), finished)
+                     : checkpoint.start(checkpoint_, fingerprint()));
     for (std::size_t i = 0; i < scans_.size(); ++i) {
       const auto found = finished.find(scans_[i].name);
       if (found != finished.end()) outcomes[i] = std::move(found->second);
@@ -185,7 +187,7 @@ eval::Results Evaluation::run() {
       const eval::LabelledScan& scan = scans_[left[job]];
       eval::ScanOutcome outcome = evaluator->run(scan);
       const std::scoped_lock lock(mutex);
-      journal.add(scan.name, outcome);
+      checkpoint.add(scan.name, outcome);
       const auto report = [&](const std::optional<std::string>& error) {
         if (!error) return;
         progress.clear();
@@ -203,11 +205,12 @@ eval::Results Evaluation::run() {
   if (was_interrupted_) {
     const std::size_t reached = scans_.size() - left.size() + done;
     print_error(fmt::format("interrupted, {} of {} scans are done; {}", reached, scans_.size(),
-                            journal_.empty() ? "with --json FILE the next run could go on from here"
-                                             : "the same command with --resume goes on from here"));
+                            checkpoint_.empty()
+                                ? "with --json FILE the next run could go on from here"
+                                : "the same command with --resume goes on from here"));
   }
   eval::Results results = eval::gather(methods_, scans_, outcomes);
-  if (results.scans == 0) remove_journal();  // it holds nothing to go on from
+  if (results.scans == 0) remove_checkpoint();  // it holds nothing to go on from
   results.protocol = protocol_.name;
   results.threads = static_cast<unsigned>(std::min<std::size_t>(
       thread_count(options_.threads), std::max<std::size_t>(scans_.size(), 1)));
@@ -217,9 +220,9 @@ eval::Results Evaluation::run() {
   return results;
 }
 
-void Evaluation::remove_journal() const {
+void Evaluation::remove_checkpoint() const {
   std::error_code ignored;
-  if (!journal_.empty()) fs::remove(journal_, ignored);
+  if (!checkpoint_.empty()) fs::remove(checkpoint_, ignored);
 }
 
 std::string scans_text(const eval::Results& results) {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "files/io/read_cloud.hpp"
 #include "lab/eval/dataset.hpp"
 #include "lab/eval/method.hpp"
 #include "lab/eval/protocol.hpp"
 #include "lab/eval/results.hpp"
-#include "files/io/read_cloud.hpp"
 
 namespace flagstone::cli {
 
@@ -34,11 +34,11 @@ struct EvaluationOptions {
 /// on.
 class Evaluation {
  public:
-  /// `journal`: where finished scans are kept until the results are written; empty for nowhere.
+  /// `checkpoint`: where finished scans are kept until the results are written; empty for nowhere.
   /// Throws std::invalid_argument with one line that says what is wrong with options, methods or
   /// datasets.
   Evaluation(EvaluationOptions options, std::vector<eval::Method> methods,
-             std::filesystem::path journal);
+             std::filesystem::path checkpoint);
 
   /// Evaluates every scan that is not done. What goes wrong with a scan is printed and kept in the
   /// results. Results hold what was reached if somebody asked to stop.
@@ -53,14 +53,14 @@ class Evaluation {
   [[nodiscard]] io::ReadOptions read_options() const noexcept;
 
   /// The results are written: what was kept to go on from may go.
-  void remove_journal() const;
+  void remove_checkpoint() const;
 
  private:
   [[nodiscard]] std::string fingerprint() const;
 
   EvaluationOptions options_;
   std::vector<eval::Method> methods_;
-  std::filesystem::path journal_;
+  std::filesystem::path checkpoint_;
   eval::Protocol protocol_;
   std::vector<eval::LabelledScan> scans_;
   bool was_interrupted_ = false;

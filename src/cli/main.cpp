@@ -41,7 +41,7 @@ class BriefListing : public CLI::Formatter {
 int run(int argc, char** argv) {
   CLI::App app(
       "Ground segmentation for 3D LiDAR.\n\n"
-      "Example:  flagstone segment scan.bin --output out --picture\n\n"
+      "Example:  flagstone segment scan.bin --output out --image\n\n"
       "'flagstone COMMAND --help' explains a command.");
   app.set_version_flag("--version", FLAGSTONE_VERSION);
   app.require_subcommand(1);

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "cli/sensor_option.hpp"
 #include "app/config/config_file.hpp"
 #include "app/config/config_toml.hpp"
 #include "app/config/sensor_settings.hpp"
+#include "cli/sensor_option.hpp"
 
 namespace flagstone::cli {
 

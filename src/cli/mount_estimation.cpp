@@ -17,7 +17,7 @@ FoundMount find_mount(std::span<const ScanInput> scans, const MountSettings& set
   FoundMount found;
   found.settings = settings;
   found.settings.height = HeightSource::fixed;
-  if (settings.tilt == TiltSource::estimate) found.settings.tilt = TiltSource::given;
+  if (settings.tilt == TiltSource::estimate) found.settings.tilt = TiltSource::fixed;
   found.decision.mount = settings.mount;
 
   MountEstimator estimator(settings);

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "cli/scan_inputs.hpp"
-#include "flagstone/mount.hpp"
 #include "files/io/read_cloud.hpp"
+#include "flagstone/mount.hpp"
 
 namespace flagstone::cli {
 

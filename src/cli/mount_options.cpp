@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "lab/baselines/settings.hpp"
 #include "app/config/config_toml.hpp"
+#include "lab/baselines/settings.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -70,7 +70,7 @@ void MountOptions::add_to(CLI::App& command) {
     } else if (text == to_string(TiltSource::estimate)) {
       tilt = TiltSource::estimate;
     } else if (const auto direction = direction_of(text)) {
-      tilt = TiltSource::given;
+      tilt = TiltSource::fixed;
       up = direction;
     } else {
       throw CLI::ValidationError(

@@ -21,9 +21,9 @@ void ResultFiles::add_to(CLI::App& command) {
       ->type_name("FILE");
 }
 
-fs::path ResultFiles::journal() const {
+fs::path ResultFiles::checkpoint() const {
   for (const std::string& file : {json, csv, html}) {
-    if (!file.empty()) return file + ".journal";
+    if (!file.empty()) return file + ".checkpoint";
   }
   return {};
 }

@@ -17,7 +17,7 @@ struct ResultFiles {
   void add_to(CLI::App& command);
 
   /// Where finished scans are kept while a run lasts: beside the first of them; empty for nowhere.
-  [[nodiscard]] std::filesystem::path journal() const;
+  [[nodiscard]] std::filesystem::path checkpoint() const;
 
   /// Looks whether they can be written, before the work that would be lost else, and makes their
   /// folders. Throws std::invalid_argument or std::runtime_error with one line.

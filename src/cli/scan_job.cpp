@@ -11,14 +11,14 @@
 #include <system_error>
 #include <vector>
 
-#include "library/core/stopwatch.hpp"
-#include "lab/eval/protocol.hpp"
 #include "files/io/load_bytes.hpp"
 #include "files/io/npy.hpp"
 #include "files/io/write_cloud.hpp"
 #include "files/render/birds_eye.hpp"
-#include "files/render/can_draw.hpp"
+#include "files/render/rendering_available.hpp"
 #include "files/render/surface_picture.hpp"
+#include "lab/eval/protocol.hpp"
+#include "library/core/stopwatch.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;
@@ -127,7 +127,7 @@ Status ScanWorker::work(const ScanInput& input, const ScanInput* later, ScanRepo
 }
 
 std::optional<MountReport> ScanWorker::mount_report() const {
-  const LevelledSegmenter& levelled = runner_.levelled();
+  const GravityAlignedSegmenter& levelled = runner_.levelled();
   if (job_.told) return MountReport{levelled.mount(), *job_.told};
   if (job_.mount.estimates()) return MountReport{levelled.mount(), levelled.decision()};
   return {};
@@ -245,7 +245,8 @@ Status ScanWorker::score_and_draw(const ScanInput& input, ScanReport& report) {
   Stopwatch watch;
   Status status;
   if (job_.picture) status = draw_birds_eye(input, report, truth);
-  if (status.ok() && job_.surface && render::can_draw().ok()) status = draw_surface(input, report);
+  if (status.ok() && job_.surface && render::rendering_available().ok())
+    status = draw_surface(input, report);
   if (job_.picture || job_.surface) report.picture_ms = watch.lap();
   return status;
 }

@@ -10,11 +10,11 @@
 #include "cli/scan_inputs.hpp"
 #include "cli/scan_report.hpp"
 #include "cli/surface_files.hpp"
-#include "library/core/truth.hpp"
-#include "lab/eval/method_runner.hpp"
 #include "files/io/cloud_reader.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/read_cloud.hpp"
+#include "lab/eval/method_runner.hpp"
+#include "library/core/truth.hpp"
 
 namespace flagstone::cli {
 

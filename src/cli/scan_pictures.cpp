@@ -14,10 +14,10 @@
 
 #include "cli/interrupt.hpp"
 #include "cli/result_files.hpp"
-#include "lab/eval/scan_evaluator.hpp"
 #include "files/io/atomic_file.hpp"
 #include "files/io/message.hpp"
 #include "files/render/side_by_side.hpp"
+#include "lab/eval/scan_evaluator.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "lab/eval/confusion.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/mount.hpp"
+#include "lab/eval/confusion.hpp"
 
 namespace flagstone::cli {
 

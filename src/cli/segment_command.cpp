@@ -21,17 +21,17 @@
 #include <variant>
 #include <vector>
 
-#include "cli/crew.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/method_options.hpp"
 #include "cli/mount_estimation.hpp"
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
 #include "cli/scan_job.hpp"
+#include "cli/thread_pool.hpp"
 #include "cli/throughput.hpp"
-#include "library/core/stopwatch.hpp"
+#include "files/render/rendering_available.hpp"
 #include "flagstone/surface_config.hpp"
-#include "files/render/can_draw.hpp"
+#include "library/core/stopwatch.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -127,7 +127,7 @@ class Reporter {
 void check_tint(const SegmentOptions& options, const MethodConfig& config) {
   if (!options.tint_patches || std::holds_alternative<PatchworkConfig>(config)) return;
   throw std::invalid_argument(
-      fmt::format("--tint-patches: method {} has no zones to tint; --method patchwork has, r_gpf "
+      fmt::format("--color-patches: method {} has no zones to tint; --method patchwork has, r_gpf "
                   "and czm+... too",
                   options.method.method));
 }
@@ -150,10 +150,11 @@ void check_surface(const SegmentOptions& options, const MethodConfig& config) {
 
 /// Of the surface only the map is a picture: its grid is written all the same.
 void check_pictures(const SegmentOptions& options) {
-  const Status can_draw = render::can_draw();
-  if (can_draw.ok()) return;
-  if (options.picture) throw std::invalid_argument("--picture: " + can_draw.message());
-  if (options.surface) print_error("--surface: grids without maps: " + can_draw.message());
+  const Status rendering_available = render::rendering_available();
+  if (rendering_available.ok()) return;
+  if (options.picture) throw std::invalid_argument("--image: " + rendering_available.message());
+  if (options.surface)
+    print_error("--surface: grids without maps: " + rendering_available.message());
 }
 
 /// What is tracked goes from scan to scan, in their order.
@@ -228,7 +229,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("segment",
                          "Label every point of scans.\n\n"
-                         "Example:  flagstone segment scans/ --output labels --picture\n");
+                         "Example:  flagstone segment scans/ --output labels --image\n");
   command
       ->add_option("scans", options->scans,
                    "Scans, or folders of them (.bin, .pcd.bin, .pcd, .ply, .npy)")
@@ -268,9 +269,9 @@ void add_segment_command(CLI::App& app, int& exit_code) {
           "or STEM.label.npy")
       ->type_name("LABELS");
   CLI::Option* const picture =
-      command->add_flag("--picture", options->picture, "Draw each scan from above, as PNG");
+      command->add_flag("--image", options->picture, "Draw each scan from above, as PNG");
   command
-      ->add_flag("--tint-patches", options->tint_patches,
+      ->add_flag("--color-patches", options->tint_patches,
                  "In the picture, tint every patch by its verdict; with patchwork, r_gpf, czm+...")
       ->needs(picture);
   command->add_flag("--heights", options->heights,

@@ -31,13 +31,13 @@
 #include "cli/print_error.hpp"
 #include "cli/progress.hpp"
 #include "cli/simulated_sequence.hpp"
-#include "library/core/stopwatch.hpp"
-#include "flagstone/sensor.hpp"
 #include "files/io/sensor_file.hpp"
+#include "flagstone/sensor.hpp"
 #include "lab/sim/conditions.hpp"
 #include "lab/sim/drive.hpp"
 #include "lab/sim/noise.hpp"
 #include "lab/sim/scene_kind.hpp"
+#include "library/core/stopwatch.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "cli/result_files.hpp"
-#include "flagstone/version.hpp"
 #include "files/io/atomic_file.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/height_files.hpp"
@@ -22,6 +21,7 @@
 #include "files/io/npy.hpp"
 #include "files/io/npy_header.hpp"
 #include "files/io/write_cloud.hpp"
+#include "flagstone/version.hpp"
 #include "lab/sim/drive.hpp"
 #include "lab/sim/echo.hpp"
 #include "lab/sim/semantic_class.hpp"

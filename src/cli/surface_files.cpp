@@ -19,11 +19,11 @@ using Json = nlohmann::ordered_json;
 /// A float32 as few digits as it can be read from: 0.1, not 0.10000000149011612.
 double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 
-double finest_cell(const Surface& surface) { return shortest(surface.grids().back().cell); }
+double finest_cell(const GroundSurface& surface) { return shortest(surface.grids().back().cell); }
 
-Json grids_json(const Surface& surface) {
+Json grids_json(const GroundSurface& surface) {
   Json grids = Json::array();
-  for (const Surface::Grid& grid : surface.grids()) {
+  for (const GroundSurface::Grid& grid : surface.grids()) {
     grids.push_back({{"cell", shortest(grid.cell)}, {"extent", shortest(grid.extent())}});
   }
   return grids;
@@ -31,7 +31,7 @@ Json grids_json(const Surface& surface) {
 
 }  // namespace
 
-Status SurfaceFiles::write(const Surface& surface) const {
+Status SurfaceFiles::write(const GroundSurface& surface) const {
   const double cell = resolution > 0 ? resolution : finest_cell(surface);
   const render::HeightMap map = render::map_of(surface, shortest(surface.extent()), cell);
   Status status = io::write_npy_file(grid(), map.heights, std::array{map.width, map.width});
@@ -39,7 +39,8 @@ Status SurfaceFiles::write(const Surface& surface) const {
   return io::write_file(frame(), std::string_view(frame_text(surface, map)));
 }
 
-std::string SurfaceFiles::frame_text(const Surface& surface, const render::HeightMap& map) const {
+std::string SurfaceFiles::frame_text(const GroundSurface& surface,
+                                     const render::HeightMap& map) const {
   const double extent = map.extent();
   Json json;
   json["scan"] = scan;

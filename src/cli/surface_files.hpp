@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "flagstone/status.hpp"
-#include "flagstone/surface.hpp"
 #include "files/render/height_map.hpp"
+#include "flagstone/ground_surface.hpp"
+#include "flagstone/status.hpp"
 
 namespace flagstone::cli {
 
@@ -23,10 +23,11 @@ struct SurfaceFiles {
   [[nodiscard]] std::filesystem::path picture() const { return stem.string() + ".surface.png"; }
 
   /// Writes the grid, float32, and its frame. `surface` is not empty. unwritable, out_of_memory.
-  [[nodiscard]] Status write(const Surface& surface) const;
+  [[nodiscard]] Status write(const GroundSurface& surface) const;
 
  private:
-  [[nodiscard]] std::string frame_text(const Surface& surface, const render::HeightMap& map) const;
+  [[nodiscard]] std::string frame_text(const GroundSurface& surface,
+                                       const render::HeightMap& map) const;
 };
 
 }  // namespace flagstone::cli

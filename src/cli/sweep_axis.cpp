@@ -45,11 +45,11 @@ SweepAxis sweep_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
     throw std::invalid_argument(fmt::format(
-        "--over {}: allowed: KEY=VALUE,VALUE,..., e.g. --over distance_margin=0.1,0.125,0.15",
+        "--param {}: allowed: KEY=VALUE,VALUE,..., e.g. --param distance_margin=0.1,0.125,0.15",
         text));
   }
   if (io::printable(text) != text) {
-    throw std::invalid_argument(fmt::format("--over {}: holds what cannot be printed", text));
+    throw std::invalid_argument(fmt::format("--param {}: holds what cannot be printed", text));
   }
   SweepAxis axis{.key = text.substr(0, equals), .values = {}};
   std::size_t begin = equals + 1;
@@ -65,7 +65,7 @@ void apply_axis(const std::string& key, const std::string& value, MethodConfig& 
   if (key == "bins") {
     make_uniform_grid(value, config);
   } else {
-    config::apply_toml(fmt::format("{} = {}", key, value), fmt::format("--over {}={}", key, value),
+    config::apply_toml(fmt::format("{} = {}", key, value), fmt::format("--param {}={}", key, value),
                        config);
   }
 }

@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "lab/baselines/settings.hpp"
 #include "cli/evaluation.hpp"
 #include "cli/method_options.hpp"
 #include "cli/result_files.hpp"
 #include "cli/sweep_results.hpp"
+#include "lab/baselines/settings.hpp"
 #include "lab/report/sweep_report.hpp"
 
 namespace flagstone::cli {
@@ -42,10 +42,10 @@ std::vector<SweepAxis> axes_of(const SweepOptions& options) {
   for (const std::string& text : options.axes.empty() ? figure_5 : options.axes) {
     axes.push_back(sweep_axis(text));
   }
-  if (axes.size() > 2) throw std::invalid_argument("--over can be given once or twice");
+  if (axes.size() > 2) throw std::invalid_argument("--param can be given once or twice");
   if (axes.size() == 2 && axes[0].key == axes[1].key) {
     throw std::invalid_argument(
-        fmt::format("--over names {} twice; give all its values at once", axes[0].key));
+        fmt::format("--param names {} twice; give all its values at once", axes[0].key));
   }
   return axes;
 }
@@ -57,7 +57,7 @@ std::vector<eval::Method> points_of(const Sweep& sweep, const MethodConfig& base
   for (const SweepAxis& axis : sweep.axes) count *= axis.values.size();
   constexpr std::size_t most = 10000;
   if (count > most) {
-    throw std::invalid_argument(fmt::format("--over: {} points; allowed: up to {}", count, most));
+    throw std::invalid_argument(fmt::format("--param: {} points; allowed: up to {}", count, most));
   }
   std::vector<eval::Method> points;
   for (std::size_t p = 0; p < count; ++p) {
@@ -80,7 +80,8 @@ int sweep(const SweepOptions& options) {
   Sweep sweep{.method = options.method.method, .axes = axes_of(options), .results = {}};
   MountSettings mount;
   const MethodConfig base = options.method.resolve(mount);
-  Evaluation evaluation(options.evaluation, points_of(sweep, base, mount), options.files.journal());
+  Evaluation evaluation(options.evaluation, points_of(sweep, base, mount),
+                        options.files.checkpoint());
   options.files.prepare();
   sweep.results = evaluation.run();
   if (sweep.results.scans == 0) return 1;
@@ -96,7 +97,7 @@ int sweep(const SweepOptions& options) {
                [&] { return to_json(sweep).dump(2, ' ', false, replace) + "\n"; });
   write_result(options.files.csv, [&] { return to_csv(sweep); });
   write_result(options.files.html, [&] { return report::sweep_report(to_json(sweep)); });
-  evaluation.remove_journal();
+  evaluation.remove_checkpoint();
   return sweep.results.failures.empty() ? 0 : 1;
 }
 
@@ -109,14 +110,14 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("sweep",
                          "Score a method over a grid of settings.\n\n"
                          "Example:  flagstone sweep SemanticKITTI --every 100 --html sweep.html\n"
-                         "          flagstone sweep SemanticKITTI --method patchwork --over "
+                         "          flagstone sweep SemanticKITTI --method patchwork --param "
                          "distance_margin=0.1,0.15\n\n"
-                         "Without --over: the paper's Fig. 5, bin sizes of the uniform grid and "
+                         "Without --param: the paper's Fig. 5, bin sizes of the uniform grid and "
                          "uprightness angles.\n");
   options->evaluation.add_to(*command);
   options->method.add_to(*command);
   command
-      ->add_option("--over", options->axes,
+      ->add_option("--param", options->axes,
                    "A setting and its values; given twice, a grid. The setting 'bins' takes "
                    "RINGSxSECTORS of a uniform polar grid")
       ->allow_extra_args(false)

@@ -45,8 +45,8 @@ done
 /// `flagstone bench --json` with a fake worker.
 std::vector<std::string> with_worker(const std::filesystem::path& scans,
                                      const std::filesystem::path& worker) {
-  return {"bench",    scans.string(), "--json",        "--peers",
-          "--python", "sh",           "--peer-worker", worker.string()};
+  return {"bench",    scans.string(), "--json",           "--compare",
+          "--python", "sh",           "--compare-worker", worker.string()};
 }
 
 TEST(Bench, JsonHasTheTimesOfSegmentFloorAndEveryStage) {
@@ -55,7 +55,7 @@ TEST(Bench, JsonHasTheTimesOfSegmentFloorAndEveryStage) {
   put_scan(folder / "scans/2.bin", small_scan(3000, 2));
 
   const Outcome outcome =
-      run({"bench", (folder / "scans").string(), "--rounds", "3", "--json", "--target", "scalar"});
+      run({"bench", (folder / "scans").string(), "--rounds", "3", "--json", "--isa", "scalar"});
 
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err, "");
@@ -190,11 +190,11 @@ TEST(Bench, WithoutWorkerOrPythonPeersAreLeftOut) {
   const std::string scan = (folder / "scan.bin").string();
   put_fake_worker(folder / "worker.sh", "1");
 
-  const Outcome no_worker = run({"bench", scan, "--rounds", "1", "--json", "--peers",
-                                 "--peer-worker", (folder / "none.py").string()});
+  const Outcome no_worker = run({"bench", scan, "--rounds", "1", "--json", "--compare",
+                                 "--compare-worker", (folder / "none.py").string()});
   const Outcome no_python =
-      run({"bench", scan, "--rounds", "1", "--json", "--peers", "--python", "no-such-python",
-           "--peer-worker", (folder / "worker.sh").string()});
+      run({"bench", scan, "--rounds", "1", "--json", "--compare", "--python", "no-such-python",
+           "--compare-worker", (folder / "worker.sh").string()});
 
   EXPECT_THAT(json::parse(no_worker.out)["peers"]["open3d-ransac"]["left_out"].get<std::string>(),
               HasSubstr("none.py: no such file"));

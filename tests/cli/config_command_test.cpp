@@ -5,11 +5,11 @@
 
 #include <string>
 
+#include "app/config/config_toml.hpp"
+#include "app/config/same_config.hpp"
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
-#include "app/config/config_toml.hpp"
-#include "app/config/same_config.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "app/doctor/street_scan.hpp"
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
-#include "app/doctor/street_scan.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
 

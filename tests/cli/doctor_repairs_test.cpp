@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "lab/baselines/settings.hpp"
-#include "cli/method_options.hpp"
 #include "app/config/config_toml.hpp"
 #include "app/doctor/advice.hpp"
 #include "app/doctor/examination.hpp"
 #include "app/doctor/faults.hpp"
 #include "app/doctor/street_scan.hpp"
-#include "lab/eval/confusion.hpp"
-#include "flagstone/levelled_segmenter.hpp"
-#include "flagstone/make_segmenter.hpp"
+#include "cli/method_options.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
+#include "flagstone/gravity_aligned_segmenter.hpp"
+#include "flagstone/make_segmenter.hpp"
+#include "lab/baselines/settings.hpp"
+#include "lab/eval/confusion.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -31,7 +31,7 @@ double f1_of(const std::vector<Point>& points, const MethodOptions& options) {
   MountSettings mount;
   const MethodConfig config = options.resolve(mount);
   const float height = sensor_height_of(config, mount.mount.sensor_height);
-  LevelledSegmenter segmenter(make_segmenter(options.method, config), height, mount);
+  GravityAlignedSegmenter segmenter(make_segmenter(options.method, config), height, mount);
   Segmentation result;
   EXPECT_TRUE(segmenter.segment(CloudView(std::span<const Point>(points)), result).ok());
   return 100 * eval::compare(result.labels(), doctor::street_truth()).f1();

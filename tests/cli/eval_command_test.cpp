@@ -23,11 +23,11 @@
 #include "cli/files.hpp"
 #include "cli/labelled_scans.hpp"
 #include "cli/line_matchers.hpp"
-#include "flagstone/surface_segmenter.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/npy.hpp"
 #include "files/io/temporary_folder.hpp"
+#include "flagstone/surface.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -242,7 +242,7 @@ TEST_F(EvalCommand, HeightsAreJudgedWhereTheGroundIsKnown) {
     ground.push_back(i % 10 == 0 ? std::nanf("") : -1.7F + 0.001F * static_cast<float>(i % 7));
   }
   put_ground("a", ground);
-  SurfaceSegmenter segmenter;
+  Surface segmenter;
   Segmentation segmented;
   ASSERT_TRUE(segmenter.segment(cloud.view(), segmented).ok());
   const auto classes = made_up_classes(cloud);
@@ -428,7 +428,7 @@ TEST_F(EvalCommand, NoReadableScanAtAllIsOneLineEachAndNoResults) {
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(lines_of(outcome.err), AllOf(SizeIs(3), Each(StartsWith("flagstone: "))));
   EXPECT_FALSE(fs::exists(folder_ / "results.json"));
-  EXPECT_FALSE(fs::exists(folder_ / "results.json.journal"));
+  EXPECT_FALSE(fs::exists(folder_ / "results.json.checkpoint"));
 }
 
 TEST_F(EvalCommand, CsvHasARowPerMethodAndScan) {
@@ -458,7 +458,7 @@ TEST_F(EvalCommand, CsvHasARowPerMethodAndScan) {
 
 TEST_F(EvalCommand, HtmlIsOneFileThatLoadsNothing) {
   const Outcome outcome = run({"eval", path("kitti"), "--methods", "patchwork,gpf", "--html",
-                               path("report.html"), "--pictures", "1", "--output", path("drawn")});
+                               path("report.html"), "--images", "1", "--output", path("drawn")});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(names_below(folder_ / "drawn"), SizeIs(1));
@@ -475,7 +475,7 @@ TEST_F(EvalCommand, HtmlIsOneFileThatLoadsNothing) {
 
 TEST_F(EvalCommand, PicturesAreOfTheWorstScans) {
   const Outcome outcome =
-      eval("kitti", {"--methods", "patchwork,gpf", "--pictures", "2", "--output", path("drawn")});
+      eval("kitti", {"--methods", "patchwork,gpf", "--images", "2", "--output", path("drawn")});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const json results = json_of(folder_ / "results.json");
@@ -534,7 +534,7 @@ TEST_F(EvalCommand, ResultsThatCannotBeWrittenAreOneLineBeforeAnyWork) {
 TEST_F(EvalCommand, AFolderForPicturesThatCannotBeMadeIsOneLineBeforeAnyWork) {
   io::put_file(folder_ / "taken", "mine");
 
-  const Outcome outcome = eval("kitti", {"--pictures", "1", "--output", path("taken/drawn")});
+  const Outcome outcome = eval("kitti", {"--images", "1", "--output", path("taken/drawn")});
 
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.out, "");
@@ -677,7 +677,7 @@ TEST_F(LabelsMadeElsewhere, MissingOnesCostOneLineAndLeaveTheScanToTheOthers) {
   fs::remove(folder_ / "made/b.label");
 
   const Outcome outcome = eval("kitti", {"--methods", "gpf", "--labels", "peer=" + path("made"),
-                                         "--pictures", "3", "--output", path("drawn")});
+                                         "--images", "3", "--output", path("drawn")});
 
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, AllOf(is_one_line_with("method peer"), HasSubstr("made/b.label")));
@@ -702,7 +702,7 @@ TEST_F(EvalCommand, WrongUsageIsOneLine) {
       {{"--set", "patchwork.distance_margin=-1"}, "distance_margin = -1"},
       {{"--set", "surface.distance_margin=1"}, "but of --method patchwork"},
       {{"--methods", "surface", "--preset", "paper"}, "none of them is among --methods"},
-      {{"--pictures", "-1"}, "--pictures"},
+      {{"--images", "-1"}, "--images"},
       {{"--label-map", "mine"}, "{flagstone,semantic-kitti}"},
       {{path("empty")}, "empty: no dataset"},
       {{path("gone")}, "gone: no such folder"},

@@ -11,10 +11,10 @@
 #include <variant>
 #include <vector>
 
-#include "lab/baselines/settings.hpp"
 #include "app/config/same_config.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
+#include "lab/baselines/settings.hpp"
 
 namespace flagstone::cli {
 namespace {

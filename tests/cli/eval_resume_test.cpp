@@ -59,20 +59,20 @@ class EvalResume : public testing::Test {
     return all;
   }
 
-  [[nodiscard]] std::string journal() const {
-    return io::contents_of(folder_ / "results.json.journal");
+  [[nodiscard]] std::string checkpoint() const {
+    return io::contents_of(folder_ / "results.json.checkpoint");
   }
 
-  /// How many scans the journal holds: one a line, below its heading.
-  [[nodiscard]] std::ptrdiff_t scans_in_journal() const {
-    return std::max<std::ptrdiff_t>(std::ranges::count(journal(), '\n') - 1, 0);
+  /// How many scans the checkpoint holds: one a line, below its heading.
+  [[nodiscard]] std::ptrdiff_t scans_in_checkpoint() const {
+    return std::max<std::ptrdiff_t>(std::ranges::count(checkpoint(), '\n') - 1, 0);
   }
 
   /// Interrupts the evaluation when it has done a few scans.
   [[nodiscard]] Outcome interrupted() const {
     using namespace std::chrono_literals;
     CommandProcess command(arguments("results.json"));
-    for (int wait = 0; wait < 60000 && scans_in_journal() < 3; ++wait) {
+    for (int wait = 0; wait < 60000 && scans_in_checkpoint() < 3; ++wait) {
       std::this_thread::sleep_for(1ms);
     }
     command.send(SIGINT);
@@ -89,7 +89,7 @@ TEST_F(EvalResume, AnInterruptedRunKeepsItsJournalAndGoesOnToTheSameResults) {
   const Outcome stopped = interrupted();
 
   EXPECT_EQ(stopped.exit_code, 1);
-  const std::ptrdiff_t done = scans_in_journal();
+  const std::ptrdiff_t done = scans_in_checkpoint();
   EXPECT_GE(done, 3);
   EXPECT_LT(done, scans);
   EXPECT_THAT(stopped.err, is_one_line_with("interrupted, " + std::to_string(done) +
@@ -101,18 +101,19 @@ TEST_F(EvalResume, AnInterruptedRunKeepsItsJournalAndGoesOnToTheSameResults) {
   const Outcome finished = run(arguments("results.json", {"--resume"}));
 
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_FALSE(fs::exists(folder_ / "results.json.journal"));
+  EXPECT_FALSE(fs::exists(folder_ / "results.json.checkpoint"));
   EXPECT_EQ(without_times(json_of(folder_ / "results.json")),
             without_times(json_of(folder_ / "undisturbed.json")));
 }
 
 TEST_F(EvalResume, ScansOfTheJournalAreNotDoneAgain) {
   ASSERT_EQ(interrupted().exit_code, 1);
-  std::string kept = journal();
+  std::string kept = checkpoint();
   const std::size_t from = kept.find("\"ms\":");
   ASSERT_NE(from, std::string::npos);
   const std::size_t end = kept.find_first_of(",}", from);
-  io::put_file(folder_ / "results.json.journal", kept.replace(from, end - from, "\"ms\":98765.5"));
+  io::put_file(folder_ / "results.json.checkpoint",
+               kept.replace(from, end - from, "\"ms\":98765.5"));
 
   const Outcome finished = run(arguments("results.json", {"--resume"}));
 
@@ -126,7 +127,7 @@ TEST_F(EvalResume, ScansOfTheJournalAreNotDoneAgain) {
 TEST_F(EvalResume, AnotherEvaluationsJournalIsRefusedAndKept) {
   put_dataset("other", 7);
   ASSERT_EQ(interrupted().exit_code, 1);
-  const std::string kept = journal();
+  const std::string kept = checkpoint();
   std::vector<std::string> other_dataset = arguments("results.json");
   other_dataset[1] = (folder_ / "other").string();
 
@@ -140,9 +141,9 @@ TEST_F(EvalResume, AnotherEvaluationsJournalIsRefusedAndKept) {
 
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.out, "");
-    EXPECT_THAT(outcome.err, is_one_line_with("results.json.journal: is of an evaluation with "
+    EXPECT_THAT(outcome.err, is_one_line_with("results.json.checkpoint: is of an evaluation with "
                                               "other datasets, methods, settings or protocol"));
-    EXPECT_EQ(journal() == kept, true);
+    EXPECT_EQ(checkpoint() == kept, true);
   }
 }
 

@@ -6,11 +6,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "flagstone/surface_segmenter.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/read_cloud.hpp"
 #include "files/io/write_cloud.hpp"
-#include "made_up_cloud.hpp"
+#include "flagstone/surface.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ void must(const Status& status) {
 }  // namespace
 
 io::Cloud small_scan(std::size_t points, std::uint32_t seed) {
-  std::vector<Point> cloud = tests::made_up_cloud(points, seed);
+  std::vector<Point> cloud = tests::random_cloud(points, seed);
   if (points >= 100) {
     cloud[10] = {6, 6, -9};    // far below any ground
     cloud[20] = {500, 0, -1};  // beyond the last ring
@@ -52,7 +52,7 @@ io::Cloud scan_of(const fs::path& file) {
 }
 
 std::vector<Label> labels_of(const io::Cloud& scan) {
-  SurfaceSegmenter surface;
+  Surface surface;
   Segmentation result;
   must(surface.segment(scan.view(), result));
   return {result.labels().begin(), result.labels().end()};

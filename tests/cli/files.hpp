@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "flagstone/label.hpp"
 #include "files/io/cloud.hpp"
+#include "flagstone/label.hpp"
 
 namespace flagstone::cli {
 

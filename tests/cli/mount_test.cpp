@@ -193,7 +193,7 @@ TEST_F(MountOfScans, JsonHasWhatWasDecidedAndWhy) {
 TEST_F(MountOfScans, TheTableOfAConfigurationSaysIt) {
   put_scan(folder_ / "scans/0.bin", yard(1.73f, 20));
   io::put_file(folder_ / "mine.toml",
-               "[mount]\ntilt = \"given\"\nup = [-0.342, 0, 0.94]\norigin = [0, 0, 0]\n");
+               "[mount]\ntilt = \"fixed\"\nup = [-0.342, 0, 0.94]\norigin = [0, 0, 0]\n");
 
   const Outcome by_file = segment({"--config", path("mine.toml")}, "file");
   const Outcome by_option = segment({"--tilt", "-0.342,0,0.94"}, "option");
@@ -209,7 +209,7 @@ TEST_F(MountOfScans, IsPrintedWithTheConfigurationAndReadBack) {
   const Outcome again = run({"config", "--config", path("mine.toml")});
 
   EXPECT_THAT(printed.out, AllOf(HasSubstr("\n[mount]\n"), HasSubstr("height = \"track\""),
-                                 HasSubstr("tilt = \"given\""), HasSubstr("up = [0.0, 0.5, 1.0]")));
+                                 HasSubstr("tilt = \"fixed\""), HasSubstr("up = [0.0, 0.5, 1.0]")));
   EXPECT_EQ(again.out, printed.out);
 }
 
@@ -231,20 +231,20 @@ TEST_F(MountOfScans, EvalTakesSettingsOfTheMount) {
   put_labelled(folder_ / "set", "0", yard(1.73f));
 
   const Outcome right = run({"eval", path("set"), "--methods", "surface", "--set",
-                             "mount.tilt=\"estimate\"", "--set", "mount.most_tilt=12"});
+                             "mount.tilt=\"estimate\"", "--set", "mount.max_tilt=12"});
   const Outcome wrong =
-      run({"eval", path("set"), "--methods", "surface", "--set", "mount.most_tilt=80"});
+      run({"eval", path("set"), "--methods", "surface", "--set", "mount.max_tilt=80"});
 
   EXPECT_EQ(right.exit_code, 0) << right.err;
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_THAT(wrong.err, is_one_line_with("mount.most_tilt = 80 is out of range"));
+  EXPECT_THAT(wrong.err, is_one_line_with("mount.max_tilt = 80 is out of range"));
 }
 
 TEST_F(MountOfScans, BenchAndSweepTakeIt) {
   put_labelled(folder_ / "set", "0", yard(1.73f, 15));
 
   const Outcome bench = run({"bench", path("set/velodyne"), "--rounds", "1", "--tilt", "estimate"});
-  const Outcome sweep = run({"sweep", path("set"), "--method", "patchwork", "--over",
+  const Outcome sweep = run({"sweep", path("set"), "--method", "patchwork", "--param",
                              "sensor_height=1.5,1.73", "--tilt", "estimate"});
 
   EXPECT_EQ(bench.exit_code, 0) << bench.err;

@@ -13,10 +13,10 @@
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
-#include "flagstone/make_segmenter.hpp"
-#include "flagstone/segmentation.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
+#include "flagstone/make_segmenter.hpp"
+#include "flagstone/segmentation.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -76,7 +76,7 @@ TEST_P(SegmentMethod, PrintsItsSettingsAsTomlThatReadsBack) {
 }
 
 TEST_P(SegmentMethod, DrawsAPicture) {
-  const Outcome outcome = segment({"--picture"});
+  const Outcome outcome = segment({"--image"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(io::contents_of(folder_ / "out/scan.png"), testing::StartsWith("\x89PNG\r\n\x1a\n"));
@@ -85,7 +85,7 @@ TEST_P(SegmentMethod, DrawsAPicture) {
 TEST_P(SegmentMethod, TintsPatchesIfItHasZonesAndElseSaysThatItHasNone) {
   const bool has_zones = std::holds_alternative<PatchworkConfig>(default_config(GetParam()));
 
-  const Outcome outcome = segment({"--picture", "--tint-patches"});
+  const Outcome outcome = segment({"--image", "--color-patches"});
 
   if (has_zones) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -94,7 +94,7 @@ TEST_P(SegmentMethod, TintsPatchesIfItHasZonesAndElseSaysThatItHasNone) {
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.out, "");
     EXPECT_THAT(outcome.err,
-                is_one_line_with("--tint-patches: method " + GetParam() + " has no zones"));
+                is_one_line_with("--color-patches: method " + GetParam() + " has no zones"));
     EXPECT_FALSE(fs::exists(folder_ / "out"));
   }
 }

@@ -12,11 +12,11 @@
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
-#include "lab/eval/confusion.hpp"
-#include "lab/eval/protocol.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/temporary_folder.hpp"
+#include "lab/eval/confusion.hpp"
+#include "lab/eval/protocol.hpp"
 
 namespace flagstone::cli {
 namespace {

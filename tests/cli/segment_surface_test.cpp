@@ -13,12 +13,12 @@
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
-#include "flagstone/segmentation.hpp"
-#include "flagstone/surface_segmenter.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/float_array.hpp"
 #include "files/io/temporary_folder.hpp"
 #include "files/render/height_map.hpp"
+#include "flagstone/segmentation.hpp"
+#include "flagstone/surface.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -73,7 +73,7 @@ TEST_F(SegmentSurface, ResolutionIsRefusedOutOfRange) {
 class SegmentBySurface : public SegmentSurface {
  protected:
   void SetUp() override {
-    SurfaceSegmenter segmenter;
+    Surface segmenter;
     ASSERT_TRUE(segmenter.segment(scan_.view(), expected_).ok());
   }
 
@@ -131,7 +131,7 @@ TEST_F(SegmentBySurface, WritesTheGroundAsAGridItsFrameAndAMap) {
                                                         "scan.surface.npy", "scan.surface.png"));
   EXPECT_THAT(io::contents_of(folder_ / "out/scan.surface.png"),
               testing::StartsWith("\x89PNG\r\n\x1a\n"));
-  const Surface& surface = expected_.surface();
+  const GroundSurface& surface = expected_.surface();
   const render::HeightMap map =
       render::map_of(surface, surface.extent(), surface.grids().back().cell);
   EXPECT_THAT(io::float_array_of(folder_ / "out/scan.surface.npy").values,
@@ -147,7 +147,7 @@ TEST_F(SegmentBySurface, WritesCellsOfTheSizeAskedFor) {
 }
 
 TEST_F(SegmentBySurface, NamesWhatItWroteInJson) {
-  const Outcome outcome = segment_by_surface({"--heights", "--surface", "--picture", "--json"});
+  const Outcome outcome = segment_by_surface({"--heights", "--surface", "--image", "--json"});
 
   const auto outputs = nlohmann::json::parse(outcome.out)["outputs"];
   std::vector<std::string> names;

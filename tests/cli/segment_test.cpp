@@ -96,7 +96,7 @@ TEST(Segment, AnEmptyFileIsAScanOfNoPoints) {
   io::put_file(folder / "empty.bin", "");
 
   const Outcome outcome = run({"segment", (folder / "empty.bin").string(), "--output",
-                               (folder / "out").string(), "--picture"});
+                               (folder / "out").string(), "--image"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(fs::file_size(folder / "out/empty.label"), 0U);
@@ -164,7 +164,7 @@ TEST(Segment, APictureIsAPngBesideTheLabels) {
   put_scan(folder / "scan.bin");
 
   const Outcome outcome = run({"segment", (folder / "scan.bin").string(), "--output",
-                               (folder / "out").string(), "--picture", "--json"});
+                               (folder / "out").string(), "--image", "--json"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(names_below(folder / "out"), ElementsAre("scan.label", "scan.png"));

@@ -8,16 +8,16 @@
 #include <variant>
 #include <vector>
 
-#include "lab/baselines/settings.hpp"
-#include "cli/command_process.hpp"
-#include "cli/files.hpp"
 #include "app/config/config_toml.hpp"
 #include "app/config/same_config.hpp"
+#include "cli/command_process.hpp"
+#include "cli/files.hpp"
+#include "files/io/file_contents.hpp"
+#include "files/io/temporary_folder.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/mount.hpp"
 #include "flagstone/sensor.hpp"
-#include "files/io/file_contents.hpp"
-#include "files/io/temporary_folder.hpp"
+#include "lab/baselines/settings.hpp"
 
 namespace flagstone::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "files/io/file_contents.hpp"
 #include "files/io/float_array.hpp"
 #include "files/io/temporary_folder.hpp"
-#include "made_up_surface.hpp"
+#include "random_surface.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -40,7 +40,7 @@ class SurfaceFilesTest : public testing::Test {
   }
 
   io::TemporaryFolder folder_;
-  Surface surface_ = tests::made_up_surface(ground);  // 1 m to 32 m, 0.25 m to 8 m
+  GroundSurface surface_ = tests::random_surface(ground);  // 1 m to 32 m, 0.25 m to 8 m
   SurfaceFiles files_{.stem = folder_ / "000000", .scan = "000000.bin", .resolution = 0};
   io::FloatArray grid_;
   json frame_;
@@ -96,7 +96,7 @@ TEST_F(SurfaceFilesTest, HoldTheHeightOfThePlaceThatTheGeotransformGives) {
 }
 
 TEST_F(SurfaceFilesTest, BeginWithTheLargestYAndTheSmallestX) {
-  surface_ = tests::made_up_surface([](float x, float y) { return 100 * y + x; });
+  surface_ = tests::random_surface([](float x, float y) { return 100 * y + x; });
   write(1);
 
   EXPECT_FLOAT_EQ(grid_.values.front(), 100 * 31.5f - 31.5f);

@@ -44,7 +44,7 @@ TEST(SweepAxis, IsAKeyAndItsValuesInTheirOrder) {
 TEST(SweepAxis, WithoutKeyOrValuesIsRefusedWithAnExample) {
   for (const std::string text : {"", "seed_count", "seed_count=", "=3"}) {
     EXPECT_THAT(refusal([&] { static_cast<void>(sweep_axis(text)); }),
-                AllOf(HasSubstr("--over " + text), HasSubstr("KEY=VALUE,VALUE")));
+                AllOf(HasSubstr("--param " + text), HasSubstr("KEY=VALUE,VALUE")));
   }
 }
 
@@ -102,9 +102,9 @@ TEST(SweepAxis, BinsOfAMethodWithoutZonesAreRefused) {
 
 TEST(SweepAxis, WhatIsNoSettingOrNoValueNamesTheOption) {
   EXPECT_THAT(refusal_of_value("seed_cuont", "3"),
-              AllOf(HasSubstr("--over seed_cuont=3"), HasSubstr("is no setting")));
-  EXPECT_THAT(refusal_of_value("seed_count", "many"), HasSubstr("--over seed_count=many"));
-  EXPECT_THAT(refusal_of_value("seed_count", ""), HasSubstr("--over seed_count="));
+              AllOf(HasSubstr("--param seed_cuont=3"), HasSubstr("is no setting")));
+  EXPECT_THAT(refusal_of_value("seed_count", "many"), HasSubstr("--param seed_count=many"));
+  EXPECT_THAT(refusal_of_value("seed_count", ""), HasSubstr("--param seed_count="));
 }
 
 }  // namespace

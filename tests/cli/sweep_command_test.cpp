@@ -68,7 +68,7 @@ TEST_F(SweepCommand, IsThePapersFigure5IfNothingElseIsSaid) {
 
 TEST_F(SweepCommand, EveryPointScoresAsEvalDoesWithThatSetting) {
   const json found =
-      results({"--method", "gpf", "--over", "segments=1,4", "--over", "seed_height=0.1,0.4"});
+      results({"--method", "gpf", "--param", "segments=1,4", "--param", "seed_height=0.1,0.4"});
 
   EXPECT_EQ(found["protocol"], "patchwork");
   EXPECT_EQ(found["scans"], 2);
@@ -85,7 +85,7 @@ TEST_F(SweepCommand, EveryPointScoresAsEvalDoesWithThatSetting) {
 }
 
 TEST_F(SweepCommand, PrintsARowPerPointAndWhichWon) {
-  const Outcome outcome = sweep({"--method", "patchwork", "--over", "distance_margin=0.05,0.2"});
+  const Outcome outcome = sweep({"--method", "patchwork", "--param", "distance_margin=0.05,0.2"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, StartsWith("Method patchwork, protocol patchwork, 2 scans of kitti"));
@@ -96,7 +96,7 @@ TEST_F(SweepCommand, PrintsARowPerPointAndWhichWon) {
 }
 
 TEST_F(SweepCommand, WritesCsvAndOneHtmlFileThatLoadsNothing) {
-  const Outcome outcome = sweep({"--method", "patchwork", "--over", "seed_count=5,10,20", "--csv",
+  const Outcome outcome = sweep({"--method", "patchwork", "--param", "seed_count=5,10,20", "--csv",
                                  path("new/sweep.csv"), "--html", path("new/sweep.html")});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -106,11 +106,11 @@ TEST_F(SweepCommand, WritesCsvAndOneHtmlFileThatLoadsNothing) {
   EXPECT_NE(html.find("seed_count of patchwork"), std::string::npos);
   const std::regex loads(R"((src|href)\s*=\s*["']?\s*(https?:|//)|@import|url\()");
   EXPECT_FALSE(std::regex_search(html, loads));
-  EXPECT_FALSE(fs::exists(folder_ / "sweep.json.journal"));
+  EXPECT_FALSE(fs::exists(folder_ / "sweep.json.checkpoint"));
 }
 
 TEST_F(SweepCommand, AnyNumberOfThreadsComesToTheSame) {
-  const std::vector<std::string> over = {"--over", "bins=10x36,30x108"};
+  const std::vector<std::string> over = {"--param", "bins=10x36,30x108"};
   const json one = results({over[0], over[1], "--threads", "1"});
   const json two = results({over[0], over[1], "--threads", "2"});
 
@@ -120,7 +120,7 @@ TEST_F(SweepCommand, AnyNumberOfThreadsComesToTheSame) {
 TEST_F(SweepCommand, AnUnreadableScanCostsOneLineAndNotTheRun) {
   io::put_file(folder_ / "kitti/velodyne/b.bin", "no scan");
 
-  const Outcome outcome = sweep({"--over", "bins=10x36"});
+  const Outcome outcome = sweep({"--param", "bins=10x36"});
 
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, is_one_line_with("b.bin"));
@@ -129,16 +129,16 @@ TEST_F(SweepCommand, AnUnreadableScanCostsOneLineAndNotTheRun) {
 
 TEST_F(SweepCommand, WrongUsageIsOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> misuses = {
-      {{"--over", "seed_count"}, "KEY=VALUE"},
-      {{"--over", "seed_cuont=3"}, "seed_cuont is no setting"},
-      {{"--over", "bins=many"}, "RINGSxSECTORS"},
-      {{"--over", "bins=10x4000"}, "sectors = 4000"},
-      {{"--over", "distance_margin=-1"}, "distance_margin = -1"},
-      {{"--method", "gpf", "--over", "bins=10x36"}, "of patchwork and its relatives"},
+      {{"--param", "seed_count"}, "KEY=VALUE"},
+      {{"--param", "seed_cuont=3"}, "seed_cuont is no setting"},
+      {{"--param", "bins=many"}, "RINGSxSECTORS"},
+      {{"--param", "bins=10x4000"}, "sectors = 4000"},
+      {{"--param", "distance_margin=-1"}, "distance_margin = -1"},
+      {{"--method", "gpf", "--param", "bins=10x36"}, "of patchwork and its relatives"},
       {{"--method", "gpf"}, "uprightness is no setting"},  // Fig. 5 is of zones
       {{"--method", "magic"}, "magic"},
-      {{"--over", "a=1", "--over", "b=1", "--over", "c=1"}, "once or twice"},
-      {{"--over", "seed_count=5", "--over", "seed_count=6"}, "names seed_count twice"},
+      {{"--param", "a=1", "--param", "b=1", "--param", "c=1"}, "once or twice"},
+      {{"--param", "seed_count=5", "--param", "seed_count=6"}, "names seed_count twice"},
   };
   for (const auto& [arguments, said] : misuses) {
     const Outcome outcome = sweep(arguments);

@@ -112,11 +112,11 @@ TEST(SweepResults, TextHasARowPerPointInPercent) {
 
 TEST(SweepResults, ColumnsOfTheTextAreApartAndEndUnderTheirHeadings) {
   Sweep sweep = sweep_of({"true", "false"}, {{50, 60}, {70, 80}});
-  sweep.axes[0].key = "few_points_are_ground";
+  sweep.axes[0].key = "sparse_bins_are_ground";
 
   const std::vector<std::string> lines = lines_of(to_text(sweep));
 
-  EXPECT_THAT(lines[0], HasSubstr("few_points_are_ground  precision    std"));
+  EXPECT_THAT(lines[0], HasSubstr("sparse_bins_are_ground  precision    std"));
   const std::size_t end = lines[0].find("precision") + std::string("precision").size();
   EXPECT_EQ(lines[1].substr(end - 6, 6), " 55.00");
   EXPECT_EQ(lines[1][end], ' ');

@@ -18,8 +18,8 @@
 #include <variant>
 #include <vector>
 
-#include "lab/baselines/settings.hpp"
 #include "files/io/message.hpp"
+#include "lab/baselines/settings.hpp"
 #include "library/mount/mount_settings.hpp"
 
 namespace flagstone::config {

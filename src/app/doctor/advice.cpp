@@ -31,35 +31,37 @@ bool differs(const Vector3f& a, const Vector3f& b) { return a != b; }
 
 }  // namespace
 
-double height_doubt(const CommonStance& stance) {
-  return least_height_difference + (stance.highest_ground - stance.lowest_ground) / 4;
+double height_doubt(const CommonOrientation& orientation) {
+  return least_height_difference + (orientation.highest_ground - orientation.lowest_ground) / 4;
 }
 
-Advice advise(const Summary& summary, const CommonStance& stance, const Expected& expected,
-              const std::vector<const Sensor*>& sensors) {
+Advice advise(const Summary& summary, const CommonOrientation& orientation,
+              const Expected& expected, const std::vector<const Sensor*>& sensors) {
   Advice advice;
   if (!sensors.empty()) advice.sensor = sensors.front()->name;
   Mount& mount = advice.mount;
   mount.scale = static_cast<float>(summary.metres);
 
   for (std::size_t i = 0; i < 3; ++i) {
-    mount.up[i] = stance.is_tilted() ? rounded(stance.up[i], 1e-4) : stance.axis[i];
+    mount.up[i] = orientation.is_tilted() ? rounded(orientation.up[i], 1e-4) : orientation.axis[i];
   }
 
   // Along the axis, metres above the cloud's origin.
-  const bool is_off_sensor = summary.beam_origin || stance.ground > highest_ground;
+  const bool is_off_sensor = summary.beam_origin || orientation.ground > highest_ground;
   double origin = 0;
   if (is_off_sensor) {
-    origin = summary.beam_origin.value_or(stance.ground + double{expected.sensor_height});
+    origin = summary.beam_origin.value_or(orientation.ground + double{expected.sensor_height});
   }
   origin = double{rounded(origin, 0.01)};
   for (std::size_t i = 0; i < 3; ++i) {
-    mount.origin[i] = rounded(origin * double{stance.axis[i]}, 0.01);
+    mount.origin[i] = rounded(origin * double{orientation.axis[i]}, 0.01);
   }
 
-  const double upright = stance.is_tilted() ? double{mount::dot(stance.up, stance.axis)} : 1;
-  const double height = (origin - stance.ground) * upright;
-  const bool as_expected = std::abs(height - double{expected.sensor_height}) < height_doubt(stance);
+  const double upright =
+      orientation.is_tilted() ? double{mount::dot(orientation.up, orientation.axis)} : 1;
+  const double height = (origin - orientation.ground) * upright;
+  const bool as_expected =
+      std::abs(height - double{expected.sensor_height}) < height_doubt(orientation);
   mount.sensor_height = as_expected ? expected.sensor_height : rounded(height, 0.01);
 
   const Mount usual;

@@ -20,12 +20,12 @@ inline constexpr double harmful_height_difference = 0.1;
 inline constexpr double highest_ground = -0.15;
 
 /// How far off the expected height may be for what the scans know, metres.
-double height_doubt(const CommonStance& stance);
+double height_doubt(const CommonOrientation& orientation);
 
-/// Settings for scans that show their ground, as `stance`, the summary's, says. `sensors`: those
-/// that match, the likeliest first.
-Advice advise(const Summary& summary, const CommonStance& stance, const Expected& expected,
-              const std::vector<const Sensor*>& sensors);
+/// Settings for scans that show their ground, as `orientation`, the summary's, says. `sensors`:
+/// those that match, the likeliest first.
+Advice advise(const Summary& summary, const CommonOrientation& orientation,
+              const Expected& expected, const std::vector<const Sensor*>& sensors);
 
 /// The advice as settings that a configuration file may hold, commented.
 std::string to_toml(const Advice& advice);

@@ -31,7 +31,8 @@ Diagnosis diagnose(const Summary& summary, const Expected& expected) {
   add_point_findings(summary, diagnosis.findings);
   if (!summary.is_scan()) return diagnosis;
   const std::vector<const Sensor*> sensors = matching_sensors(summary);
-  if (summary.stance) diagnosis.advice = advise(summary, *summary.stance, expected, sensors);
+  if (summary.orientation)
+    diagnosis.advice = advise(summary, *summary.orientation, expected, sensors);
   add_frame_findings(summary, expected, diagnosis.advice, diagnosis.findings);
   add_sensor_findings(summary, expected, sensors, diagnosis.findings);
   return diagnosis;

@@ -33,29 +33,31 @@ void raise(std::vector<Vector3f>& places, double origin) {
 }
 
 /// What stands around the sensor, which is `origin` metres along the axis from the cloud's origin.
-OwnVehicle own_vehicle(std::span<const Vector3f> places, double origin, const Examination& seen) {
-  const Mount& mount = seen.stance.decision.mount;
-  const double upright = mount::dot(mount.up, seen.stance.axis);
+OwnVehicle ego_vehicle(std::span<const Vector3f> places, double origin, const Examination& seen) {
+  const Mount& mount = seen.orientation.decision.mount;
+  const double upright = mount::dot(mount.up, seen.orientation.axis);
   std::vector<Vector3f> level = turned(places, mount.up, seen.extent.metres, {});
   raise(level, origin * upright);
-  const double ground = (double{seen.stance.ground_of_tilt()} - origin) * upright;
+  const double ground = (double{seen.orientation.ground_of_tilt()} - origin) * upright;
   return find_own_vehicle(level, ground, own_radius);
 }
 
 void look_from_sensor(const UsablePoints& usable, Examination& seen) {
-  std::vector<Vector3f> places = turned(usable.places, seen.stance.axis, seen.extent.metres, {});
+  std::vector<Vector3f> places =
+      turned(usable.places, seen.orientation.axis, seen.extent.metres, {});
   const BeamRings rings = find_rings(places, usable.rings);
   seen.rings = rings.source;
   double origin = 0;
-  if (rings.count > 0 && seen.stance.is_found()) {
-    seen.origin = find_beam_origin(places, rings, double{seen.stance.ground_of_axis()});
+  if (rings.count > 0 && seen.orientation.is_found()) {
+    seen.origin = find_beam_origin(places, rings, double{seen.orientation.ground_of_axis()});
     if (seen.origin->is_elsewhere()) origin = seen.origin->height;
   }
   raise(places, origin);
-  const double height = seen.stance.is_found() ? origin - double{seen.stance.ground_of_axis()} : 0;
+  const double height =
+      seen.orientation.is_found() ? origin - double{seen.orientation.ground_of_axis()} : 0;
   seen.view = find_field_of_view(places, rings, std::max(1.0, 0.8 * height));
-  seen.thinning = find_thinning(places);
-  if (seen.stance.is_found()) seen.vehicle = own_vehicle(usable.places, origin, seen);
+  seen.downsampling = find_downsampling(places);
+  if (seen.orientation.is_found()) seen.vehicle = ego_vehicle(usable.places, origin, seen);
 }
 
 }  // namespace
@@ -69,10 +71,10 @@ Examination examine(const io::Cloud& cloud) {
   if (!seen.has_enough_points()) return seen;
   seen.extent = extent_of(usable.places);
   if (seen.extent.is_far_away()) {
-    seen.thinning = find_thinning(turned(usable.places, {0, 0, 1}, 1, seen.extent.middle));
+    seen.downsampling = find_downsampling(turned(usable.places, {0, 0, 1}, 1, seen.extent.middle));
     return seen;
   }
-  seen.stance = find_stance(usable.places, seen.extent.metres);
+  seen.orientation = find_stance(usable.places, seen.extent.metres);
   look_from_sensor(usable, seen);
   return seen;
 }

@@ -7,11 +7,11 @@
 
 #include "app/doctor/beam_origin.hpp"
 #include "app/doctor/beam_rings.hpp"
+#include "app/doctor/downsampling.hpp"
+#include "app/doctor/ego_vehicle.hpp"
 #include "app/doctor/extent.hpp"
 #include "app/doctor/field_of_view.hpp"
-#include "app/doctor/own_vehicle.hpp"
-#include "app/doctor/stance.hpp"
-#include "app/doctor/thinning.hpp"
+#include "app/doctor/frame_orientation.hpp"
 #include "files/io/cloud.hpp"
 
 namespace flagstone::doctor {
@@ -28,8 +28,8 @@ struct Examination {
   [[nodiscard]] bool has_enough_points() const noexcept { return usable() >= 1000; }
 
   Extent extent{};
-  Thinning thinning{};
-  Stance stance{};  ///< not looked for where the points lie far away
+  Downsampling downsampling{};
+  FrameOrientation orientation{};  ///< not looked for where the points lie far away
   RingSource rings = RingSource::none;
   std::optional<BeamOrigin> origin{};  ///< where rings are known
   FieldOfView view{};

@@ -17,7 +17,7 @@ namespace {
 /// the reach nearest to it.
 constexpr double usual_reach = 50;
 
-double metres_a_unit(double reach) {
+double metres_per_unit(double reach) {
   const std::array<double, 3> units{1, 0.01, 0.001};
   return *std::ranges::min_element(units, {}, [&](double unit) {
     return std::abs(std::log(std::max(reach, 1e-30) * unit / usual_reach));
@@ -45,7 +45,7 @@ Extent extent_of(std::span<const Vector3f> places) {
   });
   extent.reach = percentile(values, 99);
   extent.farthest = percentile(values, 100);
-  extent.metres = metres_a_unit(extent.reach);
+  extent.metres = metres_per_unit(extent.reach);
   return extent;
 }
 

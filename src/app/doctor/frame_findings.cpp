@@ -30,7 +30,7 @@ std::string components(const Vector3f& v, int digits) {
 
 Finding units(const Summary& summary) {
   Finding finding{.id = "units",
-                  .values = {{"metres_a_unit", summary.metres}, {"reach", summary.reach}}};
+                  .values = {{"metres_per_unit", summary.metres}, {"reach", summary.reach}}};
   if (summary.metres == 1) {
     finding.sentence = fmt::format("Metres: 99 of 100 points lie within {:.0f}.", summary.reach);
     return finding;
@@ -44,7 +44,7 @@ Finding units(const Summary& summary) {
 }
 
 Finding ground(const Summary& summary) {
-  const std::size_t found = summary.stance ? summary.stance->scans : 0;
+  const std::size_t found = summary.orientation ? summary.orientation->scans : 0;
   Finding finding{.id = "ground",
                   .values = {{"scans", static_cast<double>(summary.scans)},
                              {"scans_with_ground", static_cast<double>(found)}}};
@@ -64,11 +64,12 @@ Finding ground(const Summary& summary) {
   return finding;
 }
 
-Finding axes(const CommonStance& stance) {
-  const std::string_view name = axis_name(stance.axis);
-  Finding finding{
-      .id = "axes",
-      .values = {{"up_x", stance.axis[0]}, {"up_y", stance.axis[1]}, {"up_z", stance.axis[2]}}};
+Finding axes(const CommonOrientation& orientation) {
+  const std::string_view name = axis_name(orientation.axis);
+  Finding finding{.id = "axes",
+                  .values = {{"up_x", orientation.axis[0]},
+                             {"up_y", orientation.axis[1]},
+                             {"up_z", orientation.axis[2]}}};
   if (name == "z") {
     finding.sentence = "z is up.";
     finding.is_plain = true;
@@ -78,28 +79,28 @@ Finding axes(const CommonStance& stance) {
   finding.sentence = name == "-z" ? "z is down: the clouds are upside down."
                                   : fmt::format("Up is {}, not z.", name);
   finding.remedy =
-      fmt::format("Set mount.tilt = \"given\" and mount.up = {}.", components(stance.axis, 1));
+      fmt::format("Set mount.tilt = \"given\" and mount.up = {}.", components(orientation.axis, 1));
   return finding;
 }
 
 /// By which turns about x and y the clouds are tilted, where z is up.
-std::string angles(const CommonStance& stance) {
-  if (stance.axis != Vector3f{0, 0, 1}) return {};
+std::string angles(const CommonOrientation& orientation) {
+  if (orientation.axis != Vector3f{0, 0, 1}) return {};
   constexpr double degrees = 180 / std::numbers::pi;
-  const auto& [x, y, z] = stance.up;
+  const auto& [x, y, z] = orientation.up;
   return fmt::format(" ({:.1f} about x, {:.1f} about y)", std::atan2(y, z) * degrees,
                      std::atan2(-x, z) * degrees);
 }
 
-Finding tilt(const CommonStance& stance, const Advice& advice) {
+Finding tilt(const CommonOrientation& orientation, const Advice& advice) {
   Finding finding{.id = "tilt",
-                  .values = {{"degrees", stance.tilt},
-                             {"up_x", stance.up[0]},
-                             {"up_y", stance.up[1]},
-                             {"up_z", stance.up[2]}}};
-  finding.sentence =
-      fmt::format("The ground is {:.1f} degrees from level{}.", stance.tilt, angles(stance));
-  if (!stance.is_tilted()) return finding;
+                  .values = {{"degrees", orientation.tilt},
+                             {"up_x", orientation.up[0]},
+                             {"up_y", orientation.up[1]},
+                             {"up_z", orientation.up[2]}}};
+  finding.sentence = fmt::format("The ground is {:.1f} degrees from level{}.", orientation.tilt,
+                                 angles(orientation));
+  if (!orientation.is_tilted()) return finding;
   finding.severity = Severity::fix;
   finding.remedy = fmt::format(
       "Set mount.tilt = \"given\" and mount.up = {}, unless the vehicle stood level before a "
@@ -108,10 +109,10 @@ Finding tilt(const CommonStance& stance, const Advice& advice) {
   return finding;
 }
 
-Finding origin(const Summary& summary, const CommonStance& stance, const Advice& advice) {
-  const double ground = stance.ground;
+Finding origin(const Summary& summary, const CommonOrientation& orientation, const Advice& advice) {
+  const double ground = orientation.ground;
   Finding finding{.id = "origin", .values = {{"ground", ground}}};
-  const std::string_view name = axis_name(stance.axis);
+  const std::string_view name = axis_name(orientation.axis);
   const std::string set =
       fmt::format("Set mount.origin = {} and sensor_height = {:.2f}",
                   components(advice.mount.origin, 2), advice.mount.sensor_height);
@@ -137,12 +138,13 @@ Finding origin(const Summary& summary, const CommonStance& stance, const Advice&
   return finding;
 }
 
-Finding sensor_height(const CommonStance& stance, const Expected& expected, const Advice& advice) {
+Finding sensor_height(const CommonOrientation& orientation, const Expected& expected,
+                      const Advice& advice) {
   const double height = advice.mount.sensor_height;
-  const double scatter = stance.highest_ground - stance.lowest_ground;
-  const double upright = std::abs(mount::dot(advice.mount.up, stance.axis));
-  const double seen =
-      (mount::dot(advice.mount.origin, stance.axis) - stance.ground) * std::min(upright, 1.0);
+  const double scatter = orientation.highest_ground - orientation.lowest_ground;
+  const double upright = std::abs(mount::dot(advice.mount.up, orientation.axis));
+  const double seen = (mount::dot(advice.mount.origin, orientation.axis) - orientation.ground) *
+                      std::min(upright, 1.0);
   Finding finding{
       .id = "sensor_height",
       .values = {{"seen", seen}, {"configured", expected.sensor_height}, {"scatter", scatter}}};
@@ -159,8 +161,9 @@ Finding sensor_height(const CommonStance& stance, const Expected& expected, cons
     return finding;
   }
   const double difference = std::abs(height - double{expected.sensor_height});
-  finding.severity = difference > height_doubt(stance) + harmful_height_difference ? Severity::fix
-                                                                                   : Severity::note;
+  finding.severity = difference > height_doubt(orientation) + harmful_height_difference
+                         ? Severity::fix
+                         : Severity::note;
   finding.sentence =
       fmt::format("The ground lies {:.2f} m below the sensor, but {:.2f} m is set.{}", height,
                   expected.sensor_height, scattered);
@@ -174,12 +177,12 @@ void add_frame_findings(const Summary& summary, const Expected& expected,
                         const std::optional<Advice>& advice, std::vector<Finding>& findings) {
   findings.push_back(units(summary));
   findings.push_back(ground(summary));
-  if (!advice || !summary.stance) return;
-  const CommonStance& stance = *summary.stance;
-  findings.push_back(axes(stance));
-  findings.push_back(tilt(stance, *advice));
-  findings.push_back(origin(summary, stance, *advice));
-  findings.push_back(sensor_height(stance, expected, *advice));
+  if (!advice || !summary.orientation) return;
+  const CommonOrientation& orientation = *summary.orientation;
+  findings.push_back(axes(orientation));
+  findings.push_back(tilt(orientation, *advice));
+  findings.push_back(origin(summary, orientation, *advice));
+  findings.push_back(sensor_height(orientation, expected, *advice));
 }
 
 }  // namespace flagstone::doctor

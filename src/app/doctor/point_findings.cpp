@@ -60,8 +60,8 @@ Finding not_finite(const Summary& summary) {
   return finding;
 }
 
-Finding repeated_points(const Summary& summary) {
-  Finding finding{.id = "repeated_points", .values = {{"share", summary.repeated}}};
+Finding duplicate_points(const Summary& summary) {
+  Finding finding{.id = "duplicate_points", .values = {{"share", summary.repeated}}};
   if (summary.repeated < 0.01) {
     finding.sentence = "Hardly a point occurs twice.";
     finding.is_plain = true;
@@ -98,8 +98,8 @@ Finding coordinates(const Summary& summary) {
   return finding;
 }
 
-Finding one_place(const Summary& summary) {
-  Finding finding{.id = "one_place"};
+Finding single_viewpoint(const Summary& summary) {
+  Finding finding{.id = "single_viewpoint"};
   if (!summary.is_from_many_places) {
     finding.sentence = "The points thin out with distance as seen from one place.";
     finding.is_plain = true;
@@ -122,10 +122,10 @@ void add_point_findings(const Summary& summary, std::vector<Finding>& findings) 
   findings.push_back(points(summary));
   findings.push_back(zero_returns(summary));
   findings.push_back(not_finite(summary));
-  findings.push_back(repeated_points(summary));
+  findings.push_back(duplicate_points(summary));
   if (!summary.has_enough_points) return;
   findings.push_back(coordinates(summary));
-  findings.push_back(one_place(summary));
+  findings.push_back(single_viewpoint(summary));
 }
 
 }  // namespace flagstone::doctor

@@ -9,9 +9,9 @@
 namespace flagstone::doctor {
 namespace {
 
-Finding own_vehicle(const Summary& summary) {
+Finding ego_vehicle(const Summary& summary) {
   const OwnVehicle& vehicle = summary.vehicle;
-  Finding finding{.id = "own_vehicle",
+  Finding finding{.id = "ego_vehicle",
                   .values = {{"share", vehicle.share}, {"roof", vehicle.roof}}};
   constexpr double hardly_any = 0.005;
   if (vehicle.share < hardly_any) {
@@ -80,8 +80,8 @@ Finding range(const Summary& summary, const Expected& expected) {
   return finding;
 }
 
-Finding thinning(const Summary& summary) {
-  Finding finding{.id = "thinning", .values = {{"growth", summary.growth}}};
+Finding downsampling(const Summary& summary) {
+  Finding finding{.id = "downsampling", .values = {{"growth", summary.growth}}};
   if (!summary.is_voxel_averaged) {
     finding.sentence = "As dense as the sensor made it.";
     finding.is_plain = true;
@@ -117,11 +117,11 @@ Finding sensor(const std::vector<const Sensor*>& sensors) {
 void add_sensor_findings(const Summary& summary, const Expected& expected,
                          const std::vector<const Sensor*>& sensors,
                          std::vector<Finding>& findings) {
-  if (summary.stance) findings.push_back(own_vehicle(summary));
+  if (summary.orientation) findings.push_back(ego_vehicle(summary));
   findings.push_back(beams(summary));
   findings.push_back(field_of_view(summary.view));
   findings.push_back(range(summary, expected));
-  findings.push_back(thinning(summary));
+  findings.push_back(downsampling(summary));
   findings.push_back(sensor(sensors));
 }
 

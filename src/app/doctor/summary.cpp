@@ -67,20 +67,21 @@ void count_points(std::span<const Examination> scans, Summary& summary) {
 }
 
 /// Of the scans that see ground and agree on the axis that is up.
-CommonStance common_stance(Scans& scans) {
-  CommonStance common;
-  common.axis = commonest(scans, [](const Examination& scan) { return scan.stance.axis; });
-  std::erase_if(scans, [&](const auto* scan) { return scan->stance.axis != common.axis; });
+CommonOrientation common_stance(Scans& scans) {
+  CommonOrientation common;
+  common.axis = commonest(scans, [](const Examination& scan) { return scan.orientation.axis; });
+  std::erase_if(scans, [&](const auto* scan) { return scan->orientation.axis != common.axis; });
   common.scans = scans.size();
   Vector3f up{};
   for (const Examination* scan : scans) {
-    for (std::size_t i = 0; i < 3; ++i) up[i] += scan->stance.decision.mount.up[i];
+    for (std::size_t i = 0; i < 3; ++i) up[i] += scan->orientation.decision.mount.up[i];
   }
   common.up = mount::unit(up);
   const double cosine = std::clamp(double{mount::dot(common.up, common.axis)}, -1.0, 1.0);
   common.tilt = std::acos(cosine) * 180 / std::numbers::pi;
   const auto ground = [&](const Examination& scan) {
-    return double{common.is_tilted() ? scan.stance.ground_of_tilt() : scan.stance.ground_of_axis()};
+    return double{common.is_tilted() ? scan.orientation.ground_of_tilt()
+                                     : scan.orientation.ground_of_axis()};
   };
   common.ground = median(scans, ground);
   const auto [low, high] = std::ranges::minmax_element(
@@ -91,10 +92,10 @@ CommonStance common_stance(Scans& scans) {
 }
 
 void look_at_stances(Scans scans, Summary& summary) {
-  summary.refusal = scans.front()->stance.decision;
-  std::erase_if(scans, [](const auto* scan) { return !scan->stance.is_found(); });
+  summary.refusal = scans.front()->orientation.decision;
+  std::erase_if(scans, [](const auto* scan) { return !scan->orientation.is_found(); });
   if (scans.empty()) return;
-  summary.stance = common_stance(scans);
+  summary.orientation = common_stance(scans);
   const bool is_elsewhere = most(scans, [](const Examination& scan) {
     return scan.origin.has_value() && scan.origin->is_elsewhere();
   });
@@ -130,14 +131,14 @@ Summary summarise(std::span<const Examination> all) {
   summary.middle = scans.front()->extent.middle;
   summary.is_far_away = most(scans, [](Scan scan) { return scan.extent.is_far_away(); });
   summary.is_from_many_places =
-      most(scans, [](Scan scan) { return scan.thinning.is_from_many_places(); });
+      most(scans, [](Scan scan) { return scan.downsampling.is_from_many_places(); });
   summary.reach = summary.metres * median(scans, [](Scan scan) { return scan.extent.reach; });
   summary.farthest = summary.metres * median(scans, [](Scan s) { return s.extent.farthest; });
   if (!summary.is_scan()) return summary;
   look_at_stances(scans, summary);
   look_at_view(scans, summary);
-  summary.growth = median(scans, [](Scan scan) { return scan.thinning.growth; });
-  summary.is_voxel_averaged = Thinning{.growth = summary.growth}.is_voxel_averaged();
+  summary.growth = median(scans, [](Scan scan) { return scan.downsampling.growth; });
+  summary.is_voxel_averaged = Downsampling{.growth = summary.growth}.is_voxel_averaged();
   return summary;
 }
 

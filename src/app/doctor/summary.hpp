@@ -15,7 +15,7 @@ namespace flagstone::doctor {
 inline constexpr double least_tilt = 5;
 
 /// How the frame of several scans stands to their ground, as most of them say.
-struct CommonStance {
+struct CommonOrientation {
   std::size_t scans = 0;     ///< those that say so
   Vector3f axis{0, 0, 1};    ///< the axis of the cloud that is nearest to up
   Vector3f up{0, 0, 1};      ///< up in the cloud's frame, unit length
@@ -46,12 +46,12 @@ struct Summary {
   double reach = 0;     ///< metres: 99 in 100 points are nearer
   double farthest = 0;  ///< metres
 
-  std::optional<CommonStance> stance{};  ///< empty: no scan shows its ground
-  MountDecision refusal{};               ///< why, in the first scan
-  std::optional<double> beam_origin{};   ///< along the axis, metres, where it is elsewhere
+  std::optional<CommonOrientation> orientation{};  ///< empty: no scan shows its ground
+  MountDecision refusal{};                         ///< why, in the first scan
+  std::optional<double> beam_origin{};  ///< along the axis, metres, where it is elsewhere
   RingSource rings = RingSource::none;
   FieldOfView view{};
-  double growth = 0;  ///< Thinning::growth
+  double growth = 0;  ///< Downsampling::growth
   bool is_voxel_averaged = false;
   OwnVehicle vehicle{};
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "flagstone/status.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/read_cloud.hpp"
+#include "flagstone/status.hpp"
 
 namespace flagstone::io {
 

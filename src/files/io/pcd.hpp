@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "flagstone/status.hpp"
 #include "files/io/cloud.hpp"
+#include "flagstone/status.hpp"
 
 namespace flagstone::io {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "flagstone/status.hpp"
 #include "files/io/cloud.hpp"
+#include "flagstone/status.hpp"
 
 namespace flagstone::io {
 

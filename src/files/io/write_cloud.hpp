@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "flagstone/status.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/read_cloud.hpp"
+#include "flagstone/status.hpp"
 
 namespace flagstone::io {
 

@@ -6,11 +6,11 @@
 #include <span>
 #include <string>
 
-#include "library/core/truth.hpp"
 #include "flagstone/cloud_view.hpp"
 #include "flagstone/patchwork_config.hpp"
 #include "flagstone/segmentation.hpp"
 #include "flagstone/status.hpp"
+#include "library/core/truth.hpp"
 
 namespace flagstone::render {
 

@@ -5,7 +5,7 @@
 #include <new>
 #include <numbers>
 
-#include "files/render/can_draw.hpp"
+#include "files/render/rendering_available.hpp"
 
 namespace flagstone::render {
 namespace {
@@ -23,7 +23,7 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
 
 }  // namespace
 
-Status can_draw() { return {}; }
+Status rendering_available() { return {}; }
 
 Canvas::Canvas(int width, int height)
     : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)),

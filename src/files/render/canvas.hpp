@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "flagstone/status.hpp"
 #include "files/render/palette.hpp"
+#include "flagstone/status.hpp"
 
 namespace flagstone::render {
 

@@ -26,11 +26,11 @@ HeightMap map_by(double extent, double cell, HeightAt height_at) {
 
 }  // namespace
 
-HeightMap map_of(const Surface& surface, double extent, double cell) {
+HeightMap map_of(const GroundSurface& surface, double extent, double cell) {
   return map_by(extent, cell, [&](float x, float y) { return surface.height(x, y); });
 }
 
-HeightMap smoothed_map_of(const Surface& surface, double extent, double cell) {
+HeightMap smoothed_map_of(const GroundSurface& surface, double extent, double cell) {
   return map_by(extent, cell, [&](float x, float y) {
     const float half = surface.resolution(x, y) / 2;
     return (surface.height(x - half, y - half) + surface.height(x + half, y - half) +

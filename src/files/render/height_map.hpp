@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "flagstone/surface.hpp"
+#include "flagstone/ground_surface.hpp"
 
 namespace flagstone::render {
 
@@ -34,10 +34,10 @@ struct HeightMap {
 
 /// The heights of `surface` in cells of `cell` metres, as many as cover |x|, |y| <= `extent`
 /// metres.
-HeightMap map_of(const Surface& surface, double extent, double cell);
+HeightMap map_of(const GroundSurface& surface, double extent, double cell);
 
 /// The same for lines to be drawn: each height is the mean of four, half a cell of the surface away
 /// along x and y, since lines bend at the surface's cells otherwise.
-HeightMap smoothed_map_of(const Surface& surface, double extent, double cell);
+HeightMap smoothed_map_of(const GroundSurface& surface, double extent, double cell);
 
 }  // namespace flagstone::render

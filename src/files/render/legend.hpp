@@ -6,10 +6,10 @@
 #include <span>
 #include <string>
 
-#include "flagstone/patch.hpp"
 #include "files/render/canvas.hpp"
 #include "files/render/layout.hpp"
 #include "files/render/point_kinds.hpp"
+#include "flagstone/patch.hpp"
 
 namespace flagstone::render {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "library/core/truth.hpp"
-#include "flagstone/label.hpp"
 #include "files/render/palette.hpp"
+#include "flagstone/label.hpp"
+#include "library/core/truth.hpp"
 
 namespace flagstone::render {
 

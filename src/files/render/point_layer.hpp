@@ -4,10 +4,10 @@
 
 #include <cstddef>
 
-#include "flagstone/cloud_view.hpp"
 #include "files/render/canvas.hpp"
 #include "files/render/point_kinds.hpp"
 #include "files/render/top_view.hpp"
+#include "flagstone/cloud_view.hpp"
 
 namespace flagstone::render {
 

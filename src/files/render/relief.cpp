@@ -68,8 +68,8 @@ std::uint32_t pixel(const Tone& tone, double opacity) noexcept {
          part(tone.green) << 8U | part(tone.blue);
 }
 
-std::uint32_t relief_pixel(const Surface& surface, float x, float y, const ReliefLook& look) {
-  const GroundAt ground = surface.at(x, y);
+std::uint32_t relief_pixel(const GroundSurface& surface, float x, float y, const ReliefLook& look) {
+  const GroundSample ground = surface.at(x, y);
   if (std::isnan(ground.height)) return 0;
   const float cell = surface.resolution(x, y);
   const double along_x =
@@ -93,8 +93,8 @@ Color height_color(double share) noexcept {
   return {part(tone.red), part(tone.green), part(tone.blue)};
 }
 
-void draw_relief(const Canvas& canvas, const TopView& view, const Surface& surface, double range,
-                 const ReliefLook& look) {
+void draw_relief(const Canvas& canvas, const TopView& view, const GroundSurface& surface,
+                 double range, const ReliefLook& look) {
   // Every second pixel along both axes; Cairo fills in between.
   const double step = 2 / view.pixels_per_metre();
   const auto width = static_cast<std::size_t>(std::ceil(2 * range / step));

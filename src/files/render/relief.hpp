@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "flagstone/surface.hpp"
 #include "files/render/canvas.hpp"
 #include "files/render/height_map.hpp"
 #include "files/render/palette.hpp"
 #include "files/render/top_view.hpp"
+#include "flagstone/ground_surface.hpp"
 
 namespace flagstone::render {
 
@@ -21,7 +21,7 @@ Color height_color(double share) noexcept;
 
 /// Draws the ground within `range` metres of the sensor: by height, shaded as if light fell from
 /// the upper left, paler where the surface is less sure, nothing where it is not known.
-void draw_relief(const Canvas& canvas, const TopView& view, const Surface& surface, double range,
-                 const ReliefLook& look);
+void draw_relief(const Canvas& canvas, const TopView& view, const GroundSurface& surface,
+                 double range, const ReliefLook& look);
 
 }  // namespace flagstone::render

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "library/core/truth.hpp"
 #include "flagstone/cloud_view.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/status.hpp"
+#include "library/core/truth.hpp"
 
 namespace flagstone::render {
 

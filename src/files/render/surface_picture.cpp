@@ -28,7 +28,7 @@ Status refuse(std::string message) {
   return Status(StatusCode::invalid_argument, "surface picture: " + std::move(message));
 }
 
-Status check(const Surface& surface, const SurfacePicture& options) {
+Status check(const GroundSurface& surface, const SurfacePicture& options) {
   constexpr int smallest = 320;
   constexpr int largest = 8192;
   if (surface.empty()) return refuse("there is no surface; its method makes none");
@@ -54,14 +54,14 @@ struct Sample {
   double weight;
 };
 
-std::vector<Sample> samples_of(const Surface& surface, double range) {
+std::vector<Sample> samples_of(const GroundSurface& surface, double range) {
   constexpr int per_side = 200;
   std::vector<Sample> samples;
   for (int row = 0; row < per_side; ++row) {
     for (int column = 0; column < per_side; ++column) {
       const double x = range * ((2 * column + 1.0) / per_side - 1);
       const double y = range * ((2 * row + 1.0) / per_side - 1);
-      const GroundAt ground = surface.at(static_cast<float>(x), static_cast<float>(y));
+      const GroundSample ground = surface.at(static_cast<float>(x), static_cast<float>(y));
       if (!std::isfinite(ground.height) || !std::isfinite(ground.slope)) continue;
       constexpr double least = 1e-3;  // so that ground nobody is sure of has a weight, too
       samples.push_back({std::max(std::abs(x), std::abs(y)), ground.height, std::tan(ground.slope),
@@ -85,7 +85,7 @@ double quantile(std::vector<Sample>& samples, double Sample::* value, double sha
   return samples.back().*value;
 }
 
-double suitable_range(const Surface& surface) {
+double suitable_range(const GroundSurface& surface) {
   const double extent = surface.extent();
   std::vector<Sample> samples = samples_of(surface, extent);
   const double range = quantile(samples, &Sample::distance, 0.98, extent);
@@ -99,7 +99,7 @@ struct Look {
 
 /// Colours from the first to the last contour line around nearly all of the heights, and shading
 /// that shows gentle slopes.
-Look suitable_look(const Surface& surface, double range) {
+Look suitable_look(const GroundSurface& surface, double range) {
   std::vector<Sample> samples = samples_of(surface, range);
   const double lowest = quantile(samples, &Sample::height, 0.02, -1);
   const double highest = quantile(samples, &Sample::height, 0.98, 1);
@@ -117,7 +117,7 @@ Look suitable_look(const Surface& surface, double range) {
   return {{.heights = heights, .exaggeration = exaggeration}, step};
 }
 
-std::vector<std::byte> picture(const Surface& surface, const SurfacePicture& options) {
+std::vector<std::byte> picture(const GroundSurface& surface, const SurfacePicture& options) {
   const Canvas canvas(options.width, options.height);
   const Layout layout = arrange(options.width, options.height, 1);
   const double range = options.range != 0 ? double{options.range} : suitable_range(surface);
@@ -149,7 +149,7 @@ std::vector<std::byte> picture(const Surface& surface, const SurfacePicture& opt
 
 }  // namespace
 
-Status draw_surface(const std::filesystem::path& png, const Surface& surface,
+Status draw_surface(const std::filesystem::path& png, const GroundSurface& surface,
                     const SurfacePicture& options) noexcept try {
   if (Status status = check(surface, options); !status.ok()) return status;
   return io::write_file(png, picture(surface, options));

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "flagstone/ground_surface.hpp"
 #include "flagstone/status.hpp"
-#include "flagstone/surface.hpp"
 
 namespace flagstone::render {
 
@@ -33,7 +33,7 @@ struct SurfacePicture {
 /// Fails with `invalid_argument` for options out of range and for a surface that is empty; with
 /// `unwritable` where the file cannot be written, and then nothing is left behind; with
 /// `out_of_memory`.
-[[nodiscard]] Status draw_surface(const std::filesystem::path& png, const Surface& surface,
+[[nodiscard]] Status draw_surface(const std::filesystem::path& png, const GroundSurface& surface,
                                   const SurfacePicture& options) noexcept;
 
 }  // namespace flagstone::render

@@ -4,12 +4,12 @@
 
 #include <span>
 
-#include "flagstone/patch.hpp"
-#include "flagstone/patchwork_config.hpp"
-#include "flagstone/status.hpp"
 #include "files/render/canvas.hpp"
 #include "files/render/palette.hpp"
 #include "files/render/top_view.hpp"
+#include "flagstone/patch.hpp"
+#include "flagstone/patchwork_config.hpp"
+#include "flagstone/status.hpp"
 
 namespace flagstone::render {
 

@@ -4,15 +4,15 @@
 #include <string>
 #include <string_view>
 
-#include "lab/baselines/settings.hpp"
 #include "flagstone/baselines/cascaded.hpp"
+#include "lab/baselines/settings.hpp"
 
 namespace flagstone {
 namespace {
 
 constexpr std::string_view method = "cascaded";
 
-constexpr Allowed elevation_range = {.low = -89, .high = 89, .unit = "degrees"};
+constexpr ValidRange elevation_range = {.low = -89, .high = 89, .unit = "degrees"};
 
 void check_beams(const std::vector<float>& elevations) {
   check_number(method, "length of beam_elevations", static_cast<double>(elevations.size()),
@@ -22,7 +22,7 @@ void check_beams(const std::vector<float>& elevations) {
                  {.low = elevations[i - 1],
                   .high = elevation_range.high,
                   .unit = elevation_range.unit,
-                  .without_low = true,
+                  .exclusive_min = true,
                   .remark = "ascending, the lowest beam first"});
   }
 }
@@ -43,11 +43,11 @@ std::vector<Setting> settings_of(CascadedConfig& c) {
       {"sensor_height",
        &c.sensor_height,
        "sensor above ground",
-       {.low = 0, .high = 100, .unit = "m", .without_low = true}},
+       {.low = 0, .high = 100, .unit = "m", .exclusive_min = true}},
       {"max_range",
        &c.max_range,
        "points from here on are out of range",
-       {.low = 0, .high = 1000, .unit = "m", .without_low = true}},
+       {.low = 0, .high = 1000, .unit = "m", .exclusive_min = true}},
       {"beam_elevations", &c.beam_elevations, "angle of each beam, the lowest first",
        elevation_range},
       {"columns",
@@ -69,7 +69,7 @@ std::vector<Setting> settings_of(CascadedConfig& c) {
       {"max_distance",
        &c.max_distance,
        "points at most this far from their plane are ground",
-       {.low = 0, .high = 100, .unit = "m", .without_low = true}},
+       {.low = 0, .high = 100, .unit = "m", .exclusive_min = true}},
       {"max_trials",
        &c.max_trials,
        "samples drawn for a plane at most",
@@ -81,7 +81,7 @@ std::vector<Setting> settings_of(CascadedConfig& c) {
       {"max_height_change",
        &c.max_height_change,
        "how far a plane may lie from the one before it where they meet",
-       {.low = 0, .high = 100, .unit = "m", .without_low = true}},
+       {.low = 0, .high = 100, .unit = "m", .exclusive_min = true}},
       {"seed", &c.seed, "start of the random numbers", {.low = 0, .high = 1e9}},
   };
 }

@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
-#include "lab/baselines/fitted_plane.hpp"
 #include "flagstone/baselines/cascaded.hpp"
 #include "flagstone/baselines/ransac.hpp"
+#include "lab/baselines/fitted_plane.hpp"
 
 namespace flagstone::baselines {
 

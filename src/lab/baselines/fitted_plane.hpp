@@ -4,10 +4,10 @@
 
 #include <cstddef>
 
+#include "flagstone/patch.hpp"
 #include "lab/baselines/coordinates.hpp"
 #include "library/core/moments.hpp"
 #include "library/core/plane.hpp"
-#include "flagstone/patch.hpp"
 
 namespace flagstone::baselines {
 

@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include <string_view>
 
-#include "lab/baselines/settings.hpp"
 #include "flagstone/baselines/line_fit.hpp"
+#include "lab/baselines/settings.hpp"
 
 namespace flagstone {
 namespace {
 
 constexpr std::string_view method = "line_fit";
 
-constexpr Allowed distance(double high, bool or_infinity = false) {
-  return {.low = 0, .high = high, .unit = "m", .without_low = true, .or_infinity = or_infinity};
+constexpr ValidRange distance(double high, bool allow_infinity = false) {
+  return {
+      .low = 0, .high = high, .unit = "m", .exclusive_min = true, .allow_infinity = allow_infinity};
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ void LineFitConfig::check() const {
                {.low = min_range,
                 .high = 1000,
                 .unit = "m",
-                .without_low = true,
+                .exclusive_min = true,
                 .remark = "from min_range on"});
   check_number(method, "number of bins (segments times bins)", static_cast<double>(segments) * bins,
                {.low = 3, .high = 65535});

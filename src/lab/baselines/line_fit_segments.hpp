@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "flagstone/baselines/line_fit.hpp"
 #include "lab/baselines/line_fit_extraction.hpp"
 #include "lab/baselines/polar_grid.hpp"
 #include "lab/baselines/usable_points.hpp"
-#include "flagstone/baselines/line_fit.hpp"
 
 namespace flagstone::baselines {
 

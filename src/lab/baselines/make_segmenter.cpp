@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "lab/baselines/settings.hpp"
 #include "flagstone/patchwork.hpp"
-#include "flagstone/surface_segmenter.hpp"
+#include "flagstone/surface.hpp"
+#include "lab/baselines/settings.hpp"
 
 namespace flagstone {
 namespace {
@@ -43,7 +43,7 @@ std::unique_ptr<Segmenter> make(const PatchworkConfig& config) {
   return std::make_unique<Patchwork>(config);
 }
 std::unique_ptr<Segmenter> make(const SurfaceConfig& config) {
-  return std::make_unique<SurfaceSegmenter>(config);
+  return std::make_unique<Surface>(config);
 }
 std::unique_ptr<Segmenter> make(const RansacConfig& config) {
   return std::make_unique<Ransac>(config);

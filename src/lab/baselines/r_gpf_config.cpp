@@ -14,7 +14,7 @@ PatchworkConfig r_gpf_config() {
   config.noise_depth = infinity;
   config.noise_slope = 0;
   config.min_points = 6;
-  config.few_points_are_ground = false;
+  config.sparse_bins_are_ground = false;
   config.seed_count = 20;
   config.seed_height = 0.5f;
   config.distance_margin = 0.15f;

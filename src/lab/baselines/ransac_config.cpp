@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "lab/baselines/settings.hpp"
 #include "flagstone/baselines/ransac.hpp"
+#include "lab/baselines/settings.hpp"
 
 namespace flagstone {
 
@@ -10,11 +10,11 @@ std::vector<Setting> settings_of(RansacConfig& c) {
       {"distance_threshold",
        &c.distance_threshold,
        "points at most this far from the plane agree with it",
-       {.low = 0, .high = 100, .unit = "m", .without_low = true}},
+       {.low = 0, .high = 100, .unit = "m", .exclusive_min = true}},
       {"confidence",
        &c.confidence,
        "z: probability wanted of one trial without outliers",
-       {.low = 0, .high = 0.999999, .without_low = true}},
+       {.low = 0, .high = 0.999999, .exclusive_min = true}},
       {"max_trials",
        &c.max_trials,
        "trials after which the search ends",

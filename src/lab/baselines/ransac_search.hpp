@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <optional>
 
+#include "flagstone/baselines/ransac.hpp"
 #include "lab/baselines/coordinates.hpp"
 #include "lab/baselines/fitted_plane.hpp"
-#include "flagstone/baselines/ransac.hpp"
 
 namespace flagstone::baselines {
 

@@ -5,9 +5,9 @@
 #include <variant>
 #include <vector>
 
-#include "library/patchwork/patchwork_settings.hpp"
-#include "library/core/setting.hpp"
 #include "flagstone/make_segmenter.hpp"
+#include "library/core/setting.hpp"
+#include "library/patchwork/patchwork_settings.hpp"
 #include "library/surface/surface_settings.hpp"
 
 namespace flagstone {

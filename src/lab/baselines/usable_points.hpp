@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <span>
 
-#include "lab/baselines/coordinates.hpp"
-#include "library/core/buffer.hpp"
 #include "flagstone/cloud_view.hpp"
 #include "flagstone/label.hpp"
+#include "lab/baselines/coordinates.hpp"
+#include "library/core/buffer.hpp"
 
 namespace flagstone::baselines {
 

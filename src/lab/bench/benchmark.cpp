@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "flagstone/cloud_view.hpp"
 #include "lab/bench/allocation_count.hpp"
 #include "lab/bench/contestant.hpp"
 #include "lab/bench/pinned_core.hpp"
@@ -17,7 +18,6 @@
 #include "lab/bench/timed_segment.hpp"
 #include "library/core/simd_target.hpp"
 #include "library/core/stopwatch.hpp"
-#include "flagstone/cloud_view.hpp"
 
 namespace flagstone::bench {
 namespace {

@@ -8,10 +8,10 @@
 #include <span>
 #include <string>
 
+#include "files/io/cloud.hpp"
 #include "lab/bench/peer.hpp"
 #include "lab/bench/results.hpp"
 #include "lab/bench/timed_method.hpp"
-#include "files/io/cloud.hpp"
 
 namespace flagstone::bench {
 

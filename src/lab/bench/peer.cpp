@@ -55,7 +55,7 @@ PeerCommand python_peer(const PeerPlaces& places, const std::string& name, float
   PeerCommand peer{name, {places.python, worker, name, fmt::format("{}", sensor_height)}, ""};
   if (!is_file(worker)) {
     peer.missing = fmt::format(
-        "{}: no such file; name bench/peer_worker.py of flagstone's sources with --peer-worker",
+        "{}: no such file; name bench/peer_worker.py of flagstone's sources with --compare-worker",
         io::printable(worker));
   }
   return peer;

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "files/io/cloud.hpp"
 #include "lab/bench/contestant.hpp"
 #include "lab/bench/peer_process.hpp"
-#include "files/io/cloud.hpp"
 
 namespace flagstone::bench {
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "flagstone/stage_times.hpp"
 #include "lab/bench/sample_times.hpp"
 #include "lab/bench/timed_method.hpp"
-#include "flagstone/stage_times.hpp"
 
 namespace flagstone::bench {
 

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "flagstone/cloud_view.hpp"
 #include "lab/bench/bare_pass.hpp"
 #include "lab/bench/contestant.hpp"
 #include "library/core/simd_target.hpp"
 #include "library/core/stopwatch.hpp"
-#include "flagstone/cloud_view.hpp"
 
 namespace flagstone::bench {
 

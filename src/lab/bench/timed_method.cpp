@@ -4,9 +4,9 @@
 
 #include <utility>
 
-#include "flagstone/levelled_segmenter.hpp"
+#include "flagstone/gravity_aligned_segmenter.hpp"
 #include "flagstone/patchwork.hpp"
-#include "flagstone/surface_segmenter.hpp"
+#include "flagstone/surface.hpp"
 
 namespace flagstone::bench {
 namespace {
@@ -44,9 +44,9 @@ std::unique_ptr<Segmenter> make_timed(const TimedConfig& config, const MountSett
                                       unsigned threads, StageTimes* stage_times) {
   const auto* const surface = std::get_if<SurfaceConfig>(&config);
   std::unique_ptr<Segmenter> method =
-      surface != nullptr ? make<SurfaceSegmenter>(*surface, threads, stage_times)
+      surface != nullptr ? make<Surface>(*surface, threads, stage_times)
                          : make<Patchwork>(std::get<PatchworkConfig>(config), threads, stage_times);
-  return std::make_unique<LevelledSegmenter>(std::move(method), sensor_height(config), mount);
+  return std::make_unique<GravityAlignedSegmenter>(std::move(method), sensor_height(config), mount);
 }
 
 }  // namespace flagstone::bench

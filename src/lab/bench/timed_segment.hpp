@@ -7,12 +7,12 @@
 #include <span>
 #include <string>
 
-#include "lab/bench/contestant.hpp"
-#include "lab/bench/timed_method.hpp"
 #include "flagstone/cloud_view.hpp"
 #include "flagstone/segmentation.hpp"
 #include "flagstone/segmenter.hpp"
 #include "flagstone/stage_times.hpp"
+#include "lab/bench/contestant.hpp"
+#include "lab/bench/timed_method.hpp"
 
 namespace flagstone::bench {
 

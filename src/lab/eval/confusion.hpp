@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "library/core/truth.hpp"
 #include "flagstone/label.hpp"
+#include "library/core/truth.hpp"
 
 namespace flagstone::eval {
 

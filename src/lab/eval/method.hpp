@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "files/io/label_files.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/mount.hpp"
-#include "files/io/label_files.hpp"
 
 namespace flagstone::eval {
 

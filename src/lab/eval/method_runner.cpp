@@ -71,7 +71,7 @@ MethodRunner::MethodRunner(std::string_view name, const MethodConfig& config,
     method = make_segmenter(name, config);
   }
   const float method_height = sensor_height_of(config, mount.mount.sensor_height);
-  levelled_ = std::make_unique<LevelledSegmenter>(std::move(method), method_height, mount);
+  levelled_ = std::make_unique<GravityAlignedSegmenter>(std::move(method), method_height, mount);
 }
 
 bool MethodRunner::find_rings(const io::Cloud& cloud) {

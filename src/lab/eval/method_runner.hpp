@@ -5,12 +5,12 @@
 #include <memory>
 #include <string_view>
 
-#include "flagstone/levelled_segmenter.hpp"
+#include "files/io/cloud.hpp"
+#include "flagstone/gravity_aligned_segmenter.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/mount.hpp"
 #include "flagstone/segmentation.hpp"
 #include "flagstone/status.hpp"
-#include "files/io/cloud.hpp"
 
 namespace flagstone::eval {
 
@@ -18,7 +18,7 @@ namespace flagstone::eval {
 /// rings of the points where the file has them and the method can use them. One per thread.
 class MethodRunner {
  public:
-  /// As make_segmenter() and LevelledSegmenter.
+  /// As make_segmenter() and GravityAlignedSegmenter.
   MethodRunner(std::string_view name, const MethodConfig& config, const MountSettings& mount = {});
 
   /// Reads the rings of a cloud that is to be segmented next. A field `ring` counts if it numbers
@@ -30,7 +30,7 @@ class MethodRunner {
   Status segment(const io::Cloud& cloud, Segmentation& result);
 
   /// What was found out of the sensor's mount, by this scan and those before.
-  [[nodiscard]] const LevelledSegmenter& levelled() const noexcept { return *levelled_; }
+  [[nodiscard]] const GravityAlignedSegmenter& levelled() const noexcept { return *levelled_; }
 
   /// Forgets the scans before.
   void reset() noexcept { levelled_->reset(); }
@@ -41,7 +41,7 @@ class MethodRunner {
   bool find_rings(const io::Cloud& cloud);
 
   OnRings* on_rings_ = nullptr;  // the method, if it can be told the rings
-  std::unique_ptr<LevelledSegmenter> levelled_;
+  std::unique_ptr<GravityAlignedSegmenter> levelled_;
 };
 
 }  // namespace flagstone::eval

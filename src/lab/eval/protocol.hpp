@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "library/core/truth.hpp"
 #include "flagstone/cloud_view.hpp"
+#include "library/core/truth.hpp"
 
 namespace flagstone::eval {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "lab/eval/protocol.hpp"
 #include "flagstone/status.hpp"
+#include "lab/eval/protocol.hpp"
 
 namespace flagstone::eval {
 

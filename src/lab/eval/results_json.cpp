@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
-#include "lab/eval/machine.hpp"
 #include "flagstone/version.hpp"
+#include "lab/eval/machine.hpp"
 
 namespace flagstone::eval {
 namespace {

@@ -12,10 +12,10 @@
 #include <system_error>
 #include <utility>
 
-#include "library/core/stopwatch.hpp"
-#include "lab/eval/method_runner.hpp"
 #include "files/io/height_files.hpp"
 #include "files/io/message.hpp"
+#include "lab/eval/method_runner.hpp"
+#include "library/core/stopwatch.hpp"
 
 namespace flagstone::eval {
 namespace fs = std::filesystem;

@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
+#include "files/io/cloud.hpp"
+#include "files/io/read_cloud.hpp"
+#include "flagstone/segmentation.hpp"
 #include "lab/eval/dataset.hpp"
 #include "lab/eval/method.hpp"
 #include "lab/eval/outcome.hpp"
 #include "lab/eval/protocol.hpp"
-#include "flagstone/segmentation.hpp"
-#include "files/io/cloud.hpp"
-#include "files/io/read_cloud.hpp"
 
 namespace flagstone::eval {
 

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "library/core/truth.hpp"
-#include "lab/eval/confusion.hpp"
-#include "lab/eval/protocol.hpp"
 #include "flagstone/cloud_view.hpp"
 #include "flagstone/label.hpp"
+#include "lab/eval/confusion.hpp"
+#include "lab/eval/protocol.hpp"
+#include "library/core/truth.hpp"
 
 namespace flagstone::eval {
 

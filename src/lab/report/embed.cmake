@@ -6,7 +6,7 @@
 # long a literal, hence the warning; GCC and clang do.
 file(READ ${file} text)
 file(WRITE ${source} "// Made of ${file} by embed.cmake.
-#include \"report/embedded_files.hpp\"
+#include \"lab/report/embedded_files.hpp\"
 
 #pragma GCC diagnostic ignored \"-Woverlength-strings\"
 

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "library/core/random.hpp"
 #include "flagstone/sensor.hpp"
 #include "lab/sim/echo.hpp"
 #include "lab/sim/frame.hpp"
 #include "lab/sim/noise.hpp"
 #include "lab/sim/surroundings.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

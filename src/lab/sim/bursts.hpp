@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "library/core/random.hpp"
 #include "flagstone/sensor.hpp"
 #include "lab/sim/beams.hpp"
 #include "lab/sim/noise.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "library/core/random.hpp"
 #include "flagstone/sensor.hpp"
 #include "lab/sim/air.hpp"
 #include "lab/sim/beams.hpp"
@@ -15,6 +14,7 @@
 #include "lab/sim/frame.hpp"
 #include "lab/sim/noise.hpp"
 #include "lab/sim/surroundings.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

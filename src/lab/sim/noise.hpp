@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "library/core/random.hpp"
 #include "flagstone/sensor.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

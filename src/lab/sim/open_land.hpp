@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "library/core/random.hpp"
 #include "lab/sim/interval.hpp"
 #include "lab/sim/route.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

@@ -4,9 +4,9 @@
 
 #include <span>
 
-#include "library/core/random.hpp"
 #include "lab/sim/frame.hpp"
 #include "lab/sim/mesh.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

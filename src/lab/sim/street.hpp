@@ -4,11 +4,11 @@
 
 #include <cstdint>
 
-#include "library/core/random.hpp"
 #include "lab/sim/landscape.hpp"
 #include "lab/sim/mesh.hpp"
 #include "lab/sim/scene.hpp"
 #include "lab/sim/street_plan.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "library/core/random.hpp"
 #include "lab/sim/house.hpp"
 #include "lab/sim/interval.hpp"
 #include "lab/sim/street_shape.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "library/core/random.hpp"
 #include "lab/sim/interval.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

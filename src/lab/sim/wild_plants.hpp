@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "library/core/random.hpp"
 #include "lab/sim/ground.hpp"
 #include "lab/sim/mesh.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

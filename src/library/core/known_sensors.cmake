@@ -15,5 +15,5 @@ foreach(file IN LISTS files)
   string(REGEX REPLACE "([a-z_]+) = ({[^}]*}|[^\n]+)" ".\\1 = \\2," text "${text}")
   string(APPEND sensors "Sensor{${text}},\n")
 endforeach()
-file(WRITE ${source} "#include \"core/known_sensors.hpp\"\n\nnamespace flagstone {\n\n\
+file(WRITE ${source} "#include \"library/core/known_sensors.hpp\"\n\nnamespace flagstone {\n\n\
 std::vector<Sensor> make_known_sensors() {\n  return {\n${sensors}  };\n}\n\n}  // namespace flagstone\n")

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "library/core/moments.hpp"
 #include "flagstone/patch.hpp"
+#include "library/core/moments.hpp"
 
 namespace flagstone {
 

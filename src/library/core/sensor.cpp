@@ -52,10 +52,10 @@ void Sensor::check() const {
                {.low = azimuth_begin,
                 .high = std::min(azimuth_begin + 360, 360.0),
                 .unit = "degrees",
-                .without_low = true});
+                .exclusive_min = true});
   check_number(subject, "min_range", min_range, {.low = 0, .high = most_metres, .unit = "m"});
   check_number(subject, "max_range", max_range,
-               {.low = min_range, .high = most_metres, .unit = "m", .without_low = true});
+               {.low = min_range, .high = most_metres, .unit = "m", .exclusive_min = true});
   check_number(subject, "range_sigma", range_sigma, {.low = 0, .high = 10, .unit = "m"});
   check_number(subject, "height", height, {.low = 0, .high = 100, .unit = "m"});
 }

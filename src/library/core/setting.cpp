@@ -11,9 +11,9 @@ namespace flagstone {
 namespace {
 
 /// False for NaN.
-bool is_allowed(double value, const Allowed& allowed) {
-  if (std::isinf(value)) return value > 0 && allowed.or_infinity;
-  const bool high_enough = allowed.without_low ? value > allowed.low : value >= allowed.low;
+bool is_allowed(double value, const ValidRange& allowed) {
+  if (std::isinf(value)) return value > 0 && allowed.allow_infinity;
+  const bool high_enough = allowed.exclusive_min ? value > allowed.low : value >= allowed.low;
   return high_enough && value <= allowed.high;
 }
 
@@ -36,7 +36,8 @@ struct Check {
   void operator()(const std::array<float, 3>* values) const { check_each(*values); }
   void operator()(const Choice& choice) const {
     if (choice.index() < choice.names().size()) return;
-    refuse_setting(method, setting.key, static_cast<double>(choice.index()), "one of its names");
+    throw_out_of_range(method, setting.key, static_cast<double>(choice.index()),
+                       "one of its names");
   }
 
   void check_each(std::span<const float> values) const {
@@ -49,29 +50,29 @@ struct Check {
 
 }  // namespace
 
-std::string to_string(const Allowed& allowed) {
+std::string to_string(const ValidRange& allowed) {
   std::ostringstream text;
-  if (allowed.without_low) {
+  if (allowed.exclusive_min) {
     text << "above " << allowed.low << ", up to " << allowed.high;
   } else {
     text << allowed.low << " to " << allowed.high;
   }
   if (!allowed.unit.empty()) text << ' ' << allowed.unit;
-  if (allowed.or_infinity) text << ", or inf for none";
+  if (allowed.allow_infinity) text << ", or inf for none";
   if (!allowed.remark.empty()) text << " (" << allowed.remark << ')';
   return text.str();
 }
 
-void refuse_setting(std::string_view method, std::string_view key, double value,
-                    std::string_view allowed) {
+void throw_out_of_range(std::string_view method, std::string_view key, double value,
+                        std::string_view allowed) {
   std::ostringstream message;
   message << method << ": " << key << " = " << value << " is out of range; allowed: " << allowed;
   throw std::invalid_argument(message.str());
 }
 
 void check_number(std::string_view method, std::string_view key, double value,
-                  const Allowed& allowed) {
-  if (!is_allowed(value, allowed)) refuse_setting(method, key, value, to_string(allowed));
+                  const ValidRange& allowed) {
+  if (!is_allowed(value, allowed)) throw_out_of_range(method, key, value, to_string(allowed));
 }
 
 void check_settings(std::string_view method, const std::vector<Setting>& settings) {

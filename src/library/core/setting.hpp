@@ -15,17 +15,17 @@
 namespace flagstone {
 
 /// The values a number may take.
-struct Allowed {
+struct ValidRange {
   double low = 0;
   double high = 0;
   std::string_view unit = {};    ///< "m", "degrees"; empty for none
-  bool without_low = false;      ///< `low` itself is not allowed
-  bool or_infinity = false;      ///< infinity is allowed too and stands for "none"
+  bool exclusive_min = false;    ///< `low` itself is not allowed
+  bool allow_infinity = false;   ///< infinity is allowed too and stands for "none"
   std::string_view remark = {};  ///< in parentheses after the range
 };
 
 /// "0 to 100 m", "above 0, up to 100 m, or inf for none".
-std::string to_string(const Allowed& allowed);
+std::string to_string(const ValidRange& allowed);
 
 /// A setting that is one of a few names: an enumeration of std::uint8_t that counts them from 0.
 class Choice {
@@ -53,7 +53,7 @@ struct Setting {
   std::string_view key;  ///< dotted: "elevation.scale" is `scale` in the table `elevation`
   std::variant<float*, int*, bool*, std::vector<float>*, std::array<float, 3>*, Choice> value;
   std::string_view meaning;
-  Allowed allowed{};  ///< of each element of a list, which has 1 to 1,000, or of a vector
+  ValidRange allowed{};  ///< of each element of a list, which has 1 to 1,000, or of a vector
 };
 
 /// Throws std::invalid_argument "METHOD: KEY = VALUE is out of range; allowed: ..." for the first
@@ -61,11 +61,11 @@ struct Setting {
 void check_settings(std::string_view method, const std::vector<Setting>& settings);
 
 /// Throws that std::invalid_argument.
-[[noreturn]] void refuse_setting(std::string_view method, std::string_view key, double value,
-                                 std::string_view allowed);
+[[noreturn]] void throw_out_of_range(std::string_view method, std::string_view key, double value,
+                                     std::string_view allowed);
 
 /// Throws that std::invalid_argument if `value` is not allowed.
 void check_number(std::string_view method, std::string_view key, double value,
-                  const Allowed& allowed);
+                  const ValidRange& allowed);
 
 }  // namespace flagstone

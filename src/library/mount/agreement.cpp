@@ -115,16 +115,16 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
   return agreement;
 }
 
-void judge(MountDecision& decision, float least_confidence) noexcept {
+void judge(MountDecision& decision, float min_confidence) noexcept {
   struct Doubt {
     float belief;
     MountVerdict reason;
   };
   const std::array doubts = {
       Doubt{share(static_cast<float>(decision.cells), 5, 25), MountVerdict::too_few_points},
-      Doubt{share(decision.free, 0.2f, 0.5f), MountVerdict::not_free},
-      Doubt{share(decision.below, 0.5f, 0.2f), MountVerdict::not_lowest},
-      Doubt{share(decision.spread, 0.25f, 0.12f), MountVerdict::no_level},
+      Doubt{share(decision.free, 0.2f, 0.5f), MountVerdict::obstructed},
+      Doubt{share(decision.below, 0.5f, 0.2f), MountVerdict::points_below},
+      Doubt{share(decision.spread, 0.25f, 0.12f), MountVerdict::no_plane},
       Doubt{share(static_cast<float>(decision.directions), 0, 3), MountVerdict::one_sided},
       Doubt{share(static_cast<float>(decision.directions) /
                       static_cast<float>(std::max(decision.seen, 1)),
@@ -133,7 +133,7 @@ void judge(MountDecision& decision, float least_confidence) noexcept {
   };
   decision.confidence = 1;
   for (const Doubt& doubt : doubts) decision.confidence *= doubt.belief;
-  decision.verdict = decision.confidence >= least_confidence
+  decision.verdict = decision.confidence >= min_confidence
                          ? MountVerdict::accepted
                          : std::ranges::min_element(doubts, {}, &Doubt::belief)->reason;
 }

@@ -45,6 +45,6 @@ class AgreementCount {
 
 /// A decision whose five numbers are filled: how much it is believed, 0 to 1, and, if it is not at
 /// all, for which of them. `accepted` where none speaks against it.
-void judge(MountDecision& decision, float least_confidence) noexcept;
+void judge(MountDecision& decision, float min_confidence) noexcept;
 
 }  // namespace flagstone::mount

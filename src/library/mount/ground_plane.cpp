@@ -36,7 +36,7 @@ float belief_in(const Vector3f& up, float lean_cost) noexcept {
 /// metres, and half as far above it once the plane is nearly there: what stands on the ground is
 /// always above it.
 constexpr std::array<float, 6> gates = {0.6f, 0.45f, 0.3f, 0.22f, 0.15f, 0.15f};
-constexpr float gate_growth = 0.015f;  // metres a metre of range
+constexpr float gate_per_metre = 0.015f;  // metres a metre of range
 constexpr std::size_t one_sided_from = 2;
 
 /// The ground is a plane in the first rounds and may bend in the last ones: over crests, in dips.
@@ -101,14 +101,14 @@ class GroundFit {
 };
 
 float gate_at(float gate, const NearPoint& p) noexcept {
-  return gate + gate_growth * (std::abs(p.x) + std::abs(p.y));
+  return gate + gate_per_metre * (std::abs(p.x) + std::abs(p.y));
 }
 
 }  // namespace
 
 PlaneSearch::PlaneSearch(const MountLimits& limits, bool looks_for_tilt) : limits_(limits) {
   const auto tangent =
-      looks_for_tilt ? std::tan(double{limits.most_tilt} * std::numbers::pi / 180) : 0.0;
+      looks_for_tilt ? std::tan(double{limits.max_tilt} * std::numbers::pi / 180) : 0.0;
   const int steps = static_cast<int>(std::ceil(tangent / double{direction_step}));
   for (int j = -steps; j <= steps; ++j) {
     for (int i = -steps; i <= steps; ++i) {
@@ -118,7 +118,7 @@ PlaneSearch::PlaneSearch(const MountLimits& limits, bool looks_for_tilt) : limit
     }
   }
   few_.resize(few);
-  levels_.resize(static_cast<std::size_t>(std::ceil((limits.most_height + 1) / slice)) + 2);
+  levels_.resize(static_cast<std::size_t>(std::ceil((limits.max_height + 1) / slice)) + 2);
   best_.reserve(most_candidates + 1);
 }
 
@@ -142,7 +142,7 @@ PlaneSearch::Candidate PlaneSearch::level_along(std::span<const NearPoint> point
         -(lowest + static_cast<float>(i + 1) * slice);  // the middle of i and i + 1
     const float score = levels_[i] + levels_[i + 1] - cost_below * below;
     below += levels_[i - 1];
-    if (height + slice < limits_.least_height || height - slice > limits_.most_height) continue;
+    if (height + slice < limits_.min_height || height - slice > limits_.max_height) continue;
     if (score > best.score) best = {.plane = {up, height}, .score = score};
   }
   return best;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "library/core/own_floating_point.hpp"
 #include "flagstone/mount.hpp"
+#include "library/core/floating_point_mode.hpp"
 #include "library/mount/agreement.hpp"
 #include "library/mount/expected_mount.hpp"
 #include "library/mount/ground_plane.hpp"
@@ -50,8 +50,8 @@ MountSettings checked(const MountSettings& settings) {
 }  // namespace
 
 /// Points near the vehicle, a plane through them, what they say of that plane.
-struct MountEstimator::Workings {
-  explicit Workings(const MountSettings& given)
+struct MountEstimator::Impl {
+  explicit Impl(const MountSettings& given)
       : settings(checked(given)),
         looks_for_tilt(settings.tilt == TiltSource::estimate),
         expected(mount::expected_mount(settings)),
@@ -75,8 +75,8 @@ struct MountEstimator::Workings {
   float ground_range = 0;  // of the last look, metres: its reach if it found no ground
 };
 
-void MountEstimator::Workings::take_plane(const GroundPlane& plane, const Agreement& agreed,
-                                          MountDecision& decision) const noexcept {
+void MountEstimator::Impl::take_plane(const GroundPlane& plane, const Agreement& agreed,
+                                      MountDecision& decision) const noexcept {
   const auto [x, y, z] = plane.up;
   if (looks_for_tilt) {
     decision.mount.up = mount::unit(level.undo(plane.up));
@@ -91,18 +91,16 @@ void MountEstimator::Workings::take_plane(const GroundPlane& plane, const Agreem
   decision.tilt = degrees_between(decision.mount.up, {0, 0, 1});
 }
 
-std::optional<MountVerdict> MountEstimator::Workings::beyond_limits(
-    const Mount& mount) const noexcept {
+std::optional<MountVerdict> MountEstimator::Impl::beyond_limits(const Mount& mount) const noexcept {
   const MountLimits& limits = settings.limits;
-  if (degrees_between(mount.up, expected.up) > limits.most_tilt) return MountVerdict::tilt_limit;
+  if (degrees_between(mount.up, expected.up) > limits.max_tilt) return MountVerdict::tilt_limit;
   const bool is_within =
-      mount.sensor_height >= limits.least_height && mount.sensor_height <= limits.most_height;
+      mount.sensor_height >= limits.min_height && mount.sensor_height <= limits.max_height;
   if (!is_within) return MountVerdict::height_limit;
   return {};
 }
 
-MountDecision MountEstimator::Workings::look(CloudView cloud, float reach,
-                                             float lean_cost) noexcept {
+MountDecision MountEstimator::Impl::look(CloudView cloud, float reach, float lean_cost) noexcept {
   MountDecision decision;
   decision.mount = expected;
   decision.tilt = degrees_between(expected.up, {0, 0, 1});
@@ -112,7 +110,7 @@ MountDecision MountEstimator::Workings::look(CloudView cloud, float reach,
   decision.points = static_cast<std::uint32_t>(points.size());
   if (points.size() < fewest_points) return decision;
 
-  decision.verdict = MountVerdict::no_level;
+  decision.verdict = MountVerdict::no_plane;
   const std::optional<GroundPlane> plane = search.find(points, lean_cost);
   if (!plane) return decision;
   const Agreement agreed = agreement.of(points, *plane, reach);
@@ -124,7 +122,7 @@ MountDecision MountEstimator::Workings::look(CloudView cloud, float reach,
   decision.spread = agreed.spread;
   decision.directions = agreed.directions;
   decision.seen = agreed.seen;
-  mount::judge(decision, settings.limits.least_confidence);
+  mount::judge(decision, settings.limits.min_confidence);
   if (const auto beyond = beyond_limits(decision.mount)) {
     decision.verdict = *beyond;
     decision.confidence = 0;
@@ -132,8 +130,8 @@ MountDecision MountEstimator::Workings::look(CloudView cloud, float reach,
   return decision;
 }
 
-MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
-  const OwnFloatingPoint same_everywhere;
+MountDecision MountEstimator::Impl::estimate(CloudView cloud) noexcept {
+  const ScopedFloatingPointMode same_everywhere;
   if (cloud.data() == nullptr) cloud = {};
   const float reach = settings.limits.reach;
   const auto begins_afar = [&] { return ground_range > far_share * reach; };
@@ -143,7 +141,7 @@ MountDecision MountEstimator::Workings::estimate(CloudView cloud) noexcept {
 }
 
 MountEstimator::MountEstimator(const MountSettings& settings)
-    : workings_(std::make_unique<Workings>(settings)) {}
+    : workings_(std::make_unique<Impl>(settings)) {}
 MountEstimator::~MountEstimator() = default;
 MountEstimator::MountEstimator(MountEstimator&&) noexcept = default;
 MountEstimator& MountEstimator::operator=(MountEstimator&&) noexcept = default;

@@ -23,22 +23,22 @@ void add_reason(std::ostream& text, const MountDecision& decision) {
     text << std::setprecision(0) << 100 * share << " %" << std::setprecision(2);
   };
   switch (decision.verdict) {
-    case MountVerdict::given:
+    case MountVerdict::fixed:
     case MountVerdict::accepted: break;
     case MountVerdict::too_few_points:
       text << "too few points where ground can be, " << decision.points << " places, "
            << decision.cells << " square metres";
       break;
-    case MountVerdict::no_level:
+    case MountVerdict::no_plane:
       text << "near points agree on no plane, they lie within " << decision.spread
            << " m of the best";
       break;
-    case MountVerdict::not_free:
+    case MountVerdict::obstructed:
       text << "what lies lowest is the foot of what stands on it, only ";
       percent(decision.free);
       text << " of it is free";
       break;
-    case MountVerdict::not_lowest:
+    case MountVerdict::points_below:
       text << "too much lies below the best plane, ";
       percent(decision.below);
       break;
@@ -57,7 +57,7 @@ void add_reason(std::ostream& text, const MountDecision& decision) {
 std::string to_sentence(const MountDecision& decision) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(2);
-  if (decision.verdict == MountVerdict::given) {
+  if (decision.verdict == MountVerdict::fixed) {
     add_mount(text, decision);
     text << ", as given";
   } else if (decision.accepted()) {

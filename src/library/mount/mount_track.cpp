@@ -25,8 +25,8 @@ void MountTrack::reset() noexcept {
 
 bool MountTrack::is_close(const Mount& a, const Mount& b) const noexcept {
   const bool height_is =
-      !finds_height_ || std::abs(a.sensor_height - b.sensor_height) <= tracking_.most_jump;
-  return height_is && degrees_between(a.up, b.up) <= tracking_.most_turn;
+      !finds_height_ || std::abs(a.sensor_height - b.sensor_height) <= tracking_.max_height_step;
+  return height_is && degrees_between(a.up, b.up) <= tracking_.max_tilt_step;
 }
 
 void MountTrack::begin_with(const Mount& mount) noexcept {
@@ -37,7 +37,7 @@ void MountTrack::begin_with(const Mount& mount) noexcept {
 }
 
 void MountTrack::move_towards(const Mount& mount) noexcept {
-  told_ = std::min(told_ + 1, tracking_.memory);
+  told_ = std::min(told_ + 1, tracking_.window);
   outliers_ = 0;
   const float share = 1 / static_cast<float>(told_);
   if (finds_height_) mount_.sensor_height += share * (mount.sensor_height - mount_.sensor_height);

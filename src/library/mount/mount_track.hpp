@@ -33,7 +33,7 @@ class MountTrack {
   bool finds_tilt_;
   MountTracking tracking_;
   Mount mount_;
-  int told_ = 0;  // scans that have told the mount, up to `memory`
+  int told_ = 0;  // scans that have told the mount, up to `window`
   Mount last_outlier_{};
   int outliers_ = 0;  // on end, each close to the one before
 };

@@ -32,11 +32,11 @@ constexpr std::size_t shells = 16;
 }  // namespace
 
 NearPoints::NearPoints(const MountLimits& limits, bool looks_for_tilt)
-    : nearest_square_(limits.own_vehicle * limits.own_vehicle),
+    : nearest_square_(limits.ego_radius * limits.ego_radius),
       slots_(cubes * cubes * cubes),
       points_(most),
       counts_(most) {
-  const double highest = steepest_slope + (looks_for_tilt ? double{limits.most_tilt} : 0);
+  const double highest = steepest_slope + (looks_for_tilt ? double{limits.max_tilt} : 0);
   steepest_ = static_cast<float>(std::sin(highest * std::numbers::pi / 180));
 }
 

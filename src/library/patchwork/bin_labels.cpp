@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "library/core/plane.hpp"
-#include "library/plane_fits/sunken_plane.hpp"
+#include "library/plane_fits/lower_plane.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/patchwork/bin_labels.cpp"
@@ -84,7 +84,8 @@ HWY_INLINE void copy_run(const std::uint8_t* from, std::size_t count, std::uint8
 
 #endif
 
-void copy_runs(const std::uint8_t* from, std::span<const plane_fits::Run> runs, std::uint8_t* labels) {
+void copy_runs(const std::uint8_t* from, std::span<const plane_fits::Run> runs,
+               std::uint8_t* labels) {
   for (const plane_fits::Run& run : runs) {
     copy_run(from, run.length, labels + run.begin);
     from += run.length;
@@ -103,7 +104,8 @@ HWY_EXPORT(copy_runs);
 
 /// Of the points of a bin that are noise, makes those ground that lie in a plane of their own;
 /// returns how many. In double precision: few bins have such points.
-std::uint32_t label_sunken(const plane_fits::BinBatch& batch, std::size_t bin, std::uint8_t* labels) {
+std::uint32_t label_sunken(const plane_fits::BinBatch& batch, std::size_t bin,
+                           std::uint8_t* labels) {
   const auto each_deep = [&](const auto& work) {
     for (std::size_t i = 0; i < batch.size(bin); ++i) {
       if (labels[i] != static_cast<std::uint8_t>(Label::noise)) continue;
@@ -122,7 +124,7 @@ std::uint32_t label_sunken(const plane_fits::BinBatch& batch, std::size_t bin, s
     if (moments.count < plane_fits::fewest_sunken_points) return 0;
     plane = plane_of(moments);
   }
-  if (!plane_fits::is_sunken_ground(plane, deep)) return 0;
+  if (!plane_fits::is_lower_ground(plane, deep)) return 0;
   std::uint32_t found = 0;
   each_deep([&](std::size_t i, const Vector3& p) {
     if (std::abs(plane_fits::height_above(plane, p)) >= plane_fits::sunken_margin) return;
@@ -136,7 +138,8 @@ std::uint32_t label_sunken(const plane_fits::BinBatch& batch, std::size_t bin, s
 
 LabelCounts BinLabels::write(const plane_fits::BinBatch& batch, std::size_t i,
                              const plane_fits::GroundSet& set, bool find_sunken,
-                             const plane_fits::BinGroups& groups, std::span<Label> labels) noexcept {
+                             const plane_fits::BinGroups& groups,
+                             std::span<Label> labels) noexcept {
   std::uint8_t* packed = packed_.data();
   LabelCounts counts = HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, packed);
   if (find_sunken && counts.noise >= plane_fits::fewest_sunken_points) {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "library/core/buffer.hpp"
 #include "flagstone/label.hpp"
+#include "library/core/buffer.hpp"
 #include "library/plane_fits/bin_batch.hpp"
 #include "library/plane_fits/bin_groups.hpp"
 #include "library/plane_fits/ground_sets.hpp"
@@ -29,9 +29,9 @@ class BinLabels {
 
   /// Labels the points of bin `i` of the batch: ground if in the set, noise below it, nonground
   /// above. With `find_sunken`, points below it that lie in a plane of their own are ground too.
-  LabelCounts write(const plane_fits::BinBatch& batch, std::size_t i, const plane_fits::GroundSet& set,
-                    bool find_sunken, const plane_fits::BinGroups& groups,
-                    std::span<Label> labels) noexcept;
+  LabelCounts write(const plane_fits::BinBatch& batch, std::size_t i,
+                    const plane_fits::GroundSet& set, bool find_sunken,
+                    const plane_fits::BinGroups& groups, std::span<Label> labels) noexcept;
 
   /// Gives all points of a bin one label.
   /// Returns how many they are.

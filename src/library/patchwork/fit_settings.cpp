@@ -12,7 +12,7 @@ plane_fits::FitSettings fit_settings(const PatchworkConfig& config) noexcept {
           .noise_margin = config.noise_margin,
           .iterations = config.iterations,
           .keep_below_floor = config.keep_below_margin,
-          .judge_final_set = config.judge_final_set};
+          .evaluate_final_set = config.evaluate_final_set};
 }
 
 std::vector<double> seed_floors(const PatchworkConfig& config) {

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "library/core/plane.hpp"
 #include "flagstone/patch.hpp"
 #include "flagstone/patchwork_config.hpp"
+#include "library/core/plane.hpp"
 #include "library/patchwork/concentric_zones.hpp"
 
 namespace flagstone::patchwork {

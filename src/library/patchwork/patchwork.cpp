@@ -13,33 +13,33 @@
 #include <utility>
 #include <vector>
 
-#include "library/core/crew.hpp"
-#include "library/core/own_floating_point.hpp"
+#include "library/core/floating_point_mode.hpp"
 #include "library/core/segment_scan.hpp"
-#include "library/plane_fits/bin_batch.hpp"
-#include "library/plane_fits/bin_groups.hpp"
-#include "library/plane_fits/plane_fit.hpp"
-#include "library/plane_fits/scan_points.hpp"
-#include "library/plane_fits/stage_clock.hpp"
+#include "library/core/thread_pool.hpp"
 #include "library/patchwork/bin_labels.hpp"
 #include "library/patchwork/concentric_zones.hpp"
 #include "library/patchwork/fit_settings.hpp"
 #include "library/patchwork/ground_likelihood.hpp"
 #include "library/patchwork/read_scan.hpp"
+#include "library/plane_fits/bin_batch.hpp"
+#include "library/plane_fits/bin_groups.hpp"
+#include "library/plane_fits/plane_fit.hpp"
+#include "library/plane_fits/scan_points.hpp"
+#include "library/plane_fits/stage_clock.hpp"
 
 namespace flagstone {
 
-using plane_fits::BinBatch;
-using plane_fits::BinGroups;
-using plane_fits::PlaneFit;
-using plane_fits::ScanPoints;
-using plane_fits::StageClock;
 using patchwork::BinLabels;
 using patchwork::ConcentricZones;
 using patchwork::GroundLikelihood;
 using patchwork::LabelCounts;
 using patchwork::read_chunk;
 using patchwork::Ring;
+using plane_fits::BinBatch;
+using plane_fits::BinGroups;
+using plane_fits::PlaneFit;
+using plane_fits::ScanPoints;
+using plane_fits::StageClock;
 
 namespace {
 
@@ -104,7 +104,7 @@ struct Patchwork::Pipeline {
   }
 
   LabelTotals segment(CloudView cloud, Segmentation& result, std::span<Label> labels) noexcept {
-    const OwnFloatingPoint own;
+    const ScopedFloatingPointMode own;
     StageClock clock(stage_times);
 
     // Concentric Zone Model (III-B)
@@ -160,7 +160,7 @@ struct Patchwork::Pipeline {
           fitted_bins.data()[fitted_count++] = {.bin = bin,
                                                 .patch = static_cast<std::uint32_t>(patches.size()),
                                                 .ring = static_cast<std::uint32_t>(r)};
-        } else if (config.few_points_are_ground) {
+        } else if (config.sparse_bins_are_ground) {
           patch.ground_count = fill(bin, Label::ground, labels);
         }
         patches.push_back(patch);  // within what was reserved
@@ -198,9 +198,9 @@ struct Patchwork::Pipeline {
       if (!patch.is_ground()) continue;
       const LabelCounts counts =
           fitter.bin_labels.write(fitter.batch, i, set_to_label(fitter.fitted.sets[i]),
-                                  std::isfinite(config.support_margin), groups, labels);
+                                  std::isfinite(config.lower_plane_margin), groups, labels);
       patch.ground_count = counts.ground;
-      patch.sunken_count = counts.sunken;
+      patch.lower_ground_count = counts.sunken;
       fitter.totals[static_cast<std::size_t>(Label::ground)] += counts.ground;
       fitter.totals[static_cast<std::size_t>(Label::noise)] += counts.noise;
     }
@@ -209,7 +209,7 @@ struct Patchwork::Pipeline {
 
   /// The part of a ground set that needs no plane of its own.
   [[nodiscard]] plane_fits::GroundSet set_to_label(plane_fits::GroundSet set) const noexcept {
-    const float depth = config.support_margin + config.distance_margin;
+    const float depth = config.lower_plane_margin + config.distance_margin;
     set.bottom = std::max(set.bottom, set.top - depth);
     return set;
   }
@@ -241,7 +241,7 @@ struct Patchwork::Pipeline {
   std::size_t fitted_count = 0;
   StageTimes* stage_times = nullptr;
   std::vector<patchwork::Fitter> fitters;  ///< one for each of the crew
-  Crew crew;
+  ThreadPool crew;
 };
 
 Patchwork::Patchwork(PatchworkConfig config, unsigned threads)

@@ -25,14 +25,14 @@ float check_zone(const Zone& zone, const std::string& name, float inner) {
                  {.low = inner,
                   .high = 1000,
                   .unit = "m",
-                  .without_low = true,
+                  .exclusive_min = true,
                   .remark = "radii ascend outward, from min_range on"});
     inner = zone.ring_radii[i];
   }
   check_number(method, name + ".sectors", zone.sectors, {.low = 1, .high = 3600});
   if (!(zone.height_margin < -1.0f)) {
-    refuse_setting(method, name + ".height_margin", zone.height_margin,
-                   "below -1 (minus infinity for no margin)");
+    throw_out_of_range(method, name + ".height_margin", zone.height_margin,
+                       "below -1 (minus infinity for no margin)");
   }
   return inner;
 }
@@ -76,7 +76,7 @@ std::vector<Setting> settings_of(PatchworkConfig& c) {
       {"noise_depth",
        &c.noise_depth,
        "points lower than -h_s - noise_depth - noise_slope * r are noise",
-       {.low = 0, .high = 1000, .unit = "m", .or_infinity = true}},
+       {.low = 0, .high = 1000, .unit = "m", .allow_infinity = true}},
       {"noise_slope",
        &c.noise_slope,
        "steepest descent of ground still believed",
@@ -85,7 +85,7 @@ std::vector<Setting> settings_of(PatchworkConfig& c) {
        &c.min_points,
        "bins with fewer points are not fitted",
        {.low = 3, .high = 1000000}},
-      {"few_points_are_ground", &c.few_points_are_ground, "what the points of such bins are"},
+      {"sparse_bins_are_ground", &c.sparse_bins_are_ground, "what the points of such bins are"},
       {"seed_count",
        &c.seed_count,
        "N_seed: lowest points that start the fit",
@@ -93,23 +93,23 @@ std::vector<Setting> settings_of(PatchworkConfig& c) {
       {"seed_height",
        &c.seed_height,
        "z_seed, eq. (4)",
-       {.low = 0, .high = 100, .unit = "m", .without_low = true}},
+       {.low = 0, .high = 100, .unit = "m", .exclusive_min = true}},
       {"keep_below_margin", &c.keep_below_margin,
        "whether points below a zone's height margin may enter the first ground set"},
       {"distance_margin",
        &c.distance_margin,
        "M_d, eqs. (5) and (6)",
-       {.low = 0, .high = 100, .unit = "m", .without_low = true}},
+       {.low = 0, .high = 100, .unit = "m", .exclusive_min = true}},
       {"noise_margin",
        &c.noise_margin,
        "points farther below the plane are no part of it but noise",
-       {.low = 0, .high = 1000, .unit = "m", .without_low = true, .or_infinity = true}},
-      {"support_margin",
-       &c.support_margin,
+       {.low = 0, .high = 1000, .unit = "m", .exclusive_min = true, .allow_infinity = true}},
+      {"lower_plane_margin",
+       &c.lower_plane_margin,
        "points farther below a ground plane are ground in a plane of their own, else noise",
-       {.low = 0, .high = 1000, .unit = "m", .without_low = true, .or_infinity = true}},
+       {.low = 0, .high = 1000, .unit = "m", .exclusive_min = true, .allow_infinity = true}},
       {"iterations", &c.iterations, "plane fits a bin", {.low = 1, .high = 100}},
-      {"judge_final_set", &c.judge_final_set,
+      {"evaluate_final_set", &c.evaluate_final_set,
        "whether the likelihood judges the final ground set (paper) or the last fitted one (public "
        "code)"},
       {"field_of_view.begin",
@@ -119,7 +119,7 @@ std::vector<Setting> settings_of(PatchworkConfig& c) {
       {"field_of_view.width",
        &c.field_of_view.width,
        "how far the zones go from there; points outside are out of range",
-       {.low = 0, .high = 360, .unit = "degrees", .without_low = true}},
+       {.low = 0, .high = 360, .unit = "degrees", .exclusive_min = true}},
       {"uprightness.enabled", &c.uprightness.enabled, "phi, eq. (8)"},
       {"uprightness.angle",
        &c.uprightness.angle,
@@ -138,9 +138,9 @@ std::vector<Setting> settings_of(PatchworkConfig& c) {
       {"elevation.scale",
        &c.elevation.scale,
        "width of the step; 1 is the paper's formula",
-       {.low = 0, .high = 1000, .unit = "m", .without_low = true}},
+       {.low = 0, .high = 1000, .unit = "m", .exclusive_min = true}},
       {"flatness.enabled", &c.flatness.enabled, "varphi, eq. (10)"},
-      {"flatness.gain", &c.flatness.gain, "zeta", {.low = 1, .high = 1000, .without_low = true}},
+      {"flatness.gain", &c.flatness.gain, "zeta", {.low = 1, .high = 1000, .exclusive_min = true}},
       {"flatness.thresholds",
        &c.flatness.thresholds,
        "sigma_tau of each ring, the last one for all beyond",
@@ -148,7 +148,7 @@ std::vector<Setting> settings_of(PatchworkConfig& c) {
       {"flatness.scale",
        &c.flatness.scale,
        "width of the step, units of sigma; 1 is the paper's formula",
-       {.low = 0, .high = 1000, .without_low = true}},
+       {.low = 0, .high = 1000, .exclusive_min = true}},
   };
 }
 

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "library/patchwork/ground_rings.hpp"
 #include "flagstone/patchwork_config.hpp"
 #include "flagstone/sensor.hpp"
+#include "library/patchwork/ground_rings.hpp"
 
 namespace flagstone {
 namespace {

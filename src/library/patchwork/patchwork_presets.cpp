@@ -43,15 +43,15 @@ PatchworkConfig paper() {
   config.noise_depth = infinity;
   config.noise_slope = 0;
   config.min_points = 10;
-  config.few_points_are_ground = false;
+  config.sparse_bins_are_ground = false;
   config.seed_count = 20;
   config.seed_height = 0.5f;
   config.keep_below_margin = false;
   config.distance_margin = 0.15f;
   config.noise_margin = infinity;
-  config.support_margin = infinity;
+  config.lower_plane_margin = infinity;
   config.iterations = 3;
-  config.judge_final_set = true;
+  config.evaluate_final_set = true;
   config.uprightness = {.enabled = true, .angle = 45};
   config.elevation = {
       .enabled = true, .base = 0.366f, .growth = 0.0703f, .range = 22.025f, .scale = 1};
@@ -78,15 +78,15 @@ PatchworkConfig reference() {
   config.noise_depth = 2;
   config.noise_slope = 0;
   config.min_points = 11;
-  config.few_points_are_ground = true;
+  config.sparse_bins_are_ground = true;
   config.seed_count = 20;
   config.seed_height = 0.5f;
   config.keep_below_margin = true;
   config.distance_margin = 0.125f;
   config.noise_margin = infinity;
-  config.support_margin = infinity;
+  config.lower_plane_margin = infinity;
   config.iterations = 3;
-  config.judge_final_set = false;
+  config.evaluate_final_set = false;
   config.uprightness = {.enabled = true, .angle = 45};
   config.elevation = {
       .enabled = true, .base = 0.333f, .growth = 0.0987f, .range = 13.266f, .scale = 1};

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "library/core/setting.hpp"
 #include "flagstone/patchwork_config.hpp"
+#include "library/core/setting.hpp"
 
 namespace flagstone {
 

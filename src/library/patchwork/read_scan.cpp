@@ -6,8 +6,8 @@
 #define HWY_TARGET_INCLUDE "library/patchwork/read_scan.cpp"
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
-#include "library/plane_fits/read_stretch-inl.hpp"
 #include "library/patchwork/locate-inl.hpp"
+#include "library/plane_fits/read_slice-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace flagstone::patchwork::HWY_NAMESPACE {
@@ -21,14 +21,14 @@ struct Locate {
   const ConcentricZones& zones;
 };
 
-std::size_t read_zones(const plane_fits::Stretch& stretch, const ConcentricZones& zones) {
+std::size_t read_zones(const plane_fits::PointSlice& stretch, const ConcentricZones& zones) {
   const bool few = zones.rings().size() <= RingTree::few;
   if (zones.have_own_view()) {
-    return few ? plane_fits::HWY_NAMESPACE::read_stretch(stretch, Locate<true, true>{zones})
-               : plane_fits::HWY_NAMESPACE::read_stretch(stretch, Locate<false, true>{zones});
+    return few ? plane_fits::HWY_NAMESPACE::read_slice(stretch, Locate<true, true>{zones})
+               : plane_fits::HWY_NAMESPACE::read_slice(stretch, Locate<false, true>{zones});
   }
-  return few ? plane_fits::HWY_NAMESPACE::read_stretch(stretch, Locate<true, false>{zones})
-             : plane_fits::HWY_NAMESPACE::read_stretch(stretch, Locate<false, false>{zones});
+  return few ? plane_fits::HWY_NAMESPACE::read_slice(stretch, Locate<true, false>{zones})
+             : plane_fits::HWY_NAMESPACE::read_slice(stretch, Locate<false, false>{zones});
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ HWY_EXPORT(read_zones);
 
 void read_chunk(CloudView cloud, std::size_t chunk, const ConcentricZones& zones,
                 plane_fits::ScanPoints& scan) noexcept {
-  scan.read(cloud, chunk, [&](const plane_fits::Stretch& stretch) {
+  scan.read(cloud, chunk, [&](const plane_fits::PointSlice& stretch) {
     return HWY_DYNAMIC_DISPATCH(read_zones)(stretch, zones);
   });
 }

@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "flagstone/cloud_view.hpp"
-#include "library/plane_fits/scan_points.hpp"
 #include "library/patchwork/concentric_zones.hpp"
+#include "library/plane_fits/scan_points.hpp"
 
 namespace flagstone::patchwork {
 

@@ -56,7 +56,7 @@ void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
     result.exists = fit_sets(batch, sets, result.exists, clock, planes);
   }
   choose_next_sets(planes, sets);
-  if (settings_.judge_final_set) {
+  if (settings_.evaluate_final_set) {
     sum_moments(batch, sets, result.exists, Precision::single, moments_);
     result.exists = fit_sets(batch, sets, result.exists, clock, planes);
   }

@@ -20,11 +20,11 @@ struct FitSettings {
   double seed_height;  ///< z_seed: how far above the seeds' mean the first set reaches, metres
   /// How far below it, metres.
   double seed_depth = std::numeric_limits<double>::infinity();
-  double distance_margin;  ///< M_d: later sets reach so far above the plane before, metres
-  double noise_margin;     ///< and so far below it, metres
-  int iterations;          ///< planes fitted one after another, at least 1
-  bool keep_below_floor;   ///< may the first set hold points lower than any seed may be?
-  bool judge_final_set;    ///< fit once more, to the set that the last plane chooses?
+  double distance_margin;   ///< M_d: later sets reach so far above the plane before, metres
+  double noise_margin;      ///< and so far below it, metres
+  int iterations;           ///< planes fitted one after another, at least 1
+  bool keep_below_floor;    ///< may the first set hold points lower than any seed may be?
+  bool evaluate_final_set;  ///< fit once more, to the set that the last plane chooses?
 };
 
 /// The seeds of the bins of a batch.

@@ -13,7 +13,7 @@ void ScanPoints::reserve(std::size_t points) {
   run_counts_.reserve(chunks);
 }
 
-Stretch ScanPoints::stretch(CloudView cloud, std::size_t chunk) noexcept {
+PointSlice ScanPoints::stretch(CloudView cloud, std::size_t chunk) noexcept {
   const std::size_t begin = chunk * chunk_size;
   return {.cloud = cloud,
           .begin = begin,

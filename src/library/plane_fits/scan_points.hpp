@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "library/core/buffer.hpp"
 #include "flagstone/cloud_view.hpp"
+#include "library/core/buffer.hpp"
 
 namespace flagstone::plane_fits {
 
@@ -21,7 +21,7 @@ inline constexpr int bin_bits =
 static_assert(chunk_size <= 1U << (32 - bin_bits - 1));  // the index behind the last fits too
 
 /// A stretch of a cloud to read and where to put it.
-struct Stretch {
+struct PointSlice {
   CloudView cloud;
   std::size_t begin, end;  ///< at most chunk_size points
   float *x, *y, *z;        ///< of point `begin`; room for 16 more than there are
@@ -38,12 +38,12 @@ class ScanPoints {
   /// Makes room for `points` points; may throw std::bad_alloc.
   void reserve(std::size_t points);
 
-  /// Reads chunk `chunk` of the cloud, which is no larger than reserved: `read_stretch(stretch)`
-  /// does, knowing the bins, and returns how many runs there are; see read_stretch-inl.hpp. Chunks
+  /// Reads chunk `chunk` of the cloud, which is no larger than reserved: `read_slice(stretch)`
+  /// does, knowing the bins, and returns how many runs there are; see read_slice-inl.hpp. Chunks
   /// may be read by several threads at once.
   template <class ReadStretch>
-  void read(CloudView cloud, std::size_t chunk, const ReadStretch& read_stretch) noexcept {
-    const std::size_t runs = read_stretch(stretch(cloud, chunk));
+  void read(CloudView cloud, std::size_t chunk, const ReadStretch& read_slice) noexcept {
+    const std::size_t runs = read_slice(stretch(cloud, chunk));
     run_counts_.data()[chunk] = static_cast<std::uint32_t>(runs);
   }
 
@@ -70,7 +70,7 @@ class ScanPoints {
  private:
   static constexpr std::size_t slack = 16;  ///< what vectors may write behind the last element
 
-  [[nodiscard]] Stretch stretch(CloudView cloud, std::size_t chunk) noexcept;
+  [[nodiscard]] PointSlice stretch(CloudView cloud, std::size_t chunk) noexcept;
 
   Buffer<float> x_;
   Buffer<float> y_;

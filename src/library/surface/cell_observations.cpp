@@ -222,7 +222,7 @@ HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, con
 
   const FloatVector fewest = hn::Set(d, fewest_points);
   const auto has_mode = hn::And(hn::Ge(gated, fewest), hn::Ge(at_surface, fewest));
-  const auto something_stands = hn::Gt(above, hn::Mul(hn::Set(d, o.contrast), at_surface));
+  const auto something_stands = hn::Gt(above, hn::Mul(hn::Set(d, o.max_clutter_ratio), at_surface));
   const auto is_mode = hn::And(hn::AndNot(something_stands, has_mode),
                                hn::Le(below, hn::Mul(hn::Set(d, most_below), at_surface)));
   const auto only_below = hn::And(hn::Lt(gated, fewest), hn::Lt(bound, gate_below));
@@ -267,7 +267,7 @@ HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell
     }
     const OccupiedCell& cell = cells[i];
     const CellPlane plane = plane_in(*o.surface, cell);
-    gates[i] = o.gate + o.gate_growth * std::sqrt(plane.x * plane.x + plane.y * plane.y);
+    gates[i] = o.gate + o.gate_per_metre * std::sqrt(plane.x * plane.x + plane.y * plane.y);
     const plane_fits::MovedPoint* points = o.points + cell.first;
     std::size_t samples = cell.count;
     if (samples > rows) {

@@ -23,10 +23,10 @@ struct OccupiedCell {
 /// was before.
 struct Observations {
   const plane_fits::MovedPoint* points;  ///< of the scan, cell by cell; 16 more may be read
-  const Grid* surface;                ///< as it was before
-  float gate;                         ///< metres, see Refinement
-  float gate_growth;
-  float contrast;
+  const Grid* surface;                   ///< as it was before
+  float gate;                            ///< metres, see Refinement
+  float gate_per_metre;
+  float max_clutter_ratio;
   float lower_bound_weight;
   float* corrections;  ///< by cell, row by row: metres; only written where the weight is
   float* weights;      ///< by cell: 0 to 1; only written where something is known

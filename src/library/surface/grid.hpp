@@ -6,7 +6,7 @@
 
 namespace flagstone::surface {
 
-/// A square grid of heights centred on the sensor, in working memory; see Surface::Grid.
+/// A square grid of heights centred on the sensor, in working memory; see GroundSurface::Grid.
 struct Grid {
   float cell = 0;                ///< side of a cell, metres
   std::size_t width = 0;         ///< cells along a side, even

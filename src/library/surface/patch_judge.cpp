@@ -31,17 +31,17 @@ constexpr float neighbour_metres = 8;
 PatchJudge::PatchJudge(const SurfaceConfig& config)
     : least_normal_z_(std::max(least_normal_z,
                                std::sin(config.acceptance.upright_angle * std::numbers::pi / 180))),
-      contrast_(config.acceptance.contrast),
+      max_clutter_ratio_(config.acceptance.max_clutter_ratio),
       sensor_height_(config.sensor_height),
-      height_(config.acceptance.height),
-      rise_(config.acceptance.rise),
-      step_(config.acceptance.step),
-      step_growth_(config.acceptance.step_growth) {}
+      height_(config.acceptance.max_height),
+      rise_(config.acceptance.max_slope),
+      step_(config.acceptance.max_step),
+      step_growth_(config.acceptance.max_step_per_metre) {}
 
 Verdict PatchJudge::judge_alone(const Plane& plane, const SlabCounts& counts) const noexcept {
   if (plane.count < fewest_points) return Verdict::no_plane;
   if (plane.normal[2] < least_normal_z_) return Verdict::not_upright;
-  if (counts.above > contrast_ * counts.within) return Verdict::mixed;
+  if (counts.above > max_clutter_ratio_ * counts.within) return Verdict::mixed;
   const double range = std::sqrt(plane.mean[0] * plane.mean[0] + plane.mean[1] * plane.mean[1]);
   if (plane.mean[2] > -sensor_height_ + std::max(height_, rise_ * range)) return Verdict::too_high;
   return Verdict::ground;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "library/core/plane.hpp"
 #include "flagstone/patch.hpp"
 #include "flagstone/surface_config.hpp"
+#include "library/core/plane.hpp"
 #include "library/surface/accepted_patches.hpp"
 #include "library/surface/slab_counts.hpp"
 
@@ -26,7 +26,7 @@ class PatchJudge {
 
  private:
   double least_normal_z_;
-  double contrast_;
+  double max_clutter_ratio_;
   double sensor_height_;
   double height_;
   double rise_;

@@ -77,8 +77,8 @@ HWY_INLINE FloatVector blend_with_care(FloatVector a, FloatVector b, FloatVector
   return hn::IfThenElse(hn::Le(share_of_b, hn::Zero(d)), a, from_b);
 }
 
-/// The surface below points, bilinear, to the bit as Surface::height has it. Takes any bit pattern,
-/// and says something for all.
+/// The surface below points, bilinear, to the bit as GroundSurface::height has it. Takes any bit
+/// pattern, and says something for all.
 HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables& tables) {
   const FloatTag d;
   const IntTag di;
@@ -174,7 +174,7 @@ void label_points(const MeasuredPoints& points, const PointRule& rule, const Squ
   std::size_t invalid_count = 0;
   HWY_ALIGN std::array<std::uint8_t, lanes> rest;
   HWY_ALIGN std::array<float, lanes> last_heights{};
-  const float middle_margin = (rule.margin + rule.margin_at_obstacles) / 2;
+  const float middle_margin = (rule.margin + rule.obstacle_margin) / 2;
   for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
     const bool whole = i + hn::Lanes(d) <= points.count;
     const FloatVector x = hn::LoadU(d, points.x + i);
@@ -199,10 +199,10 @@ void label_points(const MeasuredPoints& points, const PointRule& rule, const Squ
     FloatVector margin = hn::IfThenElse(hn::RebindMask(d, hn::Eq(bytes, hn::Zero(di))),
                                         hn::Set(d, rule.margin), hn::Set(d, middle_margin));
     margin = hn::IfThenElse(hn::RebindMask(d, hn::Gt(bytes, hn::Set(di, 1))),
-                            hn::Set(d, rule.margin_at_obstacles), margin);
+                            hn::Set(d, rule.obstacle_margin), margin);
     const FloatVector range = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-    const FloatVector deepest = hn::Neg(
-        hn::Add(hn::Set(d, rule.noise_depth), hn::Mul(hn::Set(d, rule.noise_growth), range)));
+    const FloatVector deepest = hn::Neg(hn::Add(
+        hn::Set(d, rule.noise_depth), hn::Mul(hn::Set(d, rule.noise_depth_per_metre), range)));
     const FloatVector lowest =
         hn::Sub(hn::Set(d, cells.noise_height()), hn::Mul(hn::Set(d, cells.noise_slope()), range));
     const auto noise = hn::And(good, hn::Or(hn::Le(height, deepest), hn::Lt(z, lowest)));
@@ -297,7 +297,7 @@ void PointHeights::measure(const plane_fits::ScanPoints& scan, std::size_t chunk
                            std::span<float> heights) noexcept {
   HWY_DYNAMIC_DISPATCH(measure_points)
   (chunk_of(scan, chunk, heights.size(), heights.data()), tables_, *cells_,
-   standing_cells(*cells_, standing_.data(), rule_.standing_height));
+   standing_cells(*cells_, standing_.data(), rule_.obstacle_height));
 }
 
 void PointHeights::label(const plane_fits::ScanPoints& scan, std::size_t chunk,
@@ -305,7 +305,7 @@ void PointHeights::label(const plane_fits::ScanPoints& scan, std::size_t chunk,
                          LabelTotals& totals) noexcept {
   HWY_DYNAMIC_DISPATCH(label_points)
   (chunk_of(scan, chunk, heights.size(), heights.data()), rule_, *cells_,
-   standing_cells(*cells_, standing_.data(), rule_.standing_height),
+   standing_cells(*cells_, standing_.data(), rule_.obstacle_height),
    reinterpret_cast<std::uint8_t*>(labels.data()) + chunk * plane_fits::chunk_size, totals);
 }
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
-#include "library/core/buffer.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/surface_config.hpp"
+#include "library/core/buffer.hpp"
 #include "library/plane_fits/scan_points.hpp"
 #include "library/surface/grid.hpp"
 #include "library/surface/square_cells.hpp"

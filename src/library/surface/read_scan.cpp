@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "library/surface/read_scan.cpp"
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
-#include "library/plane_fits/read_stretch-inl.hpp"
+#include "library/plane_fits/read_slice-inl.hpp"
 #include "library/surface/locate-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -20,8 +20,8 @@ struct Locate {
   const SquareCells& cells;
 };
 
-std::size_t read_cells(const plane_fits::Stretch& stretch, const SquareCells& cells) {
-  return plane_fits::HWY_NAMESPACE::read_stretch(stretch, Locate{cells});
+std::size_t read_cells(const plane_fits::PointSlice& stretch, const SquareCells& cells) {
+  return plane_fits::HWY_NAMESPACE::read_slice(stretch, Locate{cells});
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ HWY_EXPORT(read_cells);
 
 void read_chunk(CloudView cloud, std::size_t chunk, const SquareCells& cells,
                 plane_fits::ScanPoints& scan) noexcept {
-  scan.read(cloud, chunk, [&](const plane_fits::Stretch& stretch) {
+  scan.read(cloud, chunk, [&](const plane_fits::PointSlice& stretch) {
     return HWY_DYNAMIC_DISPATCH(read_cells)(stretch, cells);
   });
 }

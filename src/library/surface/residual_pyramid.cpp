@@ -124,7 +124,7 @@ void ResidualPyramid::list_cells_of(const Block& block, std::size_t level) noexc
 }
 
 void ResidualPyramid::refine(const plane_fits::BinGroups& groups, PullPush& pull_push,
-                             Crew& crew) noexcept {
+                             ThreadPool& crew) noexcept {
   list_cells(groups);
   for (std::size_t level = 0; level < cells_.size(); ++level) {
     const Grid& grid = grids_[level];
@@ -145,12 +145,12 @@ float ResidualPyramid::gate_of(std::size_t level) const noexcept {
 }
 
 void ResidualPyramid::observe_level(std::size_t level, const plane_fits::BinGroups& groups,
-                                    Crew& crew) noexcept {
+                                    ThreadPool& crew) noexcept {
   const Observations observations{.points = groups.points(0, 0).data(),
                                   .surface = &grids_[level],
                                   .gate = gate_of(level),
-                                  .gate_growth = settings_.gate_growth,
-                                  .contrast = settings_.contrast,
+                                  .gate_per_metre = settings_.gate_per_metre,
+                                  .max_clutter_ratio = settings_.max_clutter_ratio,
                                   .lower_bound_weight = settings_.lower_bound_weight,
                                   .corrections = corrections_.data(),
                                   .weights = weights_.data()};

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "library/core/buffer.hpp"
-#include "library/core/crew.hpp"
 #include "flagstone/surface_config.hpp"
+#include "library/core/buffer.hpp"
+#include "library/core/thread_pool.hpp"
 #include "library/plane_fits/bin_groups.hpp"
 #include "library/surface/cell_observations.hpp"
 #include "library/surface/grid.hpp"
@@ -30,7 +30,7 @@ class ResidualPyramid {
   [[nodiscard]] std::span<const Grid> grids() const noexcept { return grids_; }
 
   /// Refines the surface on the coarsest grid, and from it makes those on the others.
-  void refine(const plane_fits::BinGroups& groups, PullPush& pull_push, Crew& crew) noexcept;
+  void refine(const plane_fits::BinGroups& groups, PullPush& pull_push, ThreadPool& crew) noexcept;
 
  private:
   /// A block of 8 m.
@@ -50,7 +50,8 @@ class ResidualPyramid {
   void list_cells(const plane_fits::BinGroups& groups) noexcept;
   void list_cells_of(const Block& block, std::size_t level) noexcept;
   [[nodiscard]] float gate_of(std::size_t level) const noexcept;
-  void observe_level(std::size_t level, const plane_fits::BinGroups& groups, Crew& crew) noexcept;
+  void observe_level(std::size_t level, const plane_fits::BinGroups& groups,
+                     ThreadPool& crew) noexcept;
 
   Refinement settings_;
   std::vector<Grid> grids_;

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "library/core/buffer.hpp"
 #include "flagstone/surface_config.hpp"
+#include "library/core/buffer.hpp"
 
 namespace flagstone::surface {
 

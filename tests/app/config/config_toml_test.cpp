@@ -46,7 +46,7 @@ PatchworkConfig any_config() {
   PatchworkConfig c;
   for (float* value :
        {&c.sensor_height, &c.min_range, &c.noise_depth, &c.noise_slope, &c.seed_height,
-        &c.distance_margin, &c.noise_margin, &c.support_margin, &c.uprightness.angle,
+        &c.distance_margin, &c.noise_margin, &c.lower_plane_margin, &c.uprightness.angle,
         &c.elevation.base, &c.elevation.growth, &c.elevation.range, &c.elevation.scale,
         &c.flatness.gain, &c.flatness.scale}) {
     *value = *any_number();
@@ -54,7 +54,7 @@ PatchworkConfig any_config() {
   for (int* value : {&c.min_points, &c.seed_count, &c.iterations}) {
     *value = *rc::gen::inRange(-std::numeric_limits<int>::max(), std::numeric_limits<int>::max());
   }
-  for (bool* value : {&c.few_points_are_ground, &c.keep_below_margin, &c.judge_final_set,
+  for (bool* value : {&c.sparse_bins_are_ground, &c.keep_below_margin, &c.evaluate_final_set,
                       &c.uprightness.enabled, &c.elevation.enabled, &c.flatness.enabled}) {
     *value = *rc::gen::arbitrary<bool>();
   }
@@ -178,8 +178,8 @@ TEST(ConfigToml, AValueOfTheWrongTypeIsRefusedWithItsPlaceAndTheTypeAllowed) {
               points_at(2, 15, "seed_height is a number, not a string"));
   EXPECT_THAT(complaint("iterations = 3.5\n"),
               points_at(1, 14, "iterations is a whole number, not a floating-point"));
-  EXPECT_THAT(complaint("judge_final_set = 1\n"),
-              points_at(1, 19, "judge_final_set is true or false, not a integer"));
+  EXPECT_THAT(complaint("evaluate_final_set = 1\n"),
+              points_at(1, 19, "evaluate_final_set is true or false, not a integer"));
   EXPECT_THAT(complaint("flatness.thresholds = 0.1\n"),
               points_at(1, 23, "flatness.thresholds is an array of numbers"));
   EXPECT_THAT(complaint("flatness.thresholds = [0.1, true]\n"),

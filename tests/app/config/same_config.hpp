@@ -18,8 +18,8 @@ inline bool is_same(const Zone& a, const Zone& b) {
 inline bool is_same(const PatchworkConfig& a, const PatchworkConfig& b) {
   const auto plain = [](const PatchworkConfig& c) {
     return std::tie(c.sensor_height, c.min_range, c.noise_depth, c.noise_slope, c.min_points,
-                    c.few_points_are_ground, c.seed_count, c.seed_height, c.keep_below_margin,
-                    c.distance_margin, c.noise_margin, c.iterations, c.judge_final_set,
+                    c.sparse_bins_are_ground, c.seed_count, c.seed_height, c.keep_below_margin,
+                    c.distance_margin, c.noise_margin, c.iterations, c.evaluate_final_set,
                     c.field_of_view.begin, c.field_of_view.width);
   };
   const auto terms = [](const PatchworkConfig& c) {

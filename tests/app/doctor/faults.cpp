@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "library/core/random.hpp"
 #include "app/doctor/street_scan.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::doctor {
 namespace {
@@ -98,10 +98,10 @@ std::vector<Fault> make_faults() {
        [](const Points& p) { return Points(p.begin(), p.begin() + 900); }},
       {"ZeroReturns", "zero_returns", note, [](const Points& p) { return every(4, p, {0, 0, 0}); }},
       {"NotFinite", "not_finite", note, [](const Points& p) { return every(9, p, {1, nan, 2}); }},
-      {"RepeatedPoints", "repeated_points", note, every_tenth_twice},
+      {"RepeatedPoints", "duplicate_points", note, every_tenth_twice},
       {"MapCoordinates", "coordinates", fix,
        each([](Point p) { return Point{p.x + 512345, p.y + 5401234, p.z + 112}; })},
-      {"FromTheAir", "one_place", fix, from_the_air, {}, {"ground", "beams"}},
+      {"FromTheAir", "single_viewpoint", fix, from_the_air, {}, {"ground", "beams"}},
       {"Millimetres", "units", fix,
        each([](Point p) { return Point{1000 * p.x, 1000 * p.y, 1000 * p.z}; })},
       {"Centimetres", "units", fix,
@@ -130,10 +130,11 @@ std::vector<Fault> make_faults() {
       {"HeightTooLow", "sensor_height", fix, each(std::identity()), {.sensor_height = 1.2f}},
       {"HeightTooHigh", "sensor_height", fix, each(std::identity()), {.sensor_height = 2.2f}},
       {"NoGround", "ground", fix, above_the_sensor},
-      {"OwnRoof", "own_vehicle", note, with_a_roof},
+      {"OwnRoof", "ego_vehicle", note, with_a_roof},
       {"NoRings", "beams", note, without_rings},
       {"BeyondTheMethodsRange", "range", note, each(std::identity()), {.max_range = 40.0f}},
-      {"VoxelAveraged", "thinning", note, [](const Points& p) { return voxel_means(p, 0.15f); }},
+      {"VoxelAveraged", "downsampling", note,
+       [](const Points& p) { return voxel_means(p, 0.15f); }},
   };
 }
 

@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(All, DoctorFault, testing::ValuesIn(faults()),
 
 TEST(Doctor, GivesNoSettingsWhereNoneHelp) {
   for (const Fault& fault : faults()) {
-    const std::set<std::string> hopeless{"points", "coordinates", "one_place", "ground"};
+    const std::set<std::string> hopeless{"points", "coordinates", "single_viewpoint", "ground"};
     if (!hopeless.contains(fault.finding)) continue;
     EXPECT_FALSE(diagnosis_of(fault.apply(street_scan()), fault.expected).advice.has_value())
         << fault.name;

@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "library/core/random.hpp"
 #include "app/doctor/diagnosis.hpp"
 #include "app/doctor/examination.hpp"
 #include "app/doctor/street_scan.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::doctor {
 namespace {

@@ -10,9 +10,9 @@
 #include <map>
 #include <utility>
 
-#include "library/core/random.hpp"
 #include "lab/sim/semantic_class.hpp"
 #include "lab/sim/simulate_street.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::doctor {
 namespace {

@@ -6,9 +6,9 @@
 #include <functional>
 #include <vector>
 
-#include "library/core/truth.hpp"
-#include "flagstone/cloud_view.hpp"
 #include "files/io/cloud.hpp"
+#include "flagstone/cloud_view.hpp"
+#include "library/core/truth.hpp"
 
 namespace flagstone::doctor {
 

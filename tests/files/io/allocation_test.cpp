@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <string>
 
+#include "counted_allocation.hpp"
 #include "files/io/bytes.hpp"
 #include "files/io/cloud_reader.hpp"
 #include "files/io/compress_lzf.hpp"
-#include "counted_allocation.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/npy.hpp"

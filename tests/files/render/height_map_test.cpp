@@ -6,17 +6,17 @@
 
 #include <cmath>
 
-#include "made_up_surface.hpp"
+#include "random_surface.hpp"
 
 namespace flagstone::render {
 namespace {
 
-using tests::made_up_surface;
+using tests::random_surface;
 
 float slanted(float x, float y) { return -1.7f + 0.1f * x - 0.2f * y; }
 
 TEST(HeightMap, BeginsAtTheSmallestXAndTheLargestY) {
-  const HeightMap map = map_of(made_up_surface(slanted), 32, 0.5);
+  const HeightMap map = map_of(random_surface(slanted), 32, 0.5);
 
   ASSERT_EQ(map.width, 128U);
   ASSERT_EQ(map.heights.size(), 128U * 128U);
@@ -27,7 +27,7 @@ TEST(HeightMap, BeginsAtTheSmallestXAndTheLargestY) {
 }
 
 TEST(HeightMap, HasTheSurfacesHeightAtTheCentreOfEachCell) {
-  const Surface surface = made_up_surface(slanted);
+  const GroundSurface surface = random_surface(slanted);
 
   const HeightMap map = map_of(surface, 32, 0.5);
 
@@ -41,7 +41,7 @@ TEST(HeightMap, HasTheSurfacesHeightAtTheCentreOfEachCell) {
 }
 
 TEST(HeightMap, CoversAnExtentThatIsNoWholeNumberOfCells) {
-  const HeightMap map = map_of(made_up_surface(slanted), 32, 5);
+  const HeightMap map = map_of(random_surface(slanted), 32, 5);
 
   EXPECT_EQ(map.width, 14U);
   EXPECT_EQ(map.extent(), 35);
@@ -50,11 +50,11 @@ TEST(HeightMap, CoversAnExtentThatIsNoWholeNumberOfCells) {
 }
 
 TEST(HeightMap, HasNoFurtherCellBecauseOfRounding) {
-  EXPECT_EQ(map_of(made_up_surface(slanted), 32, 0.1).width, 640U);
+  EXPECT_EQ(map_of(random_surface(slanted), 32, 0.1).width, 640U);
 }
 
 TEST(SmoothedHeightMap, IsTheSameOnAPlane) {
-  const Surface surface = made_up_surface(slanted, std::vector<tests::GridSize>{{1, 64}});
+  const GroundSurface surface = random_surface(slanted, std::vector<tests::GridSize>{{1, 64}});
 
   const HeightMap map = map_of(surface, 30, 0.5);
   const HeightMap smoothed = smoothed_map_of(surface, 30, 0.5);
@@ -64,8 +64,8 @@ TEST(SmoothedHeightMap, IsTheSameOnAPlane) {
 }
 
 TEST(SmoothedHeightMap, RoundsWhatBendsAtACell) {
-  const Surface ridge = made_up_surface([](float x, float) { return x == 0.5f ? 1.0f : 0.0f; },
-                                        std::vector<tests::GridSize>{{1, 64}});
+  const GroundSurface ridge = random_surface([](float x, float) { return x == 0.5f ? 1.0f : 0.0f; },
+                                             std::vector<tests::GridSize>{{1, 64}});
 
   const HeightMap smoothed = smoothed_map_of(ridge, 8, 1);
 

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "flagstone/label.hpp"
-#include "flagstone/segmentation.hpp"
 #include "files/render/birds_eye.hpp"
 #include "files/render/canvas.hpp"
 #include "files/render/palette.hpp"
+#include "flagstone/label.hpp"
+#include "flagstone/segmentation.hpp"
 
 namespace flagstone::render {
 

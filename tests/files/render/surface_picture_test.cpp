@@ -9,10 +9,10 @@
 #include <limits>
 
 #include "files/io/temporary_folder.hpp"
-#include "made_up_surface.hpp"
 #include "files/render/layout.hpp"
 #include "files/render/picture.hpp"
 #include "files/render/top_view.hpp"
+#include "random_surface.hpp"
 
 namespace flagstone::render {
 namespace {
@@ -29,7 +29,7 @@ class SurfacePictureTest : public testing::Test {
     options_.range = 20;
   }
 
-  Picture draw(const Surface& surface) {
+  Picture draw(const GroundSurface& surface) {
     const Status status = draw_surface(png_, surface, options_);
     EXPECT_TRUE(status.ok()) << status.message();
     return Picture(png_);
@@ -60,7 +60,7 @@ class SurfacePictureTest : public testing::Test {
 };
 
 TEST_F(SurfacePictureTest, HasTheSizeAskedFor) {
-  const Picture picture = draw(tests::made_up_surface([](float, float) { return -1.7f; }));
+  const Picture picture = draw(tests::random_surface([](float, float) { return -1.7f; }));
 
   EXPECT_EQ(picture.width(), 800);
   EXPECT_EQ(picture.height(), 890);
@@ -68,7 +68,7 @@ TEST_F(SurfacePictureTest, HasTheSizeAskedFor) {
 
 TEST_F(SurfacePictureTest, LeavesUnknownGroundBlank) {
   const Picture picture =
-      draw(tests::made_up_surface([](float x, float) { return x > 10 ? nan : -1.7f; }));
+      draw(tests::random_surface([](float x, float) { return x > 10 ? nan : -1.7f; }));
 
   EXPECT_EQ(color(picture, 15, 3), page_color);
   EXPECT_NE(color(picture, 5, 3), page_color);
@@ -76,7 +76,7 @@ TEST_F(SurfacePictureTest, LeavesUnknownGroundBlank) {
 
 TEST_F(SurfacePictureTest, GivesHeightsDifferentColours) {
   const Picture picture =
-      draw(tests::made_up_surface([](float, float y) { return y > 0 ? -1.0f : -3.0f; }));
+      draw(tests::random_surface([](float, float y) { return y > 0 ? -1.0f : -3.0f; }));
 
   const Color low = color(picture, 7.3, -7.3);
   const Color high = color(picture, 7.3, 7.3);
@@ -87,17 +87,17 @@ TEST_F(SurfacePictureTest, GivesHeightsDifferentColours) {
 TEST_F(SurfacePictureTest, LightsSlopesThatFallToTheUpperLeft) {
   const auto ridge = [](float x, float y) { return -0.2f * std::abs(x + y); };
 
-  const Picture picture = draw(tests::made_up_surface(ridge));
+  const Picture picture = draw(tests::random_surface(ridge));
 
   // Of the same height, ahead to the left and behind to the right.
   EXPECT_GT(lightness(color(picture, 3.1, 3.2)), lightness(color(picture, -3.1, -3.2)) + 30);
 }
 
 TEST_F(SurfacePictureTest, IsPalerWhereTheSurfaceIsLessSure) {
-  Surface surface = tests::made_up_surface([](float, float) { return -1.7f; });
-  for (Surface::Grid& grid : surface.start()) std::ranges::fill(grid.confidences, 0.2f);
+  GroundSurface surface = tests::random_surface([](float, float) { return -1.7f; });
+  for (GroundSurface::Grid& grid : surface.start()) std::ranges::fill(grid.confidences, 0.2f);
   const Picture unsure = draw(surface);
-  for (Surface::Grid& grid : surface.start()) std::ranges::fill(grid.confidences, 1.0f);
+  for (GroundSurface::Grid& grid : surface.start()) std::ranges::fill(grid.confidences, 1.0f);
   const Picture sure = draw(surface);
 
   EXPECT_GT(lightness(color(unsure, 5.2, 5.3)), lightness(color(sure, 5.2, 5.3)) + 10);
@@ -105,8 +105,7 @@ TEST_F(SurfacePictureTest, IsPalerWhereTheSurfaceIsLessSure) {
 
 TEST_F(SurfacePictureTest, DrawsALineAtEveryStepOfHeight) {
   // From -4 m behind to 0 m ahead: lines half a metre, that is 5 m, apart.
-  const Picture picture =
-      draw(tests::made_up_surface([](float x, float) { return -2 + 0.1f * x; }));
+  const Picture picture = draw(tests::random_surface([](float x, float) { return -2 + 0.1f * x; }));
 
   for (const double x : {-15.0, -10.0, -5.0, 0.0, 5.0, 10.0, 15.0})
     EXPECT_TRUE(has_line(picture, x, 12.3)) << x;
@@ -115,9 +114,9 @@ TEST_F(SurfacePictureTest, DrawsALineAtEveryStepOfHeight) {
 }
 
 TEST_F(SurfacePictureTest, ShowsWhereTheSurfaceIsSureUnlessARangeIsAsked) {
-  Surface surface = tests::made_up_surface([](float, float) { return -1.7f; },
-                                           std::vector<tests::GridSize>{{1, 128}});
-  Surface::Grid& grid = surface.start()[0];
+  GroundSurface surface = tests::random_surface([](float, float) { return -1.7f; },
+                                                std::vector<tests::GridSize>{{1, 128}});
+  GroundSurface::Grid& grid = surface.start()[0];
   for (std::size_t row = 0; row < grid.width; ++row) {
     for (std::size_t column = 0; column < grid.width; ++column) {
       const bool is_near = std::max(std::abs(static_cast<double>(row) - 63.5),
@@ -133,8 +132,8 @@ TEST_F(SurfacePictureTest, ShowsWhereTheSurfaceIsSureUnlessARangeIsAsked) {
 }
 
 TEST_F(SurfacePictureTest, OfTheSameGroundIsTheSameFile) {
-  const Surface surface =
-      tests::made_up_surface([](float x, float y) { return std::sin(x / 5) * std::cos(y / 4); });
+  const GroundSurface surface =
+      tests::random_surface([](float x, float y) { return std::sin(x / 5) * std::cos(y / 4); });
   draw(surface);
   const std::string first = bytes_of(png_);
   draw(surface);
@@ -143,17 +142,17 @@ TEST_F(SurfacePictureTest, OfTheSameGroundIsTheSameFile) {
 }
 
 TEST_F(SurfacePictureTest, DrawsGroundOfWhichNothingIsKnown) {
-  const Picture picture = draw(tests::made_up_surface([](float, float) { return nan; }));
+  const Picture picture = draw(tests::random_surface([](float, float) { return nan; }));
 
   EXPECT_EQ(color(picture, 10, 10), page_color);
 }
 
 TEST_F(SurfacePictureTest, DrawsGroundOfAnyHeight) {
-  draw(tests::made_up_surface([](float x, float) { return x > 0 ? 1e4f : -1e4f; }));
+  draw(tests::random_surface([](float x, float) { return x > 0 ? 1e4f : -1e4f; }));
 }
 
 TEST_F(SurfacePictureTest, RefusesAnEmptySurface) {
-  const Status status = draw_surface(png_, Surface(), options_);
+  const Status status = draw_surface(png_, GroundSurface(), options_);
 
   EXPECT_EQ(status.code(), StatusCode::invalid_argument);
   EXPECT_EQ(status.message(), "surface picture: there is no surface; its method makes none");
@@ -161,7 +160,7 @@ TEST_F(SurfacePictureTest, RefusesAnEmptySurface) {
 }
 
 TEST_F(SurfacePictureTest, RefusesSizesAndRangesThatAreNotAllowed) {
-  const Surface surface = tests::made_up_surface([](float, float) { return 0.0f; });
+  const GroundSurface surface = tests::random_surface([](float, float) { return 0.0f; });
   options_.width = 100;
   EXPECT_EQ(draw_surface(png_, surface, options_).message(),
             "surface picture: size 100 x 890 pixels; each may be 320 to 8192");
@@ -171,7 +170,7 @@ TEST_F(SurfacePictureTest, RefusesSizesAndRangesThatAreNotAllowed) {
 }
 
 TEST_F(SurfacePictureTest, SaysWhereAFileCannotBeWritten) {
-  const Surface surface = tests::made_up_surface([](float, float) { return 0.0f; });
+  const GroundSurface surface = tests::random_surface([](float, float) { return 0.0f; });
 
   EXPECT_EQ(draw_surface(folder_ / "missing/ground.png", surface, options_).code(),
             StatusCode::unwritable);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "counted_allocation.hpp"
-#include "made_up_cloud.hpp"
 #include "methods.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -19,9 +19,9 @@ class Allocation : public testing::TestWithParam<tests::Method> {};
 INSTANTIATE_TEST_SUITE_P(All, Allocation, testing::ValuesIn(tests::methods()), tests::name_of);
 
 TEST_P(Allocation, SegmentAllocatesNothingAfterWarmUp) {
-  const std::vector<Point> large = tests::made_up_cloud(60000, 1);
+  const std::vector<Point> large = tests::random_cloud(60000, 1);
   const std::vector<Point> other = tests::corrupted_cloud(60000, 2);
-  const std::vector<Point> small = tests::made_up_cloud(500, 3);
+  const std::vector<Point> small = tests::random_cloud(500, 3);
   const auto segmenter = GetParam().make();
   Segmentation result;
   ASSERT_TRUE(segmenter->segment(tests::view_of(large), result).ok());
@@ -37,7 +37,7 @@ TEST_P(Allocation, SegmentAllocatesNothingAfterWarmUp) {
 }
 
 TEST_P(Allocation, WarmUpAllocatesSoThatTheCounterIsSeenToCount) {
-  const std::vector<Point> cloud = tests::made_up_cloud(1000, 1);
+  const std::vector<Point> cloud = tests::random_cloud(1000, 1);
   io::allocated = 0;
   Segmentation result;
   ASSERT_TRUE(GetParam().make()->segment(tests::view_of(cloud), result).ok());
@@ -46,8 +46,8 @@ TEST_P(Allocation, WarmUpAllocatesSoThatTheCounterIsSeenToCount) {
 }
 
 TEST_P(Allocation, WithoutMemoryAScanIsRefusedAndTheNextOneSegmented) {
-  const std::vector<Point> small = tests::made_up_cloud(1000, 1);
-  const std::vector<Point> large = tests::made_up_cloud(30000, 1);
+  const std::vector<Point> small = tests::random_cloud(1000, 1);
+  const std::vector<Point> large = tests::random_cloud(30000, 1);
   const auto segmenter = GetParam().make();
   Segmentation result;
   ASSERT_TRUE(segmenter->segment(tests::view_of(small), result).ok());

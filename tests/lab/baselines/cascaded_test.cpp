@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "lab/baselines/cascaded_beams.hpp"
-#include "lab/baselines/cascaded_planes.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/read_cloud.hpp"
+#include "lab/baselines/cascaded_beams.hpp"
+#include "lab/baselines/cascaded_planes.hpp"
 #include "real_scans.hpp"
 
 namespace flagstone {

@@ -17,14 +17,14 @@
 #include <span>
 #include <vector>
 
-#include "made_up_cloud.hpp"
 #include "methods.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
 
 using tests::corrupted_cloud;
-using tests::made_up_cloud;
+using tests::random_cloud;
 using tests::view_of;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -75,14 +75,14 @@ TEST_P(Contract, OneLabelPerPointAndCountsAddUp) {
 }
 
 TEST_P(Contract, GroundIsFound) {
-  ASSERT_TRUE(segmenter->segment(view_of(made_up_cloud(64000, 2)), result).ok());
+  ASSERT_TRUE(segmenter->segment(view_of(random_cloud(64000, 2)), result).ok());
 
   EXPECT_GT(result.count(Label::ground), 64000u / 3);
   EXPECT_GT(result.count(Label::nonground), 0u);
 }
 
 TEST_P(Contract, LabelsAreInInputOrder) {
-  std::vector<Point> cloud = made_up_cloud(6400, 1);
+  std::vector<Point> cloud = random_cloud(6400, 1);
   cloud[3000].y = nan;
   cloud.back() = {1e6f, 0, 0};
 
@@ -95,7 +95,7 @@ TEST_P(Contract, LabelsAreInInputOrder) {
 
 TEST_P(Contract, AScanLeavesNoTraceInTheNext) {
   const std::vector<Point> first = corrupted_cloud(30000, 5);
-  const std::vector<Point> second = made_up_cloud(9000, 6);
+  const std::vector<Point> second = random_cloud(9000, 6);
   Segmentation fresh;
   ASSERT_TRUE(GetParam().make()->segment(view_of(second), fresh).ok());
 
@@ -147,7 +147,7 @@ TEST_P(Contract, ACloudThatIsReadBackwardsIsLabelledInItsOwnOrder) {
 TEST_P(Contract, NothingIsReadOutsideTheUsersBuffer) {
   // Exactly as long as its points: AddressSanitizer sees a read beyond.
   for (std::size_t points = 1; points < 70; ++points) {
-    EXPECT_EQ(labels_of(made_up_cloud(points, 9)).size(), points);
+    EXPECT_EQ(labels_of(random_cloud(points, 9)).size(), points);
   }
 }
 
@@ -194,7 +194,7 @@ TEST_P(Contract, PointsMoreThanTenKilometresAwayAreOutOfRange) {
 }
 
 TEST_P(Contract, HugeCoordinatesHarmNothingElse) {
-  const std::vector<Point> good = made_up_cloud(20000, 12);
+  const std::vector<Point> good = random_cloud(20000, 12);
   std::vector<Point> cloud = good;
   for (std::size_t i = 0; i < 500; ++i) {
     cloud.push_back({10 + 0.001f * static_cast<float>(i), 2, 3e38f});
@@ -237,7 +237,7 @@ TEST_P(Contract, ASinglePointHasALabel) {
 }
 
 TEST_P(Contract, DenormalCoordinatesHarmNothingElse) {
-  const std::vector<Point> cloud = made_up_cloud(64000, 2);
+  const std::vector<Point> cloud = random_cloud(64000, 2);
   std::vector<Point> spoilt = cloud;
   constexpr float denormal = std::numeric_limits<float>::denorm_min();
   for (int i = 1; i <= 30; ++i) {

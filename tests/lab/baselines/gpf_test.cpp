@@ -18,7 +18,7 @@
 
 #include "lab/baselines/gpf_segments.hpp"
 #include "library/core/random.hpp"
-#include "made_up_cloud.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -201,7 +201,7 @@ TEST(Gpf, ASegmentOfTwoPointsHasNoPlane) {
 }
 
 TEST(Gpf, AMovedSegmenterStillSegments) {
-  const std::vector<Point> cloud = tests::made_up_cloud(3000, 3);
+  const std::vector<Point> cloud = tests::random_cloud(3000, 3);
   Gpf original;
   Gpf moved = std::move(original);
   Segmentation result;

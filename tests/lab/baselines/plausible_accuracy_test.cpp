@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "lab/eval/confusion.hpp"
-#include "lab/eval/protocol.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/read_cloud.hpp"
+#include "lab/eval/confusion.hpp"
+#include "lab/eval/protocol.hpp"
 #include "methods.hpp"
 #include "real_scans.hpp"
 

@@ -17,7 +17,7 @@
 
 #include "lab/baselines/ransac_search.hpp"
 #include "library/core/random.hpp"
-#include "made_up_cloud.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {

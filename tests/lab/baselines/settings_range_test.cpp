@@ -38,15 +38,15 @@ std::string complaint_of(std::string_view method, std::size_t number,
 }
 
 /// Numbers that the setting may not be.
-std::vector<double> numbers_beyond(const Allowed& allowed) {
+std::vector<double> numbers_beyond(const ValidRange& allowed) {
   const auto just_beyond = [](double bound, double side) {
     return bound + side * (std::abs(bound) * 0.01 + 0.001);
   };
-  const double below = allowed.without_low ? allowed.low : just_beyond(allowed.low, -1);
+  const double below = allowed.exclusive_min ? allowed.low : just_beyond(allowed.low, -1);
   std::vector<double> numbers = {below, just_beyond(allowed.high, 1),
                                  std::numeric_limits<double>::quiet_NaN(),
                                  -std::numeric_limits<double>::infinity()};
-  if (!allowed.or_infinity) numbers.push_back(std::numeric_limits<double>::infinity());
+  if (!allowed.allow_infinity) numbers.push_back(std::numeric_limits<double>::infinity());
   return numbers;
 }
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "made_up_cloud.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone::baselines {
 namespace {

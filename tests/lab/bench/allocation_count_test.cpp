@@ -10,7 +10,7 @@
 
 #include "lab/bench/timed_segment.hpp"
 #include "library/core/simd_target.hpp"
-#include "made_up_cloud.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone::bench {
 namespace {
@@ -47,7 +47,7 @@ TEST(AllocationCount, AlignedMemoryIsAligned) {
 }
 
 TEST(AllocationCount, TheFirstScanAllocatesAndTheSecondDoesNot) {
-  const std::vector<Point> cloud = tests::made_up_cloud(5000, 1);
+  const std::vector<Point> cloud = tests::random_cloud(5000, 1);
   const std::vector<CloudView> views = {tests::view_of(cloud)};
   for (const TimedConfig& config : {TimedConfig(PatchworkConfig{}), TimedConfig(SurfaceConfig{})}) {
     TimedSegment segment(views, config, MountSettings{}, 1, simd_target());

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "library/core/simd_target.hpp"
-#include "made_up_cloud.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone::bench {
 namespace {

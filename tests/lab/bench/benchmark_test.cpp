@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
 #include "flagstone/segmentation.hpp"
-#include "made_up_cloud.hpp"
+#include "library/core/simd_target.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone::bench {
 namespace {
@@ -24,7 +24,7 @@ using testing::ElementsAre;
 
 io::Cloud cloud_of(std::size_t points, std::uint32_t seed) {
   std::vector<float> rows;
-  for (const Point& p : tests::made_up_cloud(points, seed)) {
+  for (const Point& p : tests::random_cloud(points, seed)) {
     rows.insert(rows.end(), {p.x, p.y, p.z, 0.5f});
   }
   io::Cloud cloud;

@@ -80,10 +80,10 @@ TEST(StepView, HasNoWidthAcrossAGap) {
 
 // Cells of 0.25 m: a kerb between two rows of cell centres is spread between these.
 TEST(StepView, OfAKerbInAGridOfQuarterMetresIsSpreadBetweenItsCells) {
-  flagstone::Surface surface;
-  std::vector<flagstone::Surface::Grid>& grids = surface.start();
+  flagstone::GroundSurface surface;
+  std::vector<flagstone::GroundSurface::Grid>& grids = surface.start();
   grids.resize(1);
-  flagstone::Surface::Grid& grid = grids[0];
+  flagstone::GroundSurface::Grid& grid = grids[0];
   grid.cell = 0.25F;
   grid.width = 80;
   for (std::size_t row = 0; row < grid.width; ++row) {

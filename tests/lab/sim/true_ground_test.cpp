@@ -10,11 +10,11 @@
 #include <optional>
 #include <vector>
 
-#include "library/core/random.hpp"
 #include "lab/sim/drive.hpp"
 #include "lab/sim/scene_kind.hpp"
 #include "lab/sim/simulate_street.hpp"
 #include "lab/sim/street_shape.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 namespace {

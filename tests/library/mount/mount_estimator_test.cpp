@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "flagstone/mount.hpp"
-#include "made_up_cloud.hpp"
 #include "library/mount/yard.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -190,7 +190,7 @@ TEST(MountEstimator, ASensorUpsideDownIsTold) {
 
 TEST(MountEstimator, HeightIsAlongAGivenUp) {
   const YardScan scan = scan_of({.mounting = {.height = 1.73, .pitch = 20}});
-  MountSettings settings{.tilt = TiltSource::given};
+  MountSettings settings{.tilt = TiltSource::fixed};
   for (std::size_t i = 0; i < 3; ++i) settings.mount.up[i] = 9.81f * scan.mount.up[i];
 
   const MountDecision decision = MountEstimator(settings).estimate(scan.view());

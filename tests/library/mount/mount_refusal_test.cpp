@@ -64,7 +64,7 @@ TEST(MountRefusal, OfAHandfulOfPoints) {
 TEST(MountRefusal, OfWallsWithoutGround) {
   const MountDecision decision = decided(walls(-1.7f, 3));
 
-  EXPECT_EQ(decision.verdict, MountVerdict::not_free);
+  EXPECT_EQ(decision.verdict, MountVerdict::obstructed);
   EXPECT_LT(decision.confidence, 0.1f);
   EXPECT_THAT(to_sentence(decision), HasSubstr("the foot of what stands on it"));
 }
@@ -84,7 +84,7 @@ TEST(MountRefusal, OfATableWithTheFloorSeenBesideIt) {
 
   const MountDecision decision = decided(points);
 
-  EXPECT_EQ(decision.verdict, MountVerdict::not_lowest) << to_sentence(decision);
+  EXPECT_EQ(decision.verdict, MountVerdict::points_below) << to_sentence(decision);
   EXPECT_THAT(to_sentence(decision), HasSubstr("lies below the best plane"));
 }
 
@@ -105,8 +105,8 @@ TEST(MountRefusal, OfACloudWithoutAnyLevel) {
 
 TEST(MountRefusal, OfAHeightBeyondTheLimits) {
   MountSettings settings;
-  settings.limits.least_height = 1;
-  settings.limits.most_height = 3;
+  settings.limits.min_height = 1;
+  settings.limits.max_height = 3;
 
   EXPECT_EQ(decided(level_ground(1.73f), settings).verdict, MountVerdict::accepted);
   EXPECT_EQ(decided(level_ground(0.9f), settings).verdict, MountVerdict::height_limit);
@@ -116,7 +116,7 @@ TEST(MountRefusal, OfAHeightBeyondTheLimits) {
 TEST(MountRefusal, OfATiltBeyondTheLimit) {
   const tests::YardScan scan = tests::scan_of({.mounting = {.height = 1.73, .pitch = 12}});
   MountSettings settings{.tilt = TiltSource::estimate};
-  settings.limits.most_tilt = 10;
+  settings.limits.max_tilt = 10;
 
   const MountDecision decision = MountEstimator(settings).estimate(scan.view());
 
@@ -133,9 +133,9 @@ TEST(MountRefusal, OfWhatIsLessSureThanAskedFor) {
   ASSERT_GT(unsure.confidence, 0.1f);
   ASSERT_LT(unsure.confidence, 1);
 
-  settings.limits.least_confidence = unsure.confidence + 0.01f;
+  settings.limits.min_confidence = unsure.confidence + 0.01f;
   EXPECT_FALSE(decided(few, settings).accepted());
-  settings.limits.least_confidence = unsure.confidence - 0.01f;
+  settings.limits.min_confidence = unsure.confidence - 0.01f;
   EXPECT_TRUE(decided(few, settings).accepted());
 }
 

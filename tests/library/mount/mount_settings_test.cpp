@@ -68,12 +68,12 @@ TEST(MountSettings, AHeightOfTheSensorOutOfRangeIsRefused) {
 
 TEST(MountSettings, LimitsThatLeaveNothingAreRefused) {
   MountSettings heights;
-  heights.limits.most_height = heights.limits.least_height;
+  heights.limits.max_height = heights.limits.min_height;
   MountSettings ranges;
-  ranges.limits.own_vehicle = 12;
+  ranges.limits.ego_radius = 12;
 
-  EXPECT_THAT(complaint(heights), HasSubstr("above least_height"));
-  EXPECT_THAT(complaint(ranges), HasSubstr("1.5 times own_vehicle"));
+  EXPECT_THAT(complaint(heights), HasSubstr("above min_height"));
+  EXPECT_THAT(complaint(ranges), HasSubstr("1.5 times ego_radius"));
 }
 
 TEST(MountSettings, AnEstimatorOfSettingsOutOfRangeIsRefused) {

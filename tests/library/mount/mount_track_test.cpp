@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "flagstone/levelled_segmenter.hpp"
+#include "flagstone/gravity_aligned_segmenter.hpp"
 #include "library/mount/recording_method.hpp"
 #include "library/mount/yard.hpp"
 
@@ -37,7 +37,7 @@ class Asked {
 
  private:
   RecordingMethod::Seen seen_;
-  LevelledSegmenter levelled_;
+  GravityAlignedSegmenter levelled_;
 };
 
 TEST(EstimatedMount, IsThatOfTheFirstScanThatTellsIt) {
@@ -48,7 +48,7 @@ TEST(EstimatedMount, IsThatOfTheFirstScanThatTellsIt) {
   EXPECT_EQ(asked.about(1.2f), MountVerdict::accepted);
   EXPECT_NEAR(asked.height(), 1.2f, 0.001f);
   EXPECT_NEAR(asked.ground(), -1.73f, 0.001f);  // that very scan is already levelled
-  EXPECT_EQ(asked.about(2.0f), MountVerdict::given);
+  EXPECT_EQ(asked.about(2.0f), MountVerdict::fixed);
   EXPECT_NEAR(asked.height(), 1.2f, 0.001f);
 }
 
@@ -82,7 +82,7 @@ TEST(TrackedMount, IsTheMeanOfTheFirstScans) {
 }
 
 TEST(TrackedMount, FollowsASlowChange) {
-  Asked asked({.height = HeightSource::track, .tracking = {.memory = 5}});
+  Asked asked({.height = HeightSource::track, .tracking = {.window = 5}});
 
   for (int i = 0; i <= 60; ++i) {
     EXPECT_EQ(asked.about(1.5f + 0.01f * static_cast<float>(i)), MountVerdict::accepted) << i;

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "lab/eval/confusion.hpp"
-#include "lab/eval/protocol.hpp"
-#include "flagstone/patchwork.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/read_cloud.hpp"
+#include "flagstone/patchwork.hpp"
+#include "lab/eval/confusion.hpp"
+#include "lab/eval/protocol.hpp"
 #include "real_scans.hpp"
 
 namespace flagstone {

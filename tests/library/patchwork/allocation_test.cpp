@@ -9,9 +9,9 @@
 #include <random>
 #include <vector>
 
-#include "lab/bench/allocation_count.hpp"
 #include "flagstone/patchwork.hpp"
-#include "made_up_cloud.hpp"
+#include "lab/bench/allocation_count.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(Threads, PatchworkAllocation, testing::Values(1U, 2U, 5
                          testing::PrintToStringParamName());
 
 TEST_P(PatchworkAllocation, TheFirstScanAllocates) {
-  const std::vector<Point> cloud = tests::made_up_cloud(1000, 1);
+  const std::vector<Point> cloud = tests::random_cloud(1000, 1);
   const std::size_t before = allocation_count().calls;
 
   ASSERT_TRUE(patchwork.segment(view_of(cloud), result).ok());
@@ -45,11 +45,11 @@ TEST_P(PatchworkAllocation, TheFirstScanAllocates) {
 
 TEST_P(PatchworkAllocation, OneScanIsEnoughForAllOfItsSizeInAnyOrderAndSmallerOnes) {
   // In order runs are sorted, in no order points: room for both is made at once.
-  const std::vector<Point> in_order = tests::made_up_cloud(60000, 1);
+  const std::vector<Point> in_order = tests::random_cloud(60000, 1);
   const std::vector<Point> in_no_order = shuffled(in_order);
   const std::vector<Point> corrupted = tests::corrupted_cloud(60000, 2);
   const std::vector<Point> in_one_place(60000, Point{6.1f, 2.3f, -1.7f});
-  const std::vector<Point> small = tests::made_up_cloud(500, 3);
+  const std::vector<Point> small = tests::random_cloud(500, 3);
   ASSERT_TRUE(patchwork.segment(view_of(in_order), result).ok());
   const std::size_t before = allocation_count().calls;
 
@@ -64,7 +64,7 @@ TEST_P(PatchworkAllocation, OneScanIsEnoughForAllOfItsSizeInAnyOrderAndSmallerOn
 
 TEST_P(PatchworkAllocation, AScanInOneBinIsEnoughForAllOfItsSize) {
   const std::vector<Point> in_one_place(60000, Point{6.1f, 2.3f, -1.7f});
-  const std::vector<Point> in_no_order = shuffled(tests::made_up_cloud(60000, 1));
+  const std::vector<Point> in_no_order = shuffled(tests::random_cloud(60000, 1));
   ASSERT_TRUE(patchwork.segment(view_of(in_one_place), result).ok());
   const std::size_t before = allocation_count().calls;
 
@@ -75,7 +75,7 @@ TEST_P(PatchworkAllocation, AScanInOneBinIsEnoughForAllOfItsSize) {
 
 TEST(PatchworkMemory, OfOneThreadIsAtMost64BytesAPoint) {
   constexpr std::size_t points = 1'000'000;
-  const std::vector<Point> cloud = shuffled(tests::made_up_cloud(points, 1));
+  const std::vector<Point> cloud = shuffled(tests::random_cloud(points, 1));
   const std::size_t before = allocation_count().bytes;
 
   Patchwork patchwork;
@@ -89,7 +89,7 @@ TEST(PatchworkMemory, OfOneThreadIsAtMost64BytesAPoint) {
 }
 
 TEST(PatchworkMemory, IsGivenBackInTheEnd) {
-  const std::vector<Point> cloud = tests::made_up_cloud(20000, 1);
+  const std::vector<Point> cloud = tests::random_cloud(20000, 1);
   const std::size_t before = allocation_count().bytes;
   {
     Patchwork patchwork({}, 3);

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
 #include "flagstone/cloud_view.hpp"
 #include "forced_target.hpp"
+#include "library/core/simd_target.hpp"
 
 namespace flagstone::patchwork {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What the data contract says of Patchwork alone; what it says of every method: tests/lab/baselines.
+// What the data contract says of Patchwork alone; what it says of every method:
+// tests/lab/baselines.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -16,13 +17,13 @@
 #include <vector>
 
 #include "flagstone/flagstone.hpp"
-#include "made_up_cloud.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
 
 using tests::corrupted_cloud;
-using tests::made_up_cloud;
+using tests::random_cloud;
 using tests::view_of;
 
 std::vector<Label> labels_of(const std::vector<Point>& cloud) {
@@ -64,7 +65,7 @@ TEST(Contract, PointsNearerThanTheFirstRingOrBeyondTheLastAreOutOfRange) {
 }
 
 TEST(Contract, PointsFarBelowAnyGroundAreNoise) {
-  std::vector<Point> cloud = made_up_cloud(64000, 11);
+  std::vector<Point> cloud = random_cloud(64000, 11);
   cloud.push_back({10, 0.5f, -12});
   cloud.push_back({10, 0.5f, -9999});
 
@@ -88,7 +89,7 @@ TEST(Contract, AllPointsEqualAreOnePlace) {
 }
 
 TEST(Contract, TenMillionPointsAreSegmented) {
-  const std::vector<Point> cloud = made_up_cloud(10'000'000, 13);
+  const std::vector<Point> cloud = random_cloud(10'000'000, 13);
   Patchwork patchwork;
   Segmentation result;
 
@@ -111,7 +112,7 @@ TEST(Contract, ThreadsOutsideOf1To1024AreRefusedWithTheirNumber) {
 }
 
 TEST(Contract, ManyMoreThreadsThanCoresSegment) {
-  const std::vector<Point> cloud = made_up_cloud(20000, 16);
+  const std::vector<Point> cloud = random_cloud(20000, 16);
   Patchwork patchwork({}, 64);
   Segmentation result;
 
@@ -121,7 +122,7 @@ TEST(Contract, ManyMoreThreadsThanCoresSegment) {
 }
 
 TEST(Contract, AMovedSegmenterStillSegments) {
-  const std::vector<Point> cloud = made_up_cloud(3000, 15);
+  const std::vector<Point> cloud = random_cloud(3000, 15);
   Patchwork original;
   Patchwork moved = std::move(original);
   Segmentation result;

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "edge_scan.hpp"
-#include "made_up_cloud.hpp"
 #include "library/patchwork/outcome.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -108,14 +108,14 @@ TEST(PatchworkBelowAPatch, PointsInAPlaneOfTheirOwnAreGroundAndThePatchSaysHowMa
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::ground), 430);
   ASSERT_EQ(outcome.patches.size(), 1U);
   EXPECT_EQ(outcome.patches[0].ground_count, 430U);
-  EXPECT_EQ(outcome.patches[0].sunken_count, 30U);
+  EXPECT_EQ(outcome.patches[0].lower_ground_count, 30U);
   EXPECT_NEAR(outcome.patches[0].mean[2], -1.73f, 0.01f);
 }
 
 TEST(PatchworkBelowAPatch, ScatteredPointsAreNoise) {
   const Outcome outcome = of_ground_above(30, 3, scattered);
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::noise), 30);
-  EXPECT_EQ(outcome.patches[0].sunken_count, 0U);
+  EXPECT_EQ(outcome.patches[0].lower_ground_count, 0U);
 }
 
 TEST(PatchworkBelowAPatch, FewPointsAreNoise) {
@@ -125,12 +125,12 @@ TEST(PatchworkBelowAPatch, FewPointsAreNoise) {
 
 TEST(PatchworkBelowAPatch, ALongWayOfOneBeamIsGround) {
   const Outcome outcome = of_ground_above(30, 1, rough);
-  EXPECT_EQ(outcome.patches[0].sunken_count, 30U);
+  EXPECT_EQ(outcome.patches[0].lower_ground_count, 30U);
 }
 
 TEST(PatchworkBelowAPatch, NothingIsLookedForWithoutASupportMargin) {
   PatchworkConfig config;
-  config.support_margin = std::numeric_limits<float>::infinity();
+  config.lower_plane_margin = std::numeric_limits<float>::infinity();
   const Outcome outcome = of_ground_above(30, 3, rough, config);
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::noise), 30);
 }

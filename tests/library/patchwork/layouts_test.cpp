@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
 #include "flagstone/patchwork.hpp"
 #include "forced_target.hpp"
 #include "guarded_memory.hpp"
-#include "made_up_cloud.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/patchwork/outcome.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {

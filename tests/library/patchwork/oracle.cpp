@@ -204,7 +204,7 @@ Verdict judge(const Plane& plane, double r_n, std::size_t ring, const PatchworkC
 
 /// Of the points so far below a patch that they are noise, those that lie in a plane of their own
 /// are ground, if they are enough, spread both ways, flat and upright.
-Indices sunken_ground(CloudView cloud, const Indices& deep) {
+Indices lower_ground(CloudView cloud, const Indices& deep) {
   const auto near = [&](const Plane& plane, double margin) {
     Indices set;
     for (const std::size_t k : deep) {
@@ -233,7 +233,7 @@ Indices sunken_ground(CloudView cloud, const Indices& deep) {
 void segment_bin(CloudView cloud, const Place& place, std::size_t ring_overall,
                  const PatchworkConfig& config, Bin& bin, std::vector<Label>& labels) {
   if (bin.points.size() < static_cast<std::size_t>(config.min_points)) {
-    if (!config.few_points_are_ground) return;
+    if (!config.sparse_bins_are_ground) return;
     for (const std::size_t k : bin.points) labels[k] = Label::ground;
     return;
   }
@@ -254,7 +254,7 @@ void segment_bin(CloudView cloud, const Place& place, std::size_t ring_overall,
     set = next_set(cloud, bin.points, last, config);
   }
 
-  const Plane judged = plane_of(cloud, config.judge_final_set ? set : previous);
+  const Plane judged = plane_of(cloud, config.evaluate_final_set ? set : previous);
   if (!judged.exists) {
     bin.verdict = Verdict::no_plane;
     return;
@@ -268,11 +268,11 @@ void segment_bin(CloudView cloud, const Place& place, std::size_t ring_overall,
   Indices deep;
   for (const std::size_t k : bin.points) {
     const double depth = -height_above(last, cloud, k);
-    if (depth > config.noise_margin || depth > config.support_margin) deep.push_back(k);
+    if (depth > config.noise_margin || depth > config.lower_plane_margin) deep.push_back(k);
   }
   for (const std::size_t k : deep) labels[k] = Label::noise;
-  if (std::isinf(config.support_margin)) return;
-  for (const std::size_t k : sunken_ground(cloud, deep)) labels[k] = Label::ground;
+  if (std::isinf(config.lower_plane_margin)) return;
+  for (const std::size_t k : lower_ground(cloud, deep)) labels[k] = Label::ground;
 }
 
 }  // namespace

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "flagstone/patchwork_config.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/read_cloud.hpp"
-#include "made_up_cloud.hpp"
+#include "flagstone/patchwork_config.hpp"
 #include "library/patchwork/oracle_comparison.hpp"
+#include "random_cloud.hpp"
 #include "real_scans.hpp"
 
 namespace flagstone {
@@ -25,7 +25,7 @@ namespace {
 using oracle::compare;
 using oracle::Difference;
 using oracle::expect_agreement;
-using tests::made_up_cloud;
+using tests::random_cloud;
 using tests::view_of;
 
 /// 0 <= value < 1, the same everywhere.
@@ -90,7 +90,7 @@ TEST_P(OracleOnHardClouds, RealScansInNoOrder) {
 
 TEST_P(OracleOnHardClouds, HalfOfABinEqual) {
   for (const std::size_t block : {8U, 64U, 512U}) {
-    std::vector<Point> cloud = made_up_cloud(40000, 21);
+    std::vector<Point> cloud = random_cloud(40000, 21);
     for (std::size_t i = 1; i < cloud.size(); i += 2) cloud[i] = cloud[i / block * block];
     expect_agreement_on("every other of " + std::to_string(block) + " points equal", cloud);
     expect_agreement_on("the same shuffled", shuffled(cloud, 2));
@@ -132,7 +132,7 @@ TEST_P(OracleOnHardClouds, Poles) {
 
 TEST_P(OracleOnHardClouds, PolesOnGround) {
   std::mt19937 random(5);
-  std::vector<Point> cloud = made_up_cloud(30000, 22);
+  std::vector<Point> cloud = random_cloud(30000, 22);
   for (std::size_t i = 0; i < 6000; ++i) {
     Point top = cloud[i / 30 * 150];
     top.z += 3 * unit(random);
@@ -178,7 +178,7 @@ TEST_P(OracleOnHardClouds, HeightsOf9999Metres) {
     const auto level = [height](float x, float) { return height + 0.004f * x; };
     expect_agreement_on("ground at " + std::to_string(height) + " m",
                         surface(60000, 79, 12, level, 0.5f));
-    std::vector<Point> cloud = made_up_cloud(40000, 23);
+    std::vector<Point> cloud = random_cloud(40000, 23);
     for (std::size_t i = 0; i < cloud.size(); i += 50) cloud[i].z = height;
     expect_agreement_on("one point in 50 at " + std::to_string(height) + " m", cloud);
   }
@@ -194,7 +194,7 @@ TEST_P(OracleOnHardClouds, GroundBelowEveryMargin) {
 TEST_P(OracleOnHardClouds, ReflectionsAtMinus9000MetresThatNobodyCallsNoise) {
   config.noise_depth = std::numeric_limits<float>::infinity();
   for (const std::size_t every : {2U, 5U, 20U, 100U, 1000U}) {
-    std::vector<Point> cloud = made_up_cloud(40000, 24);
+    std::vector<Point> cloud = random_cloud(40000, 24);
     for (std::size_t i = 0; i < cloud.size(); i += every) cloud[i].z = -9000;
     expect_agreement_on("one in " + std::to_string(every) + " at -9000 m", cloud);
   }
@@ -203,7 +203,7 @@ TEST_P(OracleOnHardClouds, ReflectionsAtMinus9000MetresThatNobodyCallsNoise) {
 TEST_P(OracleOnHardClouds, SensorsOnTheGroundAndHighAbove) {
   for (const float sensor_height : {0.0f, 0.3f, 30.0f, 100.0f}) {
     config.sensor_height = sensor_height;
-    std::vector<Point> cloud = made_up_cloud(60000, 25);
+    std::vector<Point> cloud = random_cloud(60000, 25);
     std::mt19937 random(13);
     for (Point& p : cloud) p.z += 1.73f - sensor_height + 0.4f * unit(random);
     expect_agreement_on("sensor " + std::to_string(sensor_height) + " m up", cloud);

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "flagstone/patchwork_config.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/read_cloud.hpp"
-#include "made_up_cloud.hpp"
-#include "library/patchwork/oracle_comparison.hpp"
-#include "real_scans.hpp"
+#include "flagstone/patchwork_config.hpp"
 #include "lab/sim/simulate_street.hpp"
+#include "library/patchwork/oracle_comparison.hpp"
+#include "random_cloud.hpp"
+#include "real_scans.hpp"
 
 namespace flagstone {
 namespace {
@@ -64,7 +64,7 @@ TEST_P(Oracle, AgreesOnSimulatedScans) {
 TEST_P(Oracle, AgreesOnMadeUpClouds) {
   Difference total;
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
-    total += compare(tests::view_of(tests::made_up_cloud(20000, seed)), config);
+    total += compare(tests::view_of(tests::random_cloud(20000, seed)), config);
   }
   expect_agreement("preset " + preset + ", 10 made-up clouds", total);
 }
@@ -84,20 +84,20 @@ TEST(OracleOnSettings, AgreesOnSettingsDerivedFromASensorAlsoWhereItsViewIsNarro
     const PatchworkConfig config = PatchworkConfig::for_sensor(name);
     Difference total;
     for (std::uint32_t seed = 0; seed < 3; ++seed) {
-      total += compare(tests::view_of(tests::made_up_cloud(20000, seed)), config);
+      total += compare(tests::view_of(tests::random_cloud(20000, seed)), config);
     }
     expect_agreement(std::string("derived from ") + name, total);
   }
 }
 
 TEST(OracleOnSettings, AgreesWhereEveryTermIsSwitched) {
-  const std::vector<Point> cloud = tests::made_up_cloud(30000, 77);
+  const std::vector<Point> cloud = tests::random_cloud(30000, 77);
   for (int switches = 0; switches < 32; ++switches) {
     PatchworkConfig config = PatchworkConfig::preset("paper");
     config.uprightness.enabled = (switches & 1) != 0;
     config.elevation.enabled = (switches & 2) != 0;
     config.flatness.enabled = (switches & 4) != 0;
-    config.judge_final_set = (switches & 8) != 0;
+    config.evaluate_final_set = (switches & 8) != 0;
     config.keep_below_margin = (switches & 16) != 0;
     const Difference difference = compare(tests::view_of(cloud), config);
     EXPECT_LE(difference.different_labels * 10000, difference.points) << "switches " << switches;

@@ -89,7 +89,7 @@ TEST(PatchworkConfig, EveryFieldHasARange) {
       {"seed_height", [](Config& c) { c.seed_height = 0; }},
       {"distance_margin", [](Config& c) { c.distance_margin = inf; }},
       {"noise_margin", [](Config& c) { c.noise_margin = 0; }},
-      {"support_margin", [](Config& c) { c.support_margin = 0; }},
+      {"lower_plane_margin", [](Config& c) { c.lower_plane_margin = 0; }},
       {"iterations", [](Config& c) { c.iterations = 0; }},
       {"uprightness.angle", [](Config& c) { c.uprightness.angle = 91; }},
       {"elevation.base", [](Config& c) { c.elevation.base = -1; }},

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "made_up_cloud.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -153,7 +153,7 @@ TEST(AdaptiveSeeds, PassOverReflectionsWhereThereAreMoreThanSeeds) {
   // Taken for seeds, 25 of them would hold the first ground set down at their own level.
   PatchworkConfig config = PatchworkConfig::preset("paper");
   config.iterations = 1;
-  config.judge_final_set = false;
+  config.evaluate_final_set = false;
   const std::vector<Point> cloud = ground_with_reflections(25);
   EXPECT_EQ(ground_found(segment(cloud, config)), 400);
 
@@ -194,10 +194,10 @@ TEST(AdaptiveSeeds, WithoutAMarginNoPointIsPassedOverWhateverTheSensorHeight) {
 TEST(FewPoints, AreWhatTheConfigurationSays) {
   const std::vector<Point> cloud = {{7, 1, -1.7f}, {7.1f, 1, -1.7f}, {7, 1.1f, -1.7f}};
   PatchworkConfig config;
-  config.few_points_are_ground = true;
+  config.sparse_bins_are_ground = true;
   EXPECT_EQ(segment(cloud, config).labels, std::vector(3, Label::ground));
 
-  config.few_points_are_ground = false;
+  config.sparse_bins_are_ground = false;
   const Outcome outcome = segment(cloud, config);
 
   EXPECT_EQ(outcome.labels, std::vector(3, Label::nonground));
@@ -221,7 +221,7 @@ TEST(Iterations, MorePlanesFitCloser) {
 }
 
 TEST(Patches, AreOrderedByZoneRingAndSector) {
-  const std::vector<Patch> patches = segment(tests::made_up_cloud(60000, 2)).patches;
+  const std::vector<Patch> patches = segment(tests::random_cloud(60000, 2)).patches;
 
   EXPECT_TRUE(std::ranges::is_sorted(patches, [](const Patch& a, const Patch& b) {
     return std::tie(a.zone, a.ring, a.sector) < std::tie(b.zone, b.ring, b.sector);
@@ -234,7 +234,7 @@ TEST(Zones, OneZoneOfEqualRingsIsTheUniformPolarGrid) {
   config.zones = {
       {.ring_radii = equal_rings(config.min_range, 80, 30), .sectors = 108}};  // R-GPF's 3,240 bins
 
-  const Outcome outcome = segment(tests::made_up_cloud(60000, 2), config);
+  const Outcome outcome = segment(tests::random_cloud(60000, 2), config);
 
   EXPECT_GT(std::ranges::count(outcome.labels, Label::ground), 30000);
 }

@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "library/core/simd_target.hpp"
 #include "flagstone/patchwork.hpp"
 #include "forced_target.hpp"
-#include "library/patchwork/outcome.hpp"
 #include "lab/sim/simulate_street.hpp"
+#include "library/core/simd_target.hpp"
+#include "library/patchwork/outcome.hpp"
 
 namespace flagstone {
 namespace {

@@ -10,20 +10,20 @@
 #include <string>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
-#include "flagstone/patchwork.hpp"
-#include "forced_target.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/read_cloud.hpp"
-#include "made_up_cloud.hpp"
+#include "flagstone/patchwork.hpp"
+#include "forced_target.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/patchwork/outcome.hpp"
+#include "random_cloud.hpp"
 #include "real_scans.hpp"
 
 namespace flagstone {
 namespace {
 
 using tests::corrupted_cloud;
-using tests::made_up_cloud;
+using tests::random_cloud;
 using tests::view_of;
 
 /// Ring radii of `count` equal rings and the sectors of each, as one zone.
@@ -110,14 +110,14 @@ TEST_P(SameBits, OnRealScans) {
 }
 
 TEST_P(SameBits, OnMadeUpClouds) {
-  const std::vector<Point> cloud = made_up_cloud(20000, 1);
+  const std::vector<Point> cloud = random_cloud(20000, 1);
   for (const Setting& setting : presets_and_unusual_layouts()) {
     expect_same(setting, view_of(cloud), "made up");
   }
 }
 
 TEST_P(SameBits, OnShuffledClouds) {
-  const std::vector<Point> cloud = shuffled(made_up_cloud(20000, 2), 1);
+  const std::vector<Point> cloud = shuffled(random_cloud(20000, 2), 1);
   for (const Setting& setting : presets_and_unusual_layouts()) {
     expect_same(setting, view_of(cloud), "shuffled");
   }
@@ -157,7 +157,7 @@ TEST_P(SameBits, OnPointsOnALine) {
 TEST_P(SameBits, OnCloudsOf1To70Points) {
   for (std::size_t size = 1; size <= 70; ++size) {
     // In few bins, so that some are fitted.
-    std::vector<Point> cloud = made_up_cloud(4480, static_cast<std::uint32_t>(size));
+    std::vector<Point> cloud = random_cloud(4480, static_cast<std::uint32_t>(size));
     cloud.resize(size);
     const std::string what = std::to_string(size) + " points";
     for (const Setting& setting : presets()) expect_same(setting, view_of(cloud), what);
@@ -174,7 +174,7 @@ TEST_P(SameBits, AtTheBordersOfWhatOneThreadReadsAtATime) {
 }
 
 TEST_P(SameBits, WhateverTheSameSegmenterSawBefore) {
-  const std::vector<Point> cloud = made_up_cloud(9000, 3);
+  const std::vector<Point> cloud = random_cloud(9000, 3);
   const std::vector<Point> before = shuffled(corrupted_cloud(30000, 4), 2);
   const tests::Outcome expected = tests::segmented(PatchworkConfig{}, view_of(cloud));
   const tests::ForcedTarget forced(GetParam());

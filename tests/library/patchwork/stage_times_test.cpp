@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "flagstone/patchwork.hpp"
-#include "made_up_cloud.hpp"
 #include "library/patchwork/outcome.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 /// One thread or several; the parameter says how many.
 class StageTimesWith : public testing::TestWithParam<unsigned> {
  protected:
-  std::vector<Point> cloud = tests::made_up_cloud(60000, 1);
+  std::vector<Point> cloud = tests::random_cloud(60000, 1);
   Patchwork patchwork{{}, GetParam()};
   StageTimes times{};
 };

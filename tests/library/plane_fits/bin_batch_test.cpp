@@ -74,18 +74,18 @@ INSTANTIATE_TEST_SUITE_P(Target, BinBatchOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
 TEST_P(BinBatchOn, HoldsThePointsOfItsBinsAsSeenFromTheirOrigins) {
-  expect_gathered(tests::made_up_cloud(60000, 1));
+  expect_gathered(tests::random_cloud(60000, 1));
 }
 
 TEST_P(BinBatchOn, HoldsThemWhereTheCloudIsInNoOrder) {
-  std::vector<Point> cloud = tests::made_up_cloud(60000, 2);
+  std::vector<Point> cloud = tests::random_cloud(60000, 2);
   std::ranges::shuffle(cloud, std::mt19937(1));
   expect_gathered(cloud);
 }
 
 TEST_P(BinBatchOn, HoldsThemWhereBinsHaveFewPoints) {
   for (std::size_t size = 20; size < 60; ++size) {
-    expect_gathered(tests::made_up_cloud(size, static_cast<std::uint32_t>(size)));
+    expect_gathered(tests::random_cloud(size, static_cast<std::uint32_t>(size)));
   }
 }
 

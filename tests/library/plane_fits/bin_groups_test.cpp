@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "forced_target.hpp"
-#include "made_up_cloud.hpp"
 #include "library/plane_fits/sorted_scan.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone::plane_fits {
 namespace {
@@ -53,7 +53,7 @@ TEST(BinGroups, HoldEveryPointOfEveryBinInInputOrder) {
                                       rc::gen::inRange<std::size_t>(8000, 20000));
     const auto seed = *rc::gen::inRange<std::uint32_t>(0, 1000);
     std::vector<Point> cloud = tests::corrupted_cloud(size, seed);
-    if (*rc::gen::arbitrary<bool>()) cloud = tests::made_up_cloud(size, seed);
+    if (*rc::gen::arbitrary<bool>()) cloud = tests::random_cloud(size, seed);
     if (*rc::gen::arbitrary<bool>()) cloud = shuffled(std::move(cloud));
 
     const tests::SortedScan sorted(cloud, {});
@@ -68,11 +68,11 @@ TEST(BinGroups, HoldEveryPointOfEveryBinInInputOrder) {
 }
 
 TEST(BinGroups, OfAScanInOrderAreRuns) {
-  EXPECT_FALSE(tests::SortedScan(tests::made_up_cloud(100000, 1), {}).groups.moved());
+  EXPECT_FALSE(tests::SortedScan(tests::random_cloud(100000, 1), {}).groups.moved());
 }
 
 TEST(BinGroups, OfACloudInNoOrderAreMovedPoints) {
-  EXPECT_TRUE(tests::SortedScan(shuffled(tests::made_up_cloud(100000, 1)), {}).groups.moved());
+  EXPECT_TRUE(tests::SortedScan(shuffled(tests::random_cloud(100000, 1)), {}).groups.moved());
 }
 
 /// `run_length` points by turns in two bins opposite each other.
@@ -101,7 +101,7 @@ TEST(BinGroups, AreRightWhereRunsAreJustLongEnoughToKeep) {
 
 TEST(BinGroups, ForgetTheScanBefore) {
   const std::vector<Point> first = shuffled(tests::corrupted_cloud(20000, 2));
-  const std::vector<Point> second = tests::made_up_cloud(9000, 3);
+  const std::vector<Point> second = tests::random_cloud(9000, 3);
   tests::SortedScan sorted(first, {});
 
   for (std::size_t i = 0; i < ScanPoints::chunk_count(second.size()); ++i) {
@@ -157,7 +157,7 @@ TEST_P(MovedPointsOn, OfAnyRangeOfBinsLieTogetherInInputOrderWithinABin) {
                                       rc::gen::inRange<std::size_t>(8000, 20000));
     const auto seed = *rc::gen::inRange<std::uint32_t>(0, 1000);
     std::vector<Point> cloud = *rc::gen::arbitrary<bool>() ? tests::corrupted_cloud(size, seed)
-                                                           : tests::made_up_cloud(size, seed);
+                                                           : tests::random_cloud(size, seed);
     if (*rc::gen::arbitrary<bool>()) cloud = shuffled(std::move(cloud));
     // Mostly full, a tenth full, and nearly empty blocks of bins.
     const auto cells = *rc::gen::element(tests::SquareCells{.cell = 20, .width = 5},
@@ -202,7 +202,7 @@ TEST_P(MovedPointsOn, ForgetTheScanBeforeAndItsBins) {
   for (const tests::SquareCells& cells :
        {tests::SquareCells{.cell = 2, .width = 40}, tests::SquareCells{.cell = 0.5f, .width = 400},
         tests::SquareCells{.cell = 5, .width = 10}}) {
-    const std::vector<Point> cloud = tests::made_up_cloud(9000, cells.width);
+    const std::vector<Point> cloud = tests::random_cloud(9000, cells.width);
     moved.cells = cells;
 
     moved.group(cloud);

@@ -35,7 +35,7 @@ FitSettings first_set_only() {
           .noise_margin = 0.375,
           .iterations = 1,
           .keep_below_floor = true,
-          .judge_final_set = false};
+          .evaluate_final_set = false};
 }
 
 /// The same for each bin.
@@ -135,12 +135,12 @@ TEST(PlaneFit, JudgingTheFinalSetIsOnePlaneMore) {
   const Heights heights = ground_and({-1.6f, -1.55f, -1.4f, -2.05f, -2.15f});
   FitSettings settings = first_set_only();
   settings.iterations = 2;
-  settings.judge_final_set = true;
+  settings.evaluate_final_set = true;
   const Seeds seeds = same_seeds(-infinity, 20);
 
   const PlaneFit::Result judged = fitted({heights}, settings, seeds);
   settings.iterations = 3;
-  settings.judge_final_set = false;
+  settings.evaluate_final_set = false;
   const PlaneFit::Result three = fitted({heights}, settings, seeds);
 
   EXPECT_EQ(judged.judged.d[0], three.judged.d[0]);

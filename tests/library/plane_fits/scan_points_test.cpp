@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "forced_target.hpp"
-#include "made_up_cloud.hpp"
-#include "library/plane_fits/square_cells.hpp"
 #include "library/patchwork/concentric_zones.hpp"
 #include "library/patchwork/read_scan.hpp"
+#include "library/plane_fits/square_cells.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone::plane_fits {
 namespace {
@@ -84,7 +84,7 @@ TEST_P(ScanPointsOn, RunsTellTheBinOfEveryPoint) {
     const auto seed = *rc::gen::inRange<std::uint32_t>(0, 1000);
     const std::vector<Point> cloud = *rc::gen::arbitrary<bool>()
                                          ? tests::corrupted_cloud(size, seed)
-                                         : tests::made_up_cloud(size, seed);
+                                         : tests::random_cloud(size, seed);
     const ConcentricZones& zones = layouts[*rc::gen::inRange<std::size_t>(0, 2)];
     ScanPoints scan;
 
@@ -113,7 +113,7 @@ TEST_P(ScanPointsOn, RunsTellTheBinWhateverFindsIt) {
 
 TEST_P(ScanPointsOn, RunsAreAsLongAsCanBe) {
   const ConcentricZones zones{PatchworkConfig{}};
-  const std::vector<Point> cloud = tests::made_up_cloud(20000, 3);
+  const std::vector<Point> cloud = tests::random_cloud(20000, 3);
   ScanPoints scan;
 
   read_all(cloud, zones, scan);
@@ -148,7 +148,7 @@ TEST_P(ScanPointsOn, CoordinatesAreTheCloudsBitForBit) {
 
 TEST_P(ScanPointsOn, ChunksMayBeReadInAnyOrder) {
   const ConcentricZones zones{PatchworkConfig{}};
-  const std::vector<Point> cloud = tests::made_up_cloud(3 * chunk_size + 5, 5);
+  const std::vector<Point> cloud = tests::random_cloud(3 * chunk_size + 5, 5);
   ScanPoints scan;
   scan.reserve(cloud.size());
 

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "made_up_cloud.hpp"
+#include "library/patchwork/concentric_zones.hpp"
+#include "library/patchwork/read_scan.hpp"
 #include "library/plane_fits/bin_batch.hpp"
 #include "library/plane_fits/bin_groups.hpp"
 #include "library/plane_fits/scan_points.hpp"
 #include "library/plane_fits/square_cells.hpp"
-#include "library/patchwork/concentric_zones.hpp"
-#include "library/patchwork/read_scan.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone::tests {
 
@@ -54,7 +54,8 @@ struct CellPoints {
 };
 
 /// Indices of the points of a bin, whichever way the groups list them.
-inline std::vector<std::uint32_t> points_of(const plane_fits::BinGroups& groups, std::uint32_t bin) {
+inline std::vector<std::uint32_t> points_of(const plane_fits::BinGroups& groups,
+                                            std::uint32_t bin) {
   std::vector<std::uint32_t> points;
   if (groups.moved()) {
     for (const plane_fits::MovedPoint& p : groups.points(bin)) points.push_back(p.index);

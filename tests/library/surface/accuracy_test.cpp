@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "lab/eval/confusion.hpp"
-#include "lab/eval/protocol.hpp"
-#include "lab/eval/protocol_file.hpp"
-#include "flagstone/surface_segmenter.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/read_cloud.hpp"
+#include "flagstone/surface.hpp"
+#include "lab/eval/confusion.hpp"
+#include "lab/eval/protocol.hpp"
+#include "lab/eval/protocol_file.hpp"
 #include "real_scans.hpp"
 
 namespace flagstone {
@@ -33,7 +33,7 @@ double mean_f1(const std::vector<tests::RealScan>& scans, const eval::Protocol& 
     EXPECT_TRUE(io::read_reference(scan.labels, cloud.size(), classes).ok());
     SurfaceConfig config;
     config.sensor_height = scan.sensor_height;  // all that differs from set to set
-    SurfaceSegmenter segmenter(config);
+    Surface segmenter(config);
     Segmentation result;
     EXPECT_TRUE(segmenter.segment(cloud.view(), result).ok());
     sum += eval::compare(result.labels(), eval::truth_of(protocol, cloud.view(), classes)).f1();

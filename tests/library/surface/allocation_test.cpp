@@ -9,9 +9,9 @@
 #include <random>
 #include <vector>
 
-#include "flagstone/surface_segmenter.hpp"
 #include "counted_allocation.hpp"
-#include "made_up_cloud.hpp"
+#include "flagstone/surface.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -31,7 +31,7 @@ class SurfaceAllocation : public testing::TestWithParam<unsigned> {
     io::allocated = 0;
   }
 
-  SurfaceSegmenter segmenter{{}, GetParam()};
+  Surface segmenter{{}, GetParam()};
   Segmentation result;
 };
 
@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Threads, SurfaceAllocation, testing::Values(1U, 2U, 5U)
                          testing::PrintToStringParamName());
 
 TEST_P(SurfaceAllocation, TheFirstScanAllocates) {
-  const std::vector<Point> cloud = tests::made_up_cloud(1000, 1);
+  const std::vector<Point> cloud = tests::random_cloud(1000, 1);
   io::allocated = 0;
 
   ASSERT_TRUE(segmenter.segment(view_of(cloud), result).ok());
@@ -49,11 +49,11 @@ TEST_P(SurfaceAllocation, TheFirstScanAllocates) {
 
 TEST_P(SurfaceAllocation, OneScanIsEnoughForAllOfItsSizeInAnyOrderAndSmallerOnes) {
   // In order runs are sorted, in no order points: room for both is made at once.
-  const std::vector<Point> in_order = tests::made_up_cloud(60000, 1);
+  const std::vector<Point> in_order = tests::random_cloud(60000, 1);
   const std::vector<Point> in_no_order = shuffled(in_order);
   const std::vector<Point> corrupted = tests::corrupted_cloud(60000, 2);
   const std::vector<Point> in_one_place(60000, Point{6.1f, 2.3f, -1.7f});
-  const std::vector<Point> small = tests::made_up_cloud(500, 3);
+  const std::vector<Point> small = tests::random_cloud(500, 3);
   const std::vector<Point> none;
   warm_up(in_order);
 
@@ -68,7 +68,7 @@ TEST_P(SurfaceAllocation, OneScanIsEnoughForAllOfItsSizeInAnyOrderAndSmallerOnes
 
 TEST_P(SurfaceAllocation, AScanInOneCellIsEnoughForAllOfItsSize) {
   warm_up(std::vector<Point>(60000, Point{6.1f, 2.3f, -1.7f}));
-  const std::vector<Point> in_no_order = shuffled(tests::made_up_cloud(60000, 1));
+  const std::vector<Point> in_no_order = shuffled(tests::random_cloud(60000, 1));
   io::allocated = 0;
 
   ASSERT_TRUE(segmenter.segment(view_of(in_no_order), result).ok());
@@ -77,10 +77,10 @@ TEST_P(SurfaceAllocation, AScanInOneCellIsEnoughForAllOfItsSize) {
 }
 
 TEST_P(SurfaceAllocation, OnlyGrowingScansAllocate) {
-  warm_up(tests::made_up_cloud(100, 1));
+  warm_up(tests::random_cloud(100, 1));
   for (const std::size_t size : {9000U, 20000U, 40000U}) {
-    const std::vector<Point> larger = tests::made_up_cloud(size, 2);
-    const std::vector<Point> smaller = tests::made_up_cloud(size / 2, 3);
+    const std::vector<Point> larger = tests::random_cloud(size, 2);
+    const std::vector<Point> smaller = tests::random_cloud(size / 2, 3);
     io::allocated = 0;
     ASSERT_TRUE(segmenter.segment(view_of(larger), result).ok());
     EXPECT_GT(io::allocated, 0U) << size;
@@ -94,12 +94,12 @@ TEST_P(SurfaceAllocation, OnlyGrowingScansAllocate) {
 }
 
 TEST(SurfaceMemory, WhereverItEndsAScanIsRefusedAndTheNextOneSegmented) {
-  const std::vector<Point> cloud = tests::made_up_cloud(9000, 1);
+  const std::vector<Point> cloud = tests::random_cloud(9000, 1);
   Segmentation fresh;
-  ASSERT_TRUE(SurfaceSegmenter().segment(view_of(cloud), fresh).ok());
+  ASSERT_TRUE(Surface().segment(view_of(cloud), fresh).ok());
   std::size_t refused = 0;
   for (std::size_t allowed = 0;; allowed += 20000) {
-    SurfaceSegmenter segmenter;
+    Surface segmenter;
     Segmentation result;
     io::allocated = 0;
     io::allowed = allowed;
@@ -121,10 +121,10 @@ TEST(SurfaceMemory, WhereverItEndsAScanIsRefusedAndTheNextOneSegmented) {
 
 TEST(SurfaceMemory, OfOneThreadIsAtMost64BytesAPoint) {
   constexpr std::size_t points = 1'000'000;
-  const std::vector<Point> cloud = shuffled(tests::made_up_cloud(points, 1));
+  const std::vector<Point> cloud = shuffled(tests::random_cloud(points, 1));
   io::allocated = 0;
 
-  SurfaceSegmenter segmenter;
+  Surface segmenter;
   Segmentation result;
   ASSERT_TRUE(segmenter.segment(view_of(cloud), result).ok());
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
 #include "forced_target.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/surface/owned_grid.hpp"
 
 namespace flagstone::surface {
@@ -24,8 +24,8 @@ using plane_fits::MovedPoint;
 using tests::OwnedGrid;
 
 constexpr float gate = 0.4f;
-constexpr float gate_growth = 0.004f;
-constexpr float contrast = 0.5f;
+constexpr float gate_per_metre = 0.004f;
+constexpr float max_clutter_ratio = 0.5f;
 constexpr float lower_bound_weight = 0.1f;
 
 /// What a cell says of the surface.
@@ -73,7 +73,7 @@ Said naive(const std::vector<double>& heights, double reach) {
   const auto below =
       static_cast<double>(std::ranges::count_if(gated, [&](double h) { return h < mean - 0.144; }));
   if (at_surface < 3) return {};
-  if (above > static_cast<double>(contrast) * at_surface) return lower_bound();
+  if (above > static_cast<double>(max_clutter_ratio) * at_surface) return lower_bound();
   if (below > 0.05 * at_surface) return {};
   return {.weight = std::min(1.0, at_surface / 10), .correction = mean};
 }
@@ -103,8 +103,8 @@ class CellObservations : public testing::TestWithParam<std::string> {
     observe({.points = readable.data(),
              .surface = &grid_.grid(),
              .gate = gate,
-             .gate_growth = gate_growth,
-             .contrast = contrast,
+             .gate_per_metre = gate_per_metre,
+             .max_clutter_ratio = max_clutter_ratio,
              .lower_bound_weight = lower_bound_weight,
              .corrections = corrections_.data(),
              .weights = weights_.data()},
@@ -128,7 +128,7 @@ class CellObservations : public testing::TestWithParam<std::string> {
   [[nodiscard]] double reach(std::size_t row, std::size_t column) const {
     const Grid& grid = grid_.grid();
     return static_cast<double>(gate +
-                               gate_growth * std::hypot(grid.center(column), grid.center(row)));
+                               gate_per_metre * std::hypot(grid.center(column), grid.center(row)));
   }
 
   std::mt19937 random_{1};

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "library/core/simd_target.hpp"
 #include "forced_target.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/surface/owned_grid.hpp"
 
 namespace flagstone::surface {

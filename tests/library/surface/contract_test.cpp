@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What the data contract says of `surface` alone; what it says of every method: tests/lab/baselines.
+// What the data contract says of `surface` alone; what it says of every method:
+// tests/lab/baselines.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,14 +17,14 @@
 #include <vector>
 
 #include "flagstone/flagstone.hpp"
-#include "made_up_cloud.hpp"
 #include "library/surface/outcome.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
 
 using tests::corrupted_cloud;
-using tests::made_up_cloud;
+using tests::random_cloud;
 using tests::view_of;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -49,7 +50,7 @@ TEST(SurfaceContract, PointsMoreThanTenKilometresAboveOrBelowTheSensorAreOutOfRa
 }
 
 TEST(SurfaceContract, NoPointIsTooNear) {
-  std::vector<Point> cloud = made_up_cloud(64000, 3);
+  std::vector<Point> cloud = random_cloud(64000, 3);
   cloud.push_back({0.4f, 0.3f, -1.73f});
   cloud.push_back({0.4f, 0.3f, 0.2f});
 
@@ -78,7 +79,7 @@ TEST(SurfaceContract, EveryPointHasAHeightOrNan) {
 }
 
 TEST(SurfaceContract, GroundIsWhatLiesLowerThanTheMarginAndNoDeeperThanNoise) {
-  const std::vector<Point> cloud = made_up_cloud(64000, 5);
+  const std::vector<Point> cloud = random_cloud(64000, 5);
   const PointRule rule;
 
   const tests::SurfaceOutcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
@@ -86,7 +87,7 @@ TEST(SurfaceContract, GroundIsWhatLiesLowerThanTheMarginAndNoDeeperThanNoise) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const float height = outcome.heights[i];
     const float deepest =
-        -(rule.noise_depth + rule.noise_growth * std::hypot(cloud[i].x, cloud[i].y));
+        -(rule.noise_depth + rule.noise_depth_per_metre * std::hypot(cloud[i].x, cloud[i].y));
     if (outcome.labels[i] == Label::ground) {
       ASSERT_LT(height, rule.margin);
       ASSERT_GT(height, deepest - 1e-4f);
@@ -97,7 +98,7 @@ TEST(SurfaceContract, GroundIsWhatLiesLowerThanTheMarginAndNoDeeperThanNoise) {
     if (height >= rule.margin) {
       ASSERT_EQ(outcome.labels[i], Label::nonground);
     }
-    if (height < rule.margin_at_obstacles && height > deepest + 1e-4f) {
+    if (height < rule.obstacle_margin && height > deepest + 1e-4f) {
       ASSERT_EQ(outcome.labels[i], Label::ground);
     }
   }
@@ -133,7 +134,7 @@ TEST(SurfaceContract, APatchIsASquareThatHoldsItsGround) {
 TEST(SurfaceContract, EveryVerdictHasItsReason) {
   const SurfaceConfig config;
 
-  const tests::SurfaceOutcome outcome = tests::segmented(config, view_of(made_up_cloud(64000, 9)));
+  const tests::SurfaceOutcome outcome = tests::segmented(config, view_of(random_cloud(64000, 9)));
 
   for (const Patch& patch : outcome.patches) {
     if (patch.verdict == Verdict::too_few_points) {
@@ -157,10 +158,10 @@ TEST(SurfaceContract, ACloudWithoutASinglePlaceHasNoPatches) {
 }
 
 TEST(SurfaceContract, FarFromEveryGroundTheSurfaceIsNotKnown) {
-  std::vector<Point> cloud = made_up_cloud(20000, 2);
+  std::vector<Point> cloud = random_cloud(20000, 2);
   std::erase_if(cloud, [](const Point& p) { return p.x > 0 || std::abs(p.y) > 40; });
   cloud.push_back({90, 0, 1});
-  SurfaceSegmenter segmenter;
+  Surface segmenter;
   Segmentation result;
 
   ASSERT_TRUE(segmenter.segment(view_of(cloud), result).ok());
@@ -176,7 +177,7 @@ TEST(SurfaceContract, ConfidenceIsZeroWhereHeightsAreNotKnownAndAtMostOne) {
   const tests::SurfaceOutcome outcome =
       tests::segmented(SurfaceConfig{}, view_of(corrupted_cloud(30000, 4)));
 
-  for (const Surface::Grid& grid : outcome.grids) {
+  for (const GroundSurface::Grid& grid : outcome.grids) {
     ASSERT_EQ(grid.heights.size(), grid.width * grid.width);
     ASSERT_EQ(grid.confidences.size(), grid.width * grid.width);
     for (std::size_t i = 0; i < grid.heights.size(); ++i) {
@@ -196,7 +197,7 @@ TEST(SurfaceContract, AWallAloneLeavesTheSurfaceANumberEvenIfAnyAngleIsUpright) 
 
   const tests::SurfaceOutcome outcome = tests::segmented(config, view_of(wall));
 
-  for (const Surface::Grid& grid : outcome.grids) {
+  for (const GroundSurface::Grid& grid : outcome.grids) {
     for (std::size_t i = 0; i < grid.heights.size(); ++i) {
       ASSERT_EQ(std::isnan(grid.heights[i]), grid.confidences[i] == 0);
     }
@@ -211,7 +212,7 @@ TEST(SurfaceContract, GridsAreFinerTowardsTheSensorAndReachAsFarAsTheRange) {
       config.max_range = range;
 
       const tests::SurfaceOutcome outcome =
-          tests::segmented(config, view_of(made_up_cloud(3000, 1)));
+          tests::segmented(config, view_of(random_cloud(3000, 1)));
 
       ASSERT_EQ(outcome.grids.size(), static_cast<std::size_t>(std::max(levels, 1)));
       EXPECT_GE(outcome.grids.front().extent(), range);
@@ -237,12 +238,12 @@ TEST(SurfaceContract, TheSurfaceHasNoStepWhereTheRangeEndsWithAFineGrid) {
     }
     SurfaceConfig config;
     config.max_range = range;
-    SurfaceSegmenter segmenter(config);
+    Surface segmenter(config);
     Segmentation result;
 
     ASSERT_TRUE(segmenter.segment(view_of(cloud), result).ok());
 
-    const Surface& surface = result.surface();
+    const GroundSurface& surface = result.surface();
     for (float y = -range / 2; y < range / 2; y += 0.1f) {
       for (float x = range - 1; x < range - 0.01f; x += 0.01f) {
         ASSERT_LT(std::abs(surface.height(x + 0.01f, y) - surface.height(x, y)), 0.03f)
@@ -258,7 +259,7 @@ TEST(SurfaceContract, TheSurfaceHasNoStepWhereTheRangeEndsWithAFineGrid) {
 
 TEST(SurfaceContract, MillionsOfPointsAreSegmented) {
   constexpr std::size_t points = 3'000'000;
-  const std::vector<Point> cloud = made_up_cloud(points, 13);
+  const std::vector<Point> cloud = random_cloud(points, 13);
 
   const std::vector<Label> labels = labels_of(cloud);
 
@@ -268,7 +269,7 @@ TEST(SurfaceContract, MillionsOfPointsAreSegmented) {
 TEST(SurfaceContract, ThreadsOutsideOf1To1024AreRefusedWithTheirNumber) {
   for (const unsigned threads : {0U, 1025U, 4294967295U}) {
     try {
-      const SurfaceSegmenter segmenter({}, threads);
+      const Surface segmenter({}, threads);
       ADD_FAILURE() << threads << " threads were accepted";
     } catch (const std::invalid_argument& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr("threads is " + std::to_string(threads)));
@@ -281,23 +282,23 @@ TEST(SurfaceContract, ASettingOutOfRangeIsRefused) {
   SurfaceConfig config;
   config.max_range = 7.9f;
 
-  EXPECT_THROW(SurfaceSegmenter{config}, std::invalid_argument);
+  EXPECT_THROW(Surface{config}, std::invalid_argument);
 }
 
 TEST(SurfaceContract, ManyMoreThreadsThanCoresSegment) {
-  const std::vector<Point> cloud = made_up_cloud(20000, 16);
-  SurfaceSegmenter segmenter({}, 64);
+  const std::vector<Point> cloud = random_cloud(20000, 16);
+  Surface segmenter({}, 64);
 
   EXPECT_TRUE(tests::is_same(tests::segmented(SurfaceConfig{}, view_of(cloud)),
                              tests::segmented(segmenter, view_of(cloud))));
 }
 
 TEST(SurfaceContract, AMovedSegmenterStillSegments) {
-  const std::vector<Point> cloud = made_up_cloud(3000, 15);
+  const std::vector<Point> cloud = random_cloud(3000, 15);
   SurfaceConfig config;
   config.max_range = 50;
-  SurfaceSegmenter original(config, 2);
-  SurfaceSegmenter moved = std::move(original);
+  Surface original(config, 2);
+  Surface moved = std::move(original);
 
   EXPECT_EQ(moved.config().max_range, 50);
   EXPECT_TRUE(tests::is_same(tests::segmented(config, view_of(cloud)),
@@ -306,15 +307,15 @@ TEST(SurfaceContract, AMovedSegmenterStillSegments) {
 
 TEST(SurfaceContract, NoScanLeavesATraceInTheNext) {
   // Full, odd, and with too little for a patch, a cell or anything.
-  const std::vector<std::vector<Point>> clouds = {made_up_cloud(20000, 1),
+  const std::vector<std::vector<Point>> clouds = {random_cloud(20000, 1),
                                                   corrupted_cloud(9000, 2),
                                                   {},
                                                   {{6, 2, -1.5f}},
-                                                  made_up_cloud(64, 3),
+                                                  random_cloud(64, 3),
                                                   std::vector<Point>(40, Point{6, 2, -1.2f}),
                                                   std::vector<Point>(100, Point{nan, 0, 0}),
                                                   std::vector<Point>(500, Point{10, 0, -900})};
-  SurfaceSegmenter segmenter;
+  Surface segmenter;
   for (const std::vector<Point>& first : clouds) {
     for (const std::vector<Point>& second : clouds) {
       tests::segmented(segmenter, view_of(first));
@@ -327,10 +328,10 @@ TEST(SurfaceContract, NoScanLeavesATraceInTheNext) {
 }
 
 TEST(SurfaceContract, AResultThatAnotherMethodFilledIsReplaced) {
-  const std::vector<Point> cloud = made_up_cloud(9000, 15);
+  const std::vector<Point> cloud = random_cloud(9000, 15);
   Segmentation result;
   Patchwork patchwork;
-  SurfaceSegmenter segmenter;
+  Surface segmenter;
   ASSERT_TRUE(segmenter.segment(view_of(cloud), result).ok());
 
   ASSERT_TRUE(patchwork.segment(view_of(cloud), result).ok());

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "edge_scan.hpp"
-#include "flagstone/surface_segmenter.hpp"
-#include "made_up_cloud.hpp"
+#include "flagstone/surface.hpp"
 #include "library/plane_fits/scan_points.hpp"
+#include "library/surface/lower_ground.hpp"
 #include "library/surface/outcome.hpp"
 #include "library/surface/square_scan.hpp"
-#include "library/surface/sunken_ground.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -74,7 +74,7 @@ TEST(SurfaceAtEdges, LoneGhostsAreNoise) {
 /// What becomes of points that are all noise so far.
 std::vector<Label> searched(const std::vector<Point>& cloud) {
   const tests::SquareScan sorted(cloud, SurfaceConfig{});
-  surface::SunkenGround sunken(sorted.cells);
+  surface::LowerGround sunken(sorted.cells);
   std::vector<Label> labels(cloud.size(), Label::noise);
   const std::size_t found = sunken.find(sorted.scan, labels);
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(labels, Label::ground)), found);
@@ -95,11 +95,11 @@ std::vector<Point> rows_of(int count, const OffLevel& off_level) {
 
 float rough(float i) { return 0.01f * std::sin(37 * i); }
 
-TEST(SunkenGround, IsWhatLiesInAPlaneOfItsOwn) {
+TEST(LowerGround, IsWhatLiesInAPlaneOfItsOwn) {
   EXPECT_EQ(std::ranges::count(searched(rows_of(60, rough)), Label::ground), 60);
 }
 
-TEST(SunkenGround, IsToldFromGhostsAround) {
+TEST(LowerGround, IsToldFromGhostsAround) {
   std::vector<Point> cloud = rows_of(60, rough);
   for (int i = 0; i < 4; ++i) cloud.push_back({9.1f, 9.2f, -3.5f - 0.2f * static_cast<float>(i)});
   const std::vector<Label> labels = searched(cloud);
@@ -107,21 +107,21 @@ TEST(SunkenGround, IsToldFromGhostsAround) {
   EXPECT_EQ(std::count(labels.end() - 4, labels.end(), Label::noise), 4);
 }
 
-TEST(SunkenGround, IsNotFoundInScatteredOrFewPoints) {
+TEST(LowerGround, IsNotFoundInScatteredOrFewPoints) {
   const auto scattered = [](float i) { return 0.7f * std::sin(37 * i); };
   EXPECT_EQ(std::ranges::count(searched(rows_of(60, scattered)), Label::ground), 0);
   EXPECT_EQ(std::ranges::count(searched(rows_of(11, rough)), Label::ground), 0);
 }
 
-TEST(SunkenGround, IsNotFoundLowerThanGroundCanBe) {
+TEST(LowerGround, IsNotFoundLowerThanGroundCanBe) {
   const auto too_low = [](float i) { return -10 + rough(i); };
   EXPECT_EQ(std::ranges::count(searched(rows_of(60, too_low)), Label::ground), 0);
 }
 
-TEST(SunkenGround, LeavesNothingBehindForTheNextScan) {
+TEST(LowerGround, LeavesNothingBehindForTheNextScan) {
   const std::vector<Point> few = rows_of(11, rough);
   const tests::SquareScan sorted(few, SurfaceConfig{});
-  surface::SunkenGround sunken(sorted.cells);
+  surface::LowerGround sunken(sorted.cells);
   for (int scan = 0; scan < 3; ++scan) {
     std::vector<Label> labels(few.size(), Label::noise);
     EXPECT_EQ(sunken.find(sorted.scan, labels), 0U);

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
-#include "flagstone/surface_segmenter.hpp"
+#include "flagstone/surface.hpp"
 #include "forced_target.hpp"
 #include "guarded_memory.hpp"
-#include "made_up_cloud.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/surface/outcome.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -51,8 +51,8 @@ class SurfaceLayouts : public testing::TestWithParam<std::string> {
 
  private:
   tests::ForcedTarget forced_{GetParam()};
-  SurfaceSegmenter packed_;
-  SurfaceSegmenter other_;
+  Surface packed_;
+  Surface other_;
 };
 
 INSTANTIATE_TEST_SUITE_P(On, SurfaceLayouts, testing::ValuesIn(simd_targets()),

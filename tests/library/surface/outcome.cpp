@@ -22,7 +22,8 @@ std::size_t first_difference(std::span<const float> a, std::span<const float> b)
   return static_cast<std::size_t>(std::ranges::mismatch(a, b, {}, bits, bits).in1 - a.begin());
 }
 
-testing::AssertionResult is_same_grid(const Surface::Grid& expected, const Surface::Grid& found) {
+testing::AssertionResult is_same_grid(const GroundSurface::Grid& expected,
+                                      const GroundSurface::Grid& found) {
   if (expected.cell != found.cell || expected.width != found.width) {
     return testing::AssertionFailure() << found.width << " cells of " << found.cell << " m";
   }
@@ -42,7 +43,7 @@ testing::AssertionResult is_same_grid(const Surface::Grid& expected, const Surfa
 
 }  // namespace
 
-SurfaceOutcome segmented(SurfaceSegmenter& segmenter, CloudView cloud) {
+SurfaceOutcome segmented(Surface& segmenter, CloudView cloud) {
   Segmentation result;
   EXPECT_TRUE(segmenter.segment(cloud, result).ok());
   std::array<std::size_t, label_count> counts{};
@@ -59,7 +60,7 @@ SurfaceOutcome segmented(SurfaceSegmenter& segmenter, CloudView cloud) {
 }
 
 SurfaceOutcome segmented(const SurfaceConfig& config, CloudView cloud) {
-  SurfaceSegmenter segmenter(config);
+  Surface segmenter(config);
   return segmented(segmenter, cloud);
 }
 

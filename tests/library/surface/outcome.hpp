@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "flagstone/surface_segmenter.hpp"
+#include "flagstone/surface.hpp"
 
 namespace flagstone::tests {
 
@@ -15,12 +15,12 @@ struct SurfaceOutcome {
   std::vector<Label> labels;
   std::vector<Patch> patches;
   std::vector<float> heights;
-  std::vector<Surface::Grid> grids;
+  std::vector<GroundSurface::Grid> grids;
 };
 
 /// What `segmenter` makes of the cloud. Fails where the counts of labels are not those of the
 /// labels, or where there is not one height a point.
-SurfaceOutcome segmented(SurfaceSegmenter& segmenter, CloudView cloud);
+SurfaceOutcome segmented(Surface& segmenter, CloudView cloud);
 
 /// What a new segmenter makes of it.
 SurfaceOutcome segmented(const SurfaceConfig& config, CloudView cloud);

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "made_up_surface.hpp"
 #include "library/surface/grid.hpp"
+#include "random_surface.hpp"
 
 namespace flagstone::tests {
 

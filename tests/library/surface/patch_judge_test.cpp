@@ -58,7 +58,7 @@ TEST(PatchJudge, AWallIsNeverGround) {
 
 TEST(PatchJudge, PatchesWithAsManyPointsAboveThemAreMixed) {
   SurfaceConfig config;
-  config.acceptance.contrast = 0.5f;
+  config.acceptance.max_clutter_ratio = 0.5f;
   const PatchJudge judge(config);
 
   EXPECT_EQ(judge.judge_alone(plane_at(10, -1.73), {.within = 100, .above = 50}), Verdict::ground);
@@ -67,7 +67,7 @@ TEST(PatchJudge, PatchesWithAsManyPointsAboveThemAreMixed) {
 
 TEST(PatchJudge, WithoutALimitNothingIsMixed) {
   SurfaceConfig config;
-  config.acceptance.contrast = inf;
+  config.acceptance.max_clutter_ratio = inf;
 
   EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73), {.within = 0, .above = 100}),
             Verdict::ground);
@@ -75,8 +75,8 @@ TEST(PatchJudge, WithoutALimitNothingIsMixed) {
 
 TEST(PatchJudge, PatchesAboveTheConeAreTooHigh) {
   SurfaceConfig config;
-  config.acceptance.height = 1;
-  config.acceptance.rise = 0.2f;
+  config.acceptance.max_height = 1;
+  config.acceptance.max_slope = 0.2f;
   const PatchJudge judge(config);
 
   // Up to -1.73 + 1 near the sensor, and to -1.73 + 0.2 * 20 at 20 m.
@@ -88,8 +88,8 @@ TEST(PatchJudge, PatchesAboveTheConeAreTooHigh) {
 
 TEST(PatchJudge, TheFirstPatchIsMeasuredByTheSensorsHeight) {
   SurfaceConfig config;
-  config.acceptance.step = 0.5f;
-  config.acceptance.step_growth = 0.1f;
+  config.acceptance.max_step = 0.5f;
+  config.acceptance.max_step_per_metre = 0.1f;
   const PatchJudge judge(config);
   AcceptedPatches none;
   none.reserve(1);
@@ -103,8 +103,8 @@ TEST(PatchJudge, TheFirstPatchIsMeasuredByTheSensorsHeight) {
 
 TEST(PatchJudge, LaterPatchesAreMeasuredByNearerOnes) {
   SurfaceConfig config;
-  config.acceptance.step = 0.5f;
-  config.acceptance.step_growth = 0.1f;
+  config.acceptance.max_step = 0.5f;
+  config.acceptance.max_step_per_metre = 0.1f;
   const PatchJudge judge(config);
   AcceptedPatches nearer;
   nearer.reserve(1);
@@ -118,8 +118,8 @@ TEST(PatchJudge, LaterPatchesAreMeasuredByNearerOnes) {
 
 TEST(PatchJudge, TheAllowanceStopsGrowingAt15Metres) {
   SurfaceConfig config;
-  config.acceptance.step = 0.5f;
-  config.acceptance.step_growth = 0.1f;
+  config.acceptance.max_step = 0.5f;
+  config.acceptance.max_step_per_metre = 0.1f;
   const PatchJudge judge(config);
   AcceptedPatches none;
   none.reserve(1);
@@ -130,7 +130,7 @@ TEST(PatchJudge, TheAllowanceStopsGrowingAt15Metres) {
 
 TEST(PatchJudge, WithoutALimitEveryStepIsGround) {
   SurfaceConfig config;
-  config.acceptance.step = inf;
+  config.acceptance.max_step = inf;
   AcceptedPatches none;
   none.reserve(1);
 

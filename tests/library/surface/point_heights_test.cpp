@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
-#include "flagstone/surface.hpp"
+#include "flagstone/ground_surface.hpp"
 #include "forced_target.hpp"
-#include "made_up_surface.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/surface/square_scan.hpp"
+#include "random_surface.hpp"
 
 namespace flagstone::surface {
 namespace {
@@ -25,12 +25,12 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 /// The grids of a made-up surface, one after another in memory.
 class JoinedGrids {
  public:
-  explicit JoinedGrids(const Surface& made) {
-    for (const Surface::Grid& grid : made.grids()) {
+  explicit JoinedGrids(const GroundSurface& made) {
+    for (const GroundSurface::Grid& grid : made.grids()) {
       heights_.insert(heights_.end(), grid.heights.begin(), grid.heights.end());
     }
     std::size_t first = 0;
-    for (const Surface::Grid& grid : made.grids()) {
+    for (const GroundSurface::Grid& grid : made.grids()) {
       grids_.push_back({.cell = grid.cell,
                         .width = grid.width,
                         .heights = heights_.data() + first,
@@ -62,7 +62,7 @@ struct Measured {
 /// The parameter is the instruction set.
 class PointHeightsOn : public testing::TestWithParam<std::string> {
  protected:
-  Measured measured(const std::vector<Point>& cloud, const Surface& made,
+  Measured measured(const std::vector<Point>& cloud, const GroundSurface& made,
                     const SurfaceConfig& config = {}) {
     const tests::SquareScan sorted(cloud, config);
     PointHeights point_heights(config, sorted.cells);
@@ -86,7 +86,8 @@ class PointHeightsOn : public testing::TestWithParam<std::string> {
     return measured(others, level_, config).labels.back();
   }
 
-  const Surface level_ = tests::made_up_surface([](float, float) { return -2.0f; }, wide_grids);
+  const GroundSurface level_ =
+      tests::random_surface([](float, float) { return -2.0f; }, wide_grids);
 
  private:
   tests::ForcedTarget forced_{GetParam()};
@@ -98,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Target, PointHeightsOn, testing::ValuesIn(simd_targets(
 TEST_P(PointHeightsOn, AreTakenFromTheSurfaceToTheBit) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> rough(-2.5f, -1.5f);
-  const Surface made = tests::made_up_surface(
+  const GroundSurface made = tests::random_surface(
       [&](float, float) { return random() % 8 == 0 ? nan : rough(random); }, wide_grids);
   std::vector<Point> cloud;
   std::uniform_real_distribution<float> place(-100, 100);
@@ -145,8 +146,8 @@ TEST_P(PointHeightsOn, LowerThanTheMarginIsGround) {
 
 TEST_P(PointHeightsOn, WhereSomethingStandsTheMarginIsSmaller) {
   const PointRule rule;
-  const float margin = rule.margin_at_obstacles;
-  const std::vector<Point> pole = {{10.1f, 0.1f, -2 + 1.25f * rule.standing_height + 0.01f}};
+  const float margin = rule.obstacle_margin;
+  const std::vector<Point> pole = {{10.1f, 0.1f, -2 + 1.25f * rule.obstacle_height + 0.01f}};
 
   EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin - 0.001f}, pole), Label::ground);
   EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin + 0.001f}, pole), Label::nonground);
@@ -155,9 +156,9 @@ TEST_P(PointHeightsOn, WhereSomethingStandsTheMarginIsSmaller) {
 
 TEST_P(PointHeightsOn, WhereSomethingLowStandsTheMeanOfBothMarginsHolds) {
   const PointRule rule;
-  const float margin = (rule.margin + rule.margin_at_obstacles) / 2;
+  const float margin = (rule.margin + rule.obstacle_margin) / 2;
   for (const float height :
-       {0.75f * rule.standing_height + 0.01f, 1.25f * rule.standing_height - 0.01f}) {
+       {0.75f * rule.obstacle_height + 0.01f, 1.25f * rule.obstacle_height - 0.01f}) {
     const std::vector<Point> stone = {{10.1f, 0.1f, -2 + height}};
 
     EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin - 0.001f}, stone), Label::ground);
@@ -169,7 +170,7 @@ TEST_P(PointHeightsOn, OnlyWhatIsHighEnoughAndDoesNotHangOverTheGroundStands) {
   const PointRule rule;
   const Point low{10.4f, 0.4f, -2 + rule.margin - 0.01f};
 
-  EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 0.75f * rule.standing_height - 0.01f}}),
+  EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 0.75f * rule.obstacle_height - 0.01f}}),
             Label::ground);
   EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 2.49f}}), Label::nonground);
   EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 2.51f}}), Label::ground);
@@ -215,13 +216,13 @@ TEST_P(PointHeightsOn, FarBelowTheSurfaceIsNoiseAndTheFartherAwayTheDeeper) {
 }
 
 TEST_P(PointHeightsOn, BelowAnyGroundIsNoiseEvenIfTheSurfaceIsThere) {
-  const Surface pit = tests::made_up_surface([](float, float) { return -20.0f; }, wide_grids);
+  const GroundSurface pit = tests::random_surface([](float, float) { return -20.0f; }, wide_grids);
 
   EXPECT_EQ(measured({{10, 0, -20}}, pit).labels.front(), Label::noise);
 }
 
 TEST_P(PointHeightsOn, WhereTheSurfaceIsNotKnownNothingIsGround) {
-  const Surface unknown = tests::made_up_surface([](float, float) { return nan; }, wide_grids);
+  const GroundSurface unknown = tests::random_surface([](float, float) { return nan; }, wide_grids);
 
   EXPECT_EQ(measured({{10, 0, -2}}, unknown).labels.front(), Label::nonground);
   EXPECT_EQ(measured({{10, 0, -200}}, unknown).labels.front(), Label::noise);

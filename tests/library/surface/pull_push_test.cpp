@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
 #include "forced_target.hpp"
+#include "library/core/simd_target.hpp"
 
 namespace flagstone::surface {
 namespace {

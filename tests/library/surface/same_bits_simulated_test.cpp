@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "library/core/simd_target.hpp"
-#include "flagstone/surface_segmenter.hpp"
+#include "flagstone/surface.hpp"
 #include "forced_target.hpp"
 #include "lab/sim/simulate_street.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/surface/outcome.hpp"
 
 namespace flagstone {
@@ -20,7 +20,7 @@ TEST(SurfaceOfSimulatedScans, HasTheSameBitsOnEveryInstructionSetByAnyNumberOfTh
   for (const std::string& target : simd_targets()) {
     const tests::ForcedTarget forced(target);
     for (const unsigned threads : {1U, 2U, 7U}) {
-      SurfaceSegmenter segmenter({}, threads);
+      Surface segmenter({}, threads);
       EXPECT_TRUE(tests::is_same(expected, tests::segmented(segmenter, cloud)))
           << target << ", " << threads << " threads";
     }

@@ -11,20 +11,20 @@
 #include <string>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
-#include "flagstone/surface_segmenter.hpp"
-#include "forced_target.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/read_cloud.hpp"
-#include "made_up_cloud.hpp"
-#include "real_scans.hpp"
+#include "flagstone/surface.hpp"
+#include "forced_target.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/surface/outcome.hpp"
+#include "random_cloud.hpp"
+#include "real_scans.hpp"
 
 namespace flagstone {
 namespace {
 
 using tests::corrupted_cloud;
-using tests::made_up_cloud;
+using tests::random_cloud;
 using tests::view_of;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -58,12 +58,12 @@ std::vector<Setting> unusual_settings() {
   }
   settings.push_back(changed("no limits", [](SurfaceConfig& c) {
     c.acceptance = {.upright_angle = 0,
-                    .contrast = inf,
-                    .height = 1000,
-                    .rise = 10,
-                    .step = inf,
-                    .step_growth = 10};
-    c.refinement.contrast = inf;
+                    .max_clutter_ratio = inf,
+                    .max_height = 1000,
+                    .max_slope = 10,
+                    .max_step = inf,
+                    .max_step_per_metre = 10};
+    c.refinement.max_clutter_ratio = inf;
     c.noise_depth = 1000;
     c.noise_slope = 10;
   }));
@@ -84,7 +84,7 @@ class SurfaceSameBits : public testing::TestWithParam<std::string> {
     const tests::SurfaceOutcome expected = tests::segmented(setting.config, cloud);
     const tests::ForcedTarget forced(GetParam());
     for (const unsigned threads : {1U, 2U, 7U}) {
-      SurfaceSegmenter segmenter(setting.config, threads);
+      Surface segmenter(setting.config, threads);
       EXPECT_TRUE(tests::is_same(expected, tests::segmented(segmenter, cloud)))
           << what << ", " << setting.name << ", " << threads << " threads";
     }
@@ -112,7 +112,7 @@ TEST_P(SurfaceSameBits, OnRealScans) {
 }
 
 TEST_P(SurfaceSameBits, WithUnusualSettings) {
-  const std::vector<Point> ordered = made_up_cloud(20000, 1);
+  const std::vector<Point> ordered = random_cloud(20000, 1);
   const std::vector<Point> corrupted = shuffled(corrupted_cloud(12000, 1), 1);
   for (const Setting& setting : unusual_settings()) {
     expect_same(setting, view_of(ordered), "made up");
@@ -121,7 +121,7 @@ TEST_P(SurfaceSameBits, WithUnusualSettings) {
 }
 
 TEST_P(SurfaceSameBits, OnShuffledClouds) {
-  expect_same(shuffled(made_up_cloud(30000, 2), 1), "shuffled");
+  expect_same(shuffled(random_cloud(30000, 2), 1), "shuffled");
 }
 
 TEST_P(SurfaceSameBits, OnCorruptedClouds) {
@@ -136,7 +136,7 @@ TEST_P(SurfaceSameBits, OnCloudsOf0To70Points) {
   expect_same({}, "no points");
   for (std::size_t size = 1; size <= 70; ++size) {
     // Of one beam's first degrees, so that they share patches.
-    std::vector<Point> cloud = made_up_cloud(44800, static_cast<std::uint32_t>(size));
+    std::vector<Point> cloud = random_cloud(44800, static_cast<std::uint32_t>(size));
     cloud.resize(size);
     const std::string what = std::to_string(size) + " points";
     expect_same(cloud, what);
@@ -192,7 +192,7 @@ TEST_P(SurfaceSameBits, AtTheEdgeOfARangeOfWholeBlocks) {
   for (const float range : {8.0f, 16.0f, 104.0f, 200.0f}) {
     const Setting setting = changed("range", [&](SurfaceConfig& c) { c.max_range = range; });
     const float last = std::nextafter(range, 0.0f);
-    std::vector<Point> cloud = made_up_cloud(9000, 4);
+    std::vector<Point> cloud = random_cloud(9000, 4);
     for (int i = 0; i < 20; ++i) {
       const float z = -1 + 0.1f * static_cast<float>(i);
       for (const Point& p :
@@ -205,19 +205,19 @@ TEST_P(SurfaceSameBits, AtTheEdgeOfARangeOfWholeBlocks) {
 }
 
 TEST_P(SurfaceSameBits, WithDenormalHeightsAndPlaces) {
-  std::vector<Point> cloud = made_up_cloud(20000, 4);
+  std::vector<Point> cloud = random_cloud(20000, 4);
   for (std::size_t i = 0; i < cloud.size(); i += 3) cloud[i].z = 1e-41f * static_cast<float>(i);
   for (std::size_t i = 1; i < cloud.size(); i += 5) cloud[i].y = -1e-44f;
   expect_same(cloud, "denormal");
 }
 
 TEST_P(SurfaceSameBits, WhateverWasSegmentedBefore) {
-  const std::vector<Point> cloud = made_up_cloud(9000, 8);
+  const std::vector<Point> cloud = random_cloud(9000, 8);
   const tests::SurfaceOutcome expected = tests::segmented(SurfaceConfig{}, view_of(cloud));
   const tests::ForcedTarget forced(GetParam());
-  SurfaceSegmenter segmenter({}, 2);
+  Surface segmenter({}, 2);
 
-  for (const auto& before : {corrupted_cloud(30000, 9), shuffled(made_up_cloud(20000, 3), 1),
+  for (const auto& before : {corrupted_cloud(30000, 9), shuffled(random_cloud(20000, 3), 1),
                              std::vector<Point>(), std::vector<Point>(40, Point{6, 2, -1.7f})}) {
     tests::segmented(segmenter, view_of(before));
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
 #include "forced_target.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/plane_fits/bin_batch.hpp"
 
 namespace flagstone::surface {

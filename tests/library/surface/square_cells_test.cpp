@@ -15,12 +15,12 @@
 #include <string>
 #include <vector>
 
-#include "library/core/simd_target.hpp"
-#include "flagstone/surface_segmenter.hpp"
+#include "flagstone/surface.hpp"
 #include "forced_target.hpp"
 #include "guarded_memory.hpp"
-#include "made_up_cloud.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/surface/square_scan.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone::surface {
 namespace {
@@ -192,9 +192,9 @@ TEST_P(SquareCellsOn, NothingIsReadBehindTheirTables) {
   const SquareCells* const cells =
       new (memory.last(sizeof(SquareCells)).data()) SquareCells(SurfaceConfig{});
 
-  const std::vector<std::uint32_t> found = tests::cells_of(tests::made_up_cloud(1000, 1), *cells);
+  const std::vector<std::uint32_t> found = tests::cells_of(tests::random_cloud(1000, 1), *cells);
 
-  EXPECT_EQ(found, tests::cells_of(tests::made_up_cloud(1000, 1), SquareCells(SurfaceConfig{})));
+  EXPECT_EQ(found, tests::cells_of(tests::random_cloud(1000, 1), SquareCells(SurfaceConfig{})));
 }
 
 TEST(SquareCells, BlocksAreNumberedApart) {

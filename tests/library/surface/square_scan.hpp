@@ -7,11 +7,11 @@
 
 #include "flagstone/cloud_view.hpp"
 #include "flagstone/surface_config.hpp"
-#include "made_up_cloud.hpp"
 #include "library/plane_fits/bin_groups.hpp"
 #include "library/plane_fits/scan_points.hpp"
 #include "library/surface/read_scan.hpp"
 #include "library/surface/square_cells.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone::tests {
 
@@ -32,7 +32,8 @@ struct SquareScan {
  private:
   void read(const std::vector<Point>& cloud) {
     scan.reserve(cloud.size());
-    for (std::size_t chunk = 0; chunk < plane_fits::ScanPoints::chunk_count(cloud.size()); ++chunk) {
+    for (std::size_t chunk = 0; chunk < plane_fits::ScanPoints::chunk_count(cloud.size());
+         ++chunk) {
       surface::read_chunk(view_of(cloud), chunk, cells, scan);
     }
   }

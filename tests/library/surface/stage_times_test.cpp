@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "flagstone/patchwork.hpp"
-#include "flagstone/surface_segmenter.hpp"
-#include "made_up_cloud.hpp"
+#include "flagstone/surface.hpp"
 #include "library/surface/outcome.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -19,8 +19,8 @@ namespace {
 /// One thread or several; the parameter says how many.
 class SurfaceStageTimes : public testing::TestWithParam<unsigned> {
  protected:
-  std::vector<Point> cloud = tests::made_up_cloud(60000, 1);
-  SurfaceSegmenter segmenter{{}, GetParam()};
+  std::vector<Point> cloud = tests::random_cloud(60000, 1);
+  Surface segmenter{{}, GetParam()};
   StageTimes times{};
 };
 

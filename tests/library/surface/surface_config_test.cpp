@@ -13,10 +13,10 @@
 #include <variant>
 #include <vector>
 
+#include "flagstone/surface.hpp"
 #include "library/core/setting.hpp"
-#include "flagstone/surface_segmenter.hpp"
-#include "made_up_cloud.hpp"
 #include "library/surface/surface_settings.hpp"
+#include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
@@ -49,15 +49,15 @@ TEST(SurfaceConfigCheck, EverySettingIsHeldToItsRange) {
   SurfaceConfig config;
   const std::vector<Setting> settings = settings_of(config);
   for (std::size_t i = 0; i < settings.size(); ++i) {
-    const auto& [low, high, unit, without_low, or_infinity, remark] = settings[i].allowed;
+    const auto& [low, high, unit, exclusive_min, allow_infinity, remark] = settings[i].allowed;
     const std::string key(settings[i].key);
     EXPECT_EQ(complaint(i, high), "") << key;
-    EXPECT_EQ(complaint(i, low).empty(), !without_low) << key;
+    EXPECT_EQ(complaint(i, low).empty(), !exclusive_min) << key;
     for (const double value : {low - 1, high + 1}) {
       EXPECT_THAT(complaint(i, value), testing::HasSubstr("surface: " + key)) << value;
     }
     if (std::holds_alternative<int*>(settings[i].value)) continue;
-    EXPECT_EQ(complaint(i, inf).empty(), or_infinity) << key;
+    EXPECT_EQ(complaint(i, inf).empty(), allow_infinity) << key;
     EXPECT_THAT(complaint(i, std::nan("")), testing::HasSubstr(key));
   }
 }
@@ -70,17 +70,17 @@ TEST(SurfaceConfigCheck, EverySettingAtEitherEndOfItsRangeLeavesHeightsThatAreNu
     for (const bool highest : {false, true}) {
       SurfaceConfig config;
       const Setting setting = settings_of(config)[i];
-      const Allowed& allowed = setting.allowed;
-      const double lowest = allowed.without_low ? 1e-6 : allowed.low;
+      const ValidRange& allowed = setting.allowed;
+      const double lowest = allowed.exclusive_min ? 1e-6 : allowed.low;
       const double value = highest ? allowed.high : lowest;
       set(config, i, value);
-      SurfaceSegmenter segmenter(config);
+      Surface segmenter(config);
       Segmentation result;
 
       ASSERT_TRUE(segmenter.segment(tests::view_of(cloud), result).ok());
 
       EXPECT_EQ(result.labels().size(), cloud.size());
-      for (const Surface::Grid& grid : result.surface().grids()) {
+      for (const GroundSurface::Grid& grid : result.surface().grids()) {
         for (std::size_t k = 0; k < grid.heights.size(); ++k) {
           ASSERT_FALSE(std::isinf(grid.heights[k])) << setting.key << " " << value;
           ASSERT_EQ(std::isnan(grid.heights[k]), grid.confidences[k] == 0)

@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "library/core/random.hpp"
 #include "lab/sim/ground.hpp"
 #include "lab/sim/interval.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 

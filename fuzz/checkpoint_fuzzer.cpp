@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "cloud_properties.hpp"
+#include "files/io/file_contents.hpp"
+#include "lab/eval/checkpoint.hpp"
+#include "text_properties.hpp"
+
+namespace {
+
+constexpr const char* evaluation = "fuzzed";
+
+}  // namespace
+
+// The first byte says of how many methods the evaluation is and whether the rest stands behind the
+// checkpoint's own heading or is the whole file.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace flagstone;
+  if (size == 0) return 0;
+  static const fuzz::ScratchFile file("checkpoint");
+  const std::size_t methods = data[0] % 4;
+  std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  if (data[0] < 128) text.insert(0, "{\"flagstone-checkpoint\":\"fuzzed\"}\n");
+  file.put(text);
+
+  eval::Checkpoint checkpoint;
+  std::map<std::string, eval::ScanOutcome> finished;
+  const Status status = checkpoint.resume(file.path(), evaluation, methods, finished);
+  if (!status.ok()) {
+    fuzz::check_line(status.message());
+    fuzz::require(finished.empty(), "of what is refused nothing is taken");
+    fuzz::require(io::contents_of(file.path()) == text, "what is refused is left alone");
+    return 0;
+  }
+  for (const auto& [scan, outcome] : finished) {
+    fuzz::require(outcome.methods.size() == methods, "an outcome is of every method");
+  }
+
+  eval::Checkpoint again;
+  std::map<std::string, eval::ScanOutcome> kept;
+  fuzz::require(again.resume(file.path(), evaluation, methods, kept).ok(), "it goes on again");
+  fuzz::require(kept.size() == finished.size(), "what was finished is kept");
+  return 0;
+}

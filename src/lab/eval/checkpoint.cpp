@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/eval/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "files/io/atomic_file.hpp"
+#include "files/io/message.hpp"
+
+namespace flagstone::eval {
+namespace {
+
+using Json = nlohmann::json;
+constexpr auto replace = Json::error_handler_t::replace;  // file names may not be UTF-8
+
+Json to_json(const Confusion& c) {
+  return {c.true_positives, c.false_positives, c.false_negatives, c.true_negatives};
+}
+
+Confusion confusion_of(const Json& json) {
+  return {json.at(0), json.at(1), json.at(2), json.at(3)};
+}
+
+Json to_json(const HeightErrors& e) {
+  return {e.points, e.given, e.median, e.percentile95, e.bias};
+}
+
+HeightErrors height_errors_of(const Json& json) {
+  return {.points = json.at(0),
+          .given = json.at(1),
+          .median = json.at(2),
+          .percentile95 = json.at(3),
+          .bias = json.at(4)};
+}
+
+Json to_json(const HeightErrorsByRange& errors) {
+  Json json = Json::array();
+  json.push_back(to_json(errors.all));
+  for (const HeightErrors& band : errors.by_range) json.push_back(to_json(band));
+  return json;
+}
+
+HeightErrorsByRange height_errors_by_range_of(const Json& json) {
+  HeightErrorsByRange errors{.all = height_errors_of(json.at(0))};
+  for (std::size_t band = 0; band < errors.by_range.size(); ++band) {
+    errors.by_range[band] = height_errors_of(json.at(band + 1));
+  }
+  return errors;
+}
+
+Json to_json(const MethodOutcome& outcome) {
+  Json json = {{"points", to_json(outcome.score.points)}, {"area", to_json(outcome.score.by_area)}};
+  for (const Confusion& band : outcome.score.by_range) json["range"].push_back(to_json(band));
+  if (outcome.segment_ms) json["ms"] = *outcome.segment_ms;
+  if (outcome.heights) {
+    json["heights"] =
+        Json::array({to_json(outcome.heights->ground), to_json(outcome.heights->everywhere)});
+  }
+  return json;
+}
+
+MethodOutcome method_outcome_of(const Json& json) {
+  MethodOutcome outcome;
+  outcome.score.points = confusion_of(json.at("points"));
+  outcome.score.by_area = confusion_of(json.at("area"));
+  for (std::size_t band = 0; band < outcome.score.by_range.size(); ++band) {
+    outcome.score.by_range[band] = confusion_of(json.at("range").at(band));
+  }
+  if (json.contains("ms")) outcome.segment_ms = json.at("ms").get<double>();
+  if (json.contains("heights")) {
+    const Json& heights = json.at("heights");
+    outcome.heights = {.ground = height_errors_by_range_of(heights.at(0)),
+                       .everywhere = height_errors_by_range_of(heights.at(1))};
+  }
+  return outcome;
+}
+
+Json to_json(const std::string& scan, const ScanOutcome& outcome) {
+  Json json = {{"scan", scan}, {"read", outcome.read_ms}, {"score", outcome.score_ms}};
+  json["methods"] = Json::array();
+  for (const MethodOutcome& method : outcome.methods) json["methods"].push_back(to_json(method));
+  return json;
+}
+
+/// The scan of one line; nothing where the line is cut short.
+std::optional<std::pair<std::string, ScanOutcome>> scan_of(const std::string& line) {
+  try {
+    const Json json = Json::parse(line);
+    ScanOutcome outcome;
+    outcome.read_ms = json.at("read");
+    outcome.score_ms = json.at("score");
+    for (const Json& method : json.at("methods")) {
+      outcome.methods.push_back(method_outcome_of(method));
+    }
+    return std::pair(json.at("scan").get<std::string>(), std::move(outcome));
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+constexpr std::string_view heading_begin = "{\"flagstone-checkpoint\":";
+
+std::string heading_of(const std::string& evaluation) {
+  return Json{{"flagstone-checkpoint", evaluation}}.dump(-1, ' ', false, replace) + "\n";
+}
+
+/// Does the file hold a scan of an evaluation?
+bool holds_scans(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string heading;
+  std::string scan;
+  return std::getline(file, heading) && heading.starts_with(heading_begin) &&
+         std::getline(file, scan) && scan_of(scan);
+}
+
+bool has_failed(const ScanOutcome& outcome) {
+  return outcome.error || std::ranges::any_of(outcome.methods, [](const MethodOutcome& method) {
+           return method.error.has_value();
+         });
+}
+
+}  // namespace
+
+Status Checkpoint::open(const std::filesystem::path& path) {
+  file_.reset(std::fopen(path.c_str(), "a"));
+  if (file_) return {};
+  return Status(StatusCode::unwritable,
+                fmt::format("{}: cannot be written: {}", io::printable(path),
+                            std::generic_category().message(errno)));
+}
+
+Status Checkpoint::start(const std::filesystem::path& path, const std::string& evaluation) {
+  if (holds_scans(path)) {
+    return io::refuse(path,
+                      "holds the scans that an interrupted run finished; go on with --resume, or "
+                      "delete it to start afresh");
+  }
+  Status status = io::write_file(path, std::string_view(heading_of(evaluation)));
+  return status.ok() ? open(path) : status;
+}
+
+Status Checkpoint::resume(const std::filesystem::path& path, const std::string& evaluation,
+                          std::size_t methods, std::map<std::string, ScanOutcome>& finished) {
+  std::ifstream old(path);
+  if (!old) return start(path, evaluation);
+  std::string line;
+  std::getline(old, line);
+  if (!line.starts_with(heading_begin)) {
+    return io::with_path(path, Status(StatusCode::bad_file, "is no checkpoint of an evaluation"));
+  }
+  if (line + "\n" != heading_of(evaluation)) {
+    return io::refuse(path,
+                      "is of an evaluation with other datasets, methods, settings or protocol; "
+                      "delete it to start afresh");
+  }
+  // Written anew and whole, so that a line cut short does not spoil the next.
+  std::string kept = heading_of(evaluation);
+  while (std::getline(old, line)) {
+    std::optional<std::pair<std::string, ScanOutcome>> scan = scan_of(line);
+    if (!scan || scan->second.methods.size() != methods) continue;
+    kept += line + "\n";
+    finished.insert(std::move(*scan));
+  }
+  Status status = io::write_file(path, std::string_view(kept));
+  return status.ok() ? open(path) : status;
+}
+
+void Checkpoint::add(const std::string& scan, const ScanOutcome& outcome) {
+  if (!file_ || has_failed(outcome)) return;
+  const std::string line = to_json(scan, outcome).dump(-1, ' ', false, replace) + "\n";
+  std::fwrite(line.data(), 1, line.size(), file_.get());
+  std::fflush(file_.get());
+}
+
+}  // namespace flagstone::eval

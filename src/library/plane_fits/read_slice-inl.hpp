@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+//
+// The one pass over a cloud: its coordinates, and where the bin changes from one point to the next,
+// for any way of finding a point's bin. Included once for each instruction set.
+
+// clang-format off
+#if defined(FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP
+#undef FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP
+#else
+#define FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP
+#endif
+// clang-format on
+
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "library/core/simd/lanes-inl.hpp"
+#include "library/plane_fits/scan_points.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::plane_fits::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
+
+/// Writes down where the bin changes from one point to the next.
+class RunWriter {
+ public:
+  RunWriter(RunStart* starts) : begin_(starts), end_(starts) {}
+
+  /// The bins of the next vector of points.
+  HWY_INLINE void add(IntVector bins) {
+    const IntTag di;
+    const auto starts = hn::Ne(bins, move_up(bins, previous_));
+    end_ += compress_store(hn::Or(bins, places_), starts, reinterpret_cast<std::int32_t*>(end_));
+    previous_ = bins;
+    places_ = hn::Add(places_, hn::Set(di, static_cast<std::int32_t>(hn::Lanes(di)) << bin_bits));
+  }
+
+  /// Drops what begins at `count` or later, closes the list and returns how many runs there are.
+  std::size_t close(std::size_t count) {
+    while (end_ > begin_ && (end_[-1] >> bin_bits) >= count) --end_;
+    *end_ = static_cast<RunStart>(count) << bin_bits;
+    return static_cast<std::size_t>(end_ - begin_);
+  }
+
+ private:
+  RunStart* begin_;
+  RunStart* end_;
+  IntVector previous_ = hn::Set(IntTag(), -1);  // no point's bin
+  /// Indices of the points << bin_bits.
+  IntVector places_ = hn::ShiftLeft<bin_bits>(hn::Iota(IntTag(), 0));
+};
+
+/// How far ahead of its use memory is asked for, in floats: one block takes long enough that the
+/// processor's own prefetching falls behind where scans are not in the cache.
+inline constexpr std::size_t prefetch_distance = 512;
+
+/// Asks for the memory of a block that comes later; harmless behind the end of the cloud.
+template <std::size_t floats>
+HWY_INLINE void prefetch_block(const float* points) {
+  for (std::size_t line = 0; line < floats; ++line) {  // a cache line is 16 floats
+    hwy::Prefetch(points + prefetch_distance + lanes * line);
+  }
+}
+
+/// Reads sixteen points of `floats` floats each and finds their bins.
+template <std::size_t floats, class Locate>
+HWY_INLINE void read_block(const float* HWY_RESTRICT points, std::size_t index,
+                           const PointSlice& stretch, const Locate& locate, RunWriter& runs) {
+  const FloatTag d;
+  for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
+    FloatVector x, y, z;
+    load_points<floats>(points + floats * lane, x, y, z);
+    hn::StoreU(x, d, stretch.x + index + lane);
+    hn::StoreU(y, d, stretch.y + index + lane);
+    hn::StoreU(z, d, stretch.z + index + lane);
+    runs.add(locate(x, y, z));
+  }
+}
+
+/// Copies points into records of four floats, the last of which is meaningless.
+HWY_INLINE void copy_records(const CloudView& cloud, std::size_t begin, std::size_t end,
+                             float* records) {
+  for (std::size_t k = begin; k < end; ++k) {
+    const Point p = cloud[k];
+    std::memcpy(records + 4 * (k - begin), &p, sizeof p);
+  }
+}
+
+/// The same where x, y and z lie together and four more bytes may be read behind z.
+HWY_INLINE void copy_records_at_once(const std::byte* points, std::ptrdiff_t stride,
+                                     float* records) {
+  for (std::size_t k = 0; k < lanes; ++k) {
+    std::memcpy(records + 4 * k, points + static_cast<std::ptrdiff_t>(k) * stride,
+                4 * sizeof(float));
+  }
+}
+
+/// Reads a stretch; returns how many runs it has. `locate(x, y, z)` gives the bins of a vector of
+/// points, each less than 1 << bin_bits, and takes any bit pattern; it is to be a struct whose
+/// operator() is HWY_INLINE, so that the tables it reads stay in registers.
+///
+/// Packed xyz and records of four floats are read where they lie, as long as no read can leave the
+/// cloud; all other layouts, and what the last point needs, by way of a copy.
+template <class Locate>
+HWY_INLINE std::size_t read_slice(const PointSlice& stretch, const Locate& locate) {
+  const CloudView& cloud = stretch.cloud;
+  const CloudLayout& layout = cloud.layout();
+  const std::byte* first = static_cast<const std::byte*>(cloud.data()) + layout.x +
+                           static_cast<std::ptrdiff_t>(stretch.begin) * layout.stride;
+  const auto* floats = reinterpret_cast<const float*>(first);
+  const bool together = layout.y == layout.x + 4 && layout.z == layout.x + 8 && layout.stride >= 12;
+  const bool aligned = std::bit_cast<std::uintptr_t>(first) % sizeof(float) == 0;
+  const std::size_t count = stretch.end - stretch.begin;
+  // Blocks without the last point of the cloud.
+  const std::size_t whole =
+      together ? (std::min(stretch.end, cloud.size() - 1) - stretch.begin) / lanes * lanes : 0;
+
+  RunWriter runs(stretch.starts);
+  HWY_ALIGN std::array<float, 4 * lanes> records{};
+  std::size_t i = 0;
+  if (aligned && layout.stride == 16) {
+    for (; i < whole; i += lanes) {
+      prefetch_block<4>(floats + 4 * i);
+      read_block<4>(floats + 4 * i, i, stretch, locate, runs);
+    }
+  } else if (aligned && layout.stride == 12) {
+    for (; i < whole; i += lanes) {
+      prefetch_block<3>(floats + 3 * i);
+      read_block<3>(floats + 3 * i, i, stretch, locate, runs);
+    }
+  }
+  for (; i < whole; i += lanes) {
+    copy_records_at_once(first + static_cast<std::ptrdiff_t>(i) * layout.stride, layout.stride,
+                         records.data());
+    read_block<4>(records.data(), i, stretch, locate, runs);
+  }
+  for (; i < count; i += lanes) {
+    copy_records(cloud, stretch.begin + i, stretch.begin + std::min(count, i + lanes),
+                 records.data());
+    read_block<4>(records.data(), i, stretch, locate, runs);
+  }
+  return runs.close(count);
+}
+
+}  // namespace
+}  // namespace flagstone::plane_fits::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

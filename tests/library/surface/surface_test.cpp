@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+// What holds of the method `surface` as a whole, on ground whose shape is known.
+#include "flagstone/surface.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "lab/sim/simulate_street.hpp"
+#include "library/surface/outcome.hpp"
+#include "random_cloud.hpp"
+#include "random_surface.hpp"
+
+namespace flagstone {
+namespace {
+
+using tests::Ground;
+using tests::SurfaceOutcome;
+using tests::view_of;
+
+constexpr float height_of_sensor = 1.73f;
+
+float level(float, float) { return -height_of_sensor; }
+
+/// A scan of ground alone: rings of points from 3 to 80 m, ever farther apart, each slightly out of
+/// round, so that no two scans share their places.
+std::vector<Point> scan_of(const Ground& ground, int points_a_ring = 1800, std::uint32_t seed = 1) {
+  std::mt19937 random(seed);
+  const auto unit = [&] { return static_cast<float>(random() >> 8U) / 16777216.0f; };
+  std::vector<Point> cloud;
+  for (float range = 3; range < 80; range *= 1.05f) {
+    for (int i = 0; i < points_a_ring; ++i) {
+      const float angle = 2 * std::numbers::pi_v<float> * (static_cast<float>(i) + unit()) /
+                          static_cast<float>(points_a_ring);
+      const float rho = range * (1 + 0.01f * unit());
+      const float x = rho * std::cos(angle);
+      const float y = rho * std::sin(angle);
+      cloud.push_back({x, y, ground(x, y)});
+    }
+  }
+  return cloud;
+}
+
+/// A plane below the sensor that rises in some direction; both in degrees.
+Ground tilted(float tilt, float direction) {
+  const float slope = std::tan(tilt * std::numbers::pi_v<float> / 180);
+  const float angle = direction * std::numbers::pi_v<float> / 180;
+  return [=](float x, float y) {
+    return -height_of_sensor + slope * (std::cos(angle) * x + std::sin(angle) * y);
+  };
+}
+
+SurfaceOutcome segmented(const std::vector<Point>& cloud, const SurfaceConfig& config = {}) {
+  return tests::segmented(config, view_of(cloud));
+}
+
+/// Share of points whose labels differ.
+double share_of_different(const std::vector<Label>& a, const std::vector<Label>& b) {
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) different += a[i] != b[i] ? 1U : 0U;
+  return static_cast<double>(different) / static_cast<double>(a.size());
+}
+
+std::size_t ground_count(const SurfaceOutcome& outcome) {
+  return static_cast<std::size_t>(std::ranges::count(outcome.labels, Label::ground));
+}
+
+/// Two streets with cars, houses, people and trees.
+const std::vector<std::vector<Point>>& streets() {
+  static const std::vector<std::vector<Point>> made = [] {
+    std::vector<std::vector<Point>> clouds;
+    for (const std::uint64_t seed : {1U, 2U}) {
+      const sim::SimulatedScan scan = sim::simulate_street(seed, 2);
+      std::vector<Point>& cloud = clouds.emplace_back();
+      for (std::size_t i = 0; i < scan.size(); ++i) {
+        cloud.push_back({scan.xyzi[4 * i], scan.xyzi[4 * i + 1], scan.xyzi[4 * i + 2]});
+      }
+    }
+    return clouds;
+  }();
+  return made;
+}
+
+/// The cloud turned by 90 degrees, x to y.
+std::vector<Point> rotated(std::vector<Point> cloud) {
+  for (Point& p : cloud) p = {-p.y, p.x, p.z};
+  return cloud;
+}
+
+std::vector<Point> every(std::size_t step, const std::vector<Point>& cloud) {
+  std::vector<Point> some;
+  for (std::size_t i = 0; i < cloud.size(); i += step) some.push_back(cloud[i]);
+  return some;
+}
+
+TEST(SurfaceMethod, LevelGroundIsGroundAtHeightZero) {
+  const std::vector<Point> cloud = scan_of(level);
+
+  const SurfaceOutcome outcome = segmented(cloud);
+
+  EXPECT_EQ(ground_count(outcome), cloud.size());
+  EXPECT_THAT(outcome.heights, testing::Each(testing::FloatNear(0, 1e-6f)));
+}
+
+constexpr std::array<float, 4> directions = {0, 40, 90, 200};
+
+TEST(SurfaceMethod, ATiltedPlaneIsGround) {
+  for (const float tilt : {2.0f, 4.0f, 6.0f}) {
+    for (const float direction : directions) {
+      const std::vector<Point> cloud = scan_of(tilted(tilt, direction));
+
+      EXPECT_EQ(ground_count(segmented(cloud)), cloud.size()) << tilt << " to " << direction;
+    }
+  }
+}
+
+TEST(SurfaceMethod, OfASteepPlaneHardlyAPointIsLost) {
+  // 19 degrees are 0.34 metres a metre; from 0.35 on no ground is believed to rise so far.
+  for (const float tilt : {10.0f, 15.0f, 19.0f}) {
+    for (const float direction : directions) {
+      const std::vector<Point> cloud = scan_of(tilted(tilt, direction));
+
+      EXPECT_GE(static_cast<double>(ground_count(segmented(cloud))),
+                0.998 * static_cast<double>(cloud.size()))
+          << tilt << " to " << direction;
+    }
+  }
+}
+
+TEST(SurfaceMethod, HeightsAboveATiltedPlaneAreZeroToFiveMillimetres) {
+  for (const float tilt : {3.0f, 6.0f, 10.0f}) {
+    for (const float direction : directions) {
+      const std::vector<Point> cloud = scan_of(tilted(tilt, direction));
+
+      const SurfaceOutcome outcome = segmented(cloud);
+
+      for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const float range = std::hypot(cloud[i].x, cloud[i].y);
+        ASSERT_LT(std::abs(outcome.heights[i]), 0.005f)
+            << tilt << " degrees to " << direction << ", at " << range << " m";
+      }
+    }
+  }
+}
+
+TEST(SurfaceMethod, ABoxOnAPlaneIsNotGroundAndAsHighAsItIs) {
+  const Ground ground = tilted(4, 30);
+  const auto is_inside = [](float x, float y) { return x > 9 && x < 12 && y > 1 && y < 5; };
+  std::vector<Point> cloud =
+      scan_of([&](float x, float y) { return ground(x, y) + (is_inside(x, y) ? 1.5f : 0.0f); });
+  for (float up = 0.1f; up < 1.5f; up += 0.05f) {  // the side that faces the sensor
+    for (float y = 1; y < 5; y += 0.02f) cloud.push_back({9, y, ground(9, y) + up});
+  }
+
+  const SurfaceOutcome outcome = segmented(cloud);
+
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Point& p = cloud[i];
+    const float truth = p.z - ground(p.x, p.y);
+    if (truth > 0.05f) {
+      ASSERT_EQ(outcome.labels[i], Label::nonground) << p.x << ", " << p.y << ", " << truth;
+      ASSERT_NEAR(outcome.heights[i], truth, 0.02f) << p.x << ", " << p.y;
+    } else {
+      ASSERT_EQ(outcome.labels[i], Label::ground) << p.x << ", " << p.y;
+    }
+  }
+}
+
+TEST(SurfaceMethod, PointsFarBelowGroundAreNoiseAndChangeNothingElse) {
+  std::vector<Point> cloud = scan_of(level);
+  std::vector<std::size_t> ghosts;
+  for (std::size_t i = 50; i < cloud.size(); i += 500) {
+    cloud[i].z -= 1.1f + 0.06f * std::hypot(cloud[i].x, cloud[i].y);
+    ghosts.push_back(i);
+  }
+
+  const SurfaceOutcome outcome = segmented(cloud);
+
+  for (const std::size_t i : ghosts) ASSERT_EQ(outcome.labels[i], Label::noise) << i;
+  EXPECT_EQ(ground_count(outcome), cloud.size() - ghosts.size());
+}
+
+TEST(SurfaceMethod, AKerbStaysSharp) {
+  // A pavement 12 cm above the road, along x.
+  const std::vector<Point> cloud =
+      scan_of([](float, float y) { return -height_of_sensor + (y > 4.25f ? 0.12f : 0.0f); });
+  Surface segmenter;
+  Segmentation result;
+
+  ASSERT_TRUE(segmenter.segment(view_of(cloud), result).ok());
+
+  EXPECT_EQ(result.count(Label::ground), cloud.size());
+  for (float x = -5; x <= 5; x += 0.5f) {
+    EXPECT_NEAR(result.surface().height(x, 3.75f), -height_of_sensor, 0.02f) << x;
+    EXPECT_NEAR(result.surface().height(x, 4.75f), -height_of_sensor + 0.12f, 0.02f) << x;
+  }
+}
+
+TEST(SurfaceMethod, ASensorHeightOffByThirtyCentimetresChangesNoLabelButOneInTenThousand) {
+  for (const std::vector<Point>& cloud : streets()) {
+    const SurfaceOutcome right = segmented(cloud);
+    for (const float error : {-0.3f, -0.1f, 0.1f, 0.3f}) {
+      SurfaceConfig config;
+      config.sensor_height += error;
+
+      const SurfaceOutcome wrong = segmented(cloud, config);
+
+      EXPECT_LE(share_of_different(right.labels, wrong.labels), 1e-4) << error;
+      for (std::size_t i = 0; i < cloud.size(); ++i) {
+        // Below the sensor, where nothing is measured, its height is what is known of the ground.
+        const bool is_near = std::hypot(cloud[i].x, cloud[i].y) < 4;
+        if (std::isnan(right.heights[i])) continue;
+        ASSERT_NEAR(right.heights[i], wrong.heights[i], is_near ? 0.06f : 0.01f) << error;
+      }
+    }
+  }
+}
+
+// Cells and patches lie the same from four sides, so a scan that is turned by 90 degrees should be
+// labelled as before. It is but for three things: a cell holds one of the two edges it shares with
+// its neighbours; a large patch is sampled along the curve that runs through its cells; of patches
+// equally far from the sensor one is judged first.
+TEST(SurfaceMethod, AQuarterTurnTurnsTheResult) {
+  for (const std::vector<Point>& dense : streets()) {
+    for (const std::vector<Point>& cloud : {dense, every(20, dense)}) {
+      EXPECT_LE(share_of_different(segmented(cloud).labels, segmented(rotated(cloud)).labels),
+                0.006);
+    }
+  }
+}
+
+TEST(SurfaceMethod, AQuarterTurnOfAPlaneIsAllGround) {
+  const std::vector<Point> cloud = scan_of(tilted(5, 30));
+
+  EXPECT_EQ(ground_count(segmented(rotated(cloud))), cloud.size());
+}
+
+/// The order that `std::ranges::shuffle` makes of `count` indices.
+std::vector<std::size_t> shuffled_order(std::size_t count, std::uint32_t seed) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::shuffle(order, std::mt19937(seed));
+  return order;
+}
+
+template <class T>
+std::vector<T> in_order(const std::vector<T>& values, const std::vector<std::size_t>& order) {
+  std::vector<T> ordered(values.size());
+  std::ranges::transform(order, ordered.begin(), [&](std::size_t i) { return values[i]; });
+  return ordered;
+}
+
+// Of patches with more than 128 points and cells with more than 32 a sample is looked at, number by
+// number in the order of the cloud: another order, another sample.
+TEST(SurfaceMethod, TheOrderOfTheCloudMattersWhereSamplesAreTaken) {
+  for (const std::vector<Point>& cloud : streets()) {
+    const std::vector<Label> labels = segmented(cloud).labels;
+    const std::vector<std::size_t> order = shuffled_order(cloud.size(), 1);
+
+    const std::vector<Label> of_shuffled = segmented(in_order(cloud, order)).labels;
+
+    EXPECT_LE(share_of_different(in_order(labels, order), of_shuffled), 0.004);
+  }
+}
+
+// Without samples sums are taken in another order, and rounded otherwise.
+TEST(SurfaceMethod, WithoutSamplesTheOrderOfTheCloudMattersOnlyInTheLastDigits) {
+  const std::vector<Point> cloud = tests::random_cloud(2500, 3);
+  std::map<std::pair<int, int>, int> in_cell;
+  for (const Point& p : cloud) {
+    ++in_cell[{static_cast<int>(std::floor(p.x / 2)), static_cast<int>(std::floor(p.y / 2))}];
+  }
+  for (const auto& [cell, points] : in_cell) ASSERT_LE(points, 32) << "a sample would be taken";
+  const SurfaceOutcome ordered = segmented(cloud);
+  for (const Patch& patch : ordered.patches) ASSERT_LE(patch.point_count, 128U);
+  for (std::uint32_t seed = 1; seed <= 10; ++seed) {
+    const std::vector<std::size_t> order = shuffled_order(cloud.size(), seed);
+
+    const SurfaceOutcome shuffled = segmented(in_order(cloud, order));
+
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      ASSERT_EQ(shuffled.labels[i], ordered.labels[order[i]]);
+      if (std::isnan(ordered.heights[order[i]])) continue;
+      ASSERT_NEAR(shuffled.heights[i], ordered.heights[order[i]], 1e-3f);
+    }
+  }
+}
+
+TEST(SurfaceMethod, HeightsArePointsAboveTheSurfaceToTheBit) {
+  for (const std::vector<Point>& cloud :
+       {streets()[0], tests::corrupted_cloud(30000, 2), every(50, streets()[1])}) {
+    Surface segmenter;
+    Segmentation result;
+    ASSERT_TRUE(segmenter.segment(view_of(cloud), result).ok());
+
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Point& p = cloud[i];
+      const float height = result.heights()[i];
+      const Label label = result.labels()[i];
+      if (label == Label::invalid || label == Label::out_of_range) {
+        ASSERT_TRUE(std::isnan(height));
+        continue;
+      }
+      const float above = p.z - result.surface().height(p.x, p.y);
+      ASSERT_EQ(std::isnan(height), std::isnan(above)) << p.x << ", " << p.y;
+      if (!std::isnan(height)) {
+        ASSERT_EQ(height, above) << p.x << ", " << p.y;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace flagstone
