@@ -29,6 +29,7 @@
 #include "lab/eval/height_score.hpp"
 #include "lab/eval/protocol.hpp"
 #include "lab/sim/simulate_street.hpp"
+#include "library/core/statistics.hpp"
 #include "library/core/stopwatch.hpp"
 
 namespace flagstone::cli {
@@ -68,8 +69,7 @@ double median_time(Segmenter& method, CloudView cloud, Segmentation& result) {
     must(method.segment(cloud, result));
     time = watch.lap();
   }
-  std::ranges::nth_element(times, times.begin() + 10);
-  return times[10];
+  return median(times);
 }
 
 void write_files(const DemoFiles& files, const sim::SimulatedScan& scan, const io::Cloud& cloud,

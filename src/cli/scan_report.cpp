@@ -4,20 +4,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+
+#include "library/core/statistics.hpp"
 
 namespace flagstone::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 Json counts_json(const ScanReport& report) {
   Json counts;
@@ -124,7 +119,7 @@ std::string summary_text(std::span<const ScanReport> reports) {
   }
   std::string text = scores_text(reports);
   text += fmt::format("{} of {} scans segmented, {} points", times.size(), reports.size(), points);
-  if (!times.empty()) text += fmt::format(", median {:.2f} ms a scan", median(std::move(times)));
+  if (!times.empty()) text += fmt::format(", median {:.2f} ms a scan", median(times));
   return text + "\n";
 }
 

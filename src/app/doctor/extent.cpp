@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "app/doctor/percentile.hpp"
+#include "library/core/statistics.hpp"
 
 namespace flagstone::doctor {
 namespace {

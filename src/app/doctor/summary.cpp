@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "app/doctor/percentile.hpp"
+#include "library/core/statistics.hpp"
 
 namespace flagstone::doctor {
 namespace {
@@ -18,7 +18,7 @@ template <class Value>
 double median(const Scans& scans, Value value) {
   std::vector<double> values;
   for (const Examination* scan : scans) values.push_back(static_cast<double>(value(*scan)));
-  return percentile(values, 50);
+  return flagstone::median(values);
 }
 
 template <class Holds>
@@ -59,8 +59,8 @@ void count_points(std::span<const Examination> scans, Summary& summary) {
     summary.not_finite += static_cast<double>(scan.not_finite);
     summary.repeated += static_cast<double>(scan.repeated);
   }
-  summary.points = percentile(points, 50);
-  summary.usable = percentile(usable, 50);
+  summary.points = flagstone::median(points);
+  summary.usable = flagstone::median(usable);
   summary.zero /= std::max(all, 1.0);
   summary.not_finite /= std::max(all, 1.0);
   summary.repeated /= std::max(all_usable, 1.0);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "library/core/statistics.hpp"
+
 namespace flagstone::render {
 namespace {
 
@@ -29,11 +31,7 @@ double suitable_range(CloudView cloud, std::span<const Label> labels,
   const double bound = zones != nullptr ? double{zones->zones.back().ring_radii.back()} : widest;
   std::vector<double> all = distances(cloud, labels);
   if (all.empty()) return zones != nullptr ? bound : 50;
-  // The ceiling makes sure that of a few points none is left out.
-  const auto rank = static_cast<std::size_t>(std::ceil(0.98 * static_cast<double>(all.size() - 1)));
-  const auto percentile = all.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(all.begin(), percentile, all.end());
-  return std::min(bound, std::max(10.0, 10 * std::ceil(*percentile / 10)));
+  return std::min(bound, std::max(10.0, 10 * std::ceil(percentile(all, 98) / 10)));
 }
 
 double ring_step(double range) noexcept {

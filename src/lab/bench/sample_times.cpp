@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+
+#include "library/core/statistics.hpp"
 
 namespace flagstone::bench {
 namespace {
@@ -21,9 +22,9 @@ void SampleTimes::add(std::size_t round, std::size_t scan, double milliseconds) 
 
 std::size_t SampleTimes::count() const { return known().size(); }
 
-double SampleTimes::median() const { return median_of(known()); }
+double SampleTimes::median() const { return flagstone::median(known()); }
 
-double SampleTimes::percentile_99() const { return nearest_rank(known(), 0.99); }
+double SampleTimes::percentile_99() const { return percentile(known(), 99); }
 
 double SampleTimes::ratio_to(const SampleTimes& other) const {
   std::vector<double> ratios;
@@ -31,7 +32,7 @@ double SampleTimes::ratio_to(const SampleTimes& other) const {
     const double ratio = times_[i] / other.times_[i];
     if (std::isfinite(ratio)) ratios.push_back(ratio);
   }
-  return median_of(std::move(ratios));
+  return flagstone::median(ratios);
 }
 
 double SampleTimes::points_per_second(std::span<const std::size_t> points) const {
@@ -40,27 +41,13 @@ double SampleTimes::points_per_second(std::span<const std::size_t> points) const
     const double rate = 1000 * static_cast<double>(points[i % scans_]) / times_[i];
     if (std::isfinite(rate)) rates.push_back(rate);
   }
-  return median_of(std::move(rates));
+  return flagstone::median(rates);
 }
 
 std::vector<double> SampleTimes::known() const {
   std::vector<double> known;
   std::ranges::copy_if(times_, std::back_inserter(known), [](double t) { return !std::isnan(t); });
   return known;
-}
-
-double median_of(std::vector<double> values) {
-  if (values.empty()) return no_number;
-  std::ranges::sort(values);
-  const std::size_t upper = values.size() / 2;
-  return values.size() % 2 == 1 ? values[upper] : (values[upper - 1] + values[upper]) / 2;
-}
-
-double nearest_rank(std::vector<double> values, double share) {
-  if (values.empty()) return no_number;
-  std::ranges::sort(values);
-  const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
-  return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
 }
 
 }  // namespace flagstone::bench

@@ -41,11 +41,4 @@ class SampleTimes {
   std::vector<double> times_;  // round by round; not a number where it was not asked
 };
 
-/// The middle value, or the mean of the two in the middle; not a number of nothing.
-[[nodiscard]] double median_of(std::vector<double> values);
-
-/// The smallest value that `share` (above 0, up to 1) of them do not exceed; not a number of
-/// nothing.
-[[nodiscard]] double nearest_rank(std::vector<double> values, double share);
-
 }  // namespace flagstone::bench

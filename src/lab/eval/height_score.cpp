@@ -6,17 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "library/core/statistics.hpp"
+
 namespace flagstone::eval {
 namespace {
-
-/// The smallest value that at least `percent` % of them do not exceed. Needs one or more; orders
-/// them anew.
-double percentile(std::vector<double>& values, std::size_t percent) {
-  const std::size_t rank = (values.size() * percent + 99) / 100;  // rounded up, 1 is the smallest
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
-  std::ranges::nth_element(values, at);
-  return *at;
-}
 
 /// Gathers the errors of some points.
 class Errors {

@@ -7,8 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <numeric>
 #include <vector>
+
+#include "library/core/statistics.hpp"
 
 namespace flagstone::eval {
 
@@ -31,11 +32,9 @@ Spread spread_of(std::span<const double> values) {
   Spread spread;
   if (values.empty()) return spread;
   const auto n = static_cast<double>(values.size());
-  spread.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  spread.mean = mean(values);
   if (values.size() < 2) return spread;
-  double squares = 0;
-  for (const double value : values) squares += (value - spread.mean) * (value - spread.mean);
-  spread.std = std::sqrt(squares / (n - 1));
+  spread.std = standard_deviation(values);
   spread.ci95 = student_t_975(values.size() - 1) * *spread.std / std::sqrt(n);
   return spread;
 }
@@ -45,7 +44,7 @@ double mean_of_slowest_percent(std::span<const double> times) {
   std::ranges::sort(sorted, std::greater());
   const std::size_t count = std::max<std::size_t>(sorted.size() / 100, 1);
   const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(count);
-  return std::accumulate(sorted.begin(), end, 0.0) / static_cast<double>(count);
+  return mean({sorted.begin(), end});
 }
 
 }  // namespace flagstone::eval
