@@ -2,16 +2,25 @@
 // SPDX-License-Identifier: MIT
 #include "library/core/thread_pool.hpp"
 
+#include <pthread.h>
+
 #include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
 
 #include "library/core/floating_point_mode.hpp"
 
 namespace flagstone {
 namespace {
 
-/// Looks at `value` so many times, then sleeps until it is no longer `old`.
-void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old, int looks) noexcept {
-  for (int look = 0; look < looks; ++look) {
+/// How often this process is the child of a fork(), itself included.
+std::atomic<std::uint32_t> forks = 0;
+
+/// Looks at `value` `spin_count` times, then blocks until it is no longer `old`.
+void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old,
+                int spin_count) noexcept {
+  for (int spin = 0; spin < spin_count; ++spin) {
     if (value.load(std::memory_order_acquire) != old) return;
 #if defined(__x86_64__) || defined(__i386__)
     __builtin_ia32_pause();
@@ -22,35 +31,72 @@ void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old, int 
 
 }  // namespace
 
+unsigned checked_threads(std::string_view where, unsigned threads) {
+  if (threads >= 1 && threads <= max_threads) return threads;
+  throw std::invalid_argument(std::string(where) + ": threads is " + std::to_string(threads) +
+                              ", allowed are 1 to " + std::to_string(max_threads));
+}
+
+unsigned threads_or_cores(unsigned threads) noexcept {
+  return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
 ThreadPool::ThreadPool(unsigned size) {
-  // Some ten microseconds; none where threads would take cores from each other.
-  looks_ = size <= std::thread::hardware_concurrency() ? 1000 : 0;
-  others_.reserve(size - 1);
-  try {
-    for (unsigned worker = 1; worker < size; ++worker) {
-      others_.emplace_back([this, worker] { serve(worker); });
-    }
-  } catch (const std::exception&) {
-    return;  // no more threads, or no memory for them: fewer do as well
-  }
+  // The fork handler is registered once, by the first pool.
+  static const int registered =
+      pthread_atfork(nullptr, nullptr, [] { forks.fetch_add(1, std::memory_order_relaxed); });
+  static_cast<void>(registered);
+  // About ten microseconds; none if the threads would take cores from each other.
+  spin_count_ = size <= std::thread::hardware_concurrency() ? 1000 : 0;
+  workers_.reserve(size - 1);
+  start_workers(size - 1);
 }
 
 ThreadPool::~ThreadPool() {
-  dismissed_ = true;
+  if (has_forked()) forget_workers();
+  stopping_ = true;
   ++round_;
   round_.notify_all();
-  for (std::thread& other : others_) other.join();
+  for (std::thread& worker : workers_) worker.join();
+}
+
+void ThreadPool::start_workers(std::size_t count) noexcept {
+  forks_ = forks.load(std::memory_order_relaxed);
+  const std::uint32_t round = round_.load(std::memory_order_relaxed);
+  try {
+    while (workers_.size() < count) {
+      const std::size_t worker = workers_.size() + 1;
+      workers_.emplace_back([this, worker, round] { worker_loop(worker, round); });
+    }
+  } catch (const std::exception&) {
+    return;  // no more threads, or no memory for them: fewer work as well
+  }
+}
+
+bool ThreadPool::has_forked() const noexcept {
+  return forks.load(std::memory_order_relaxed) != forks_;
+}
+
+/// A fork() copies the pool but not its threads: they can be neither joined nor detached.
+void ThreadPool::forget_workers() noexcept {
+  for (std::thread& worker : workers_) std::construct_at(&worker);
+  workers_.clear();
 }
 
 void ThreadPool::run_together() noexcept {
+  if (has_forked()) {
+    const std::size_t count = workers_.size();
+    forget_workers();
+    start_workers(count);
+  }
   next_.store(0, std::memory_order_relaxed);
-  at_work_.store(static_cast<std::uint32_t>(others_.size()), std::memory_order_relaxed);
+  active_.store(static_cast<std::uint32_t>(workers_.size()), std::memory_order_relaxed);
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
   take_jobs(0);
-  for (std::uint32_t left = at_work_.load(std::memory_order_acquire); left != 0;
-       left = at_work_.load(std::memory_order_acquire)) {
-    wait_while(at_work_, left, looks_);
+  for (std::uint32_t left = active_.load(std::memory_order_acquire); left != 0;
+       left = active_.load(std::memory_order_acquire)) {
+    wait_while(active_, left, spin_count_);
   }
 }
 
@@ -58,16 +104,24 @@ void ThreadPool::take_jobs(std::size_t worker) noexcept {
   for (std::size_t job = next_++; job < count_; job = next_++) call_(context_, worker, job);
 }
 
-void ThreadPool::serve(std::size_t worker) noexcept {
-  const ScopedFloatingPointMode own;
-  for (std::uint32_t round = 0;;) {
-    wait_while(round_, round, looks_);
+/// `round` is the last one before the worker was started.
+void ThreadPool::worker_loop(std::size_t worker, std::uint32_t round) noexcept {
+  const ScopedFloatingPointMode mode;
+  for (;;) {
+    wait_while(round_, round, spin_count_);
     round = round_.load(std::memory_order_acquire);
-    if (dismissed_) return;
+    if (stopping_) return;
     take_jobs(worker);
-    at_work_.fetch_sub(1, std::memory_order_release);
-    at_work_.notify_one();
+    active_.fetch_sub(1, std::memory_order_release);
+    active_.notify_one();
   }
+}
+
+std::size_t run_on_threads(unsigned threads, const std::function<void()>& work) {
+  const ScopedFloatingPointMode mode;  // the caller as the workers
+  ThreadPool pool(threads);
+  pool.run(pool.size(), [&](std::size_t, std::size_t) { work(); });
+  return pool.size();
 }
 
 }  // namespace flagstone

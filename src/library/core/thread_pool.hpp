@@ -1,35 +1,62 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
+//
+// Everything in flagstone that uses several threads uses one of these two:
+//
+//     ThreadPool pool(4);                    // started once; for the short steps of one scan
+//     pool.run(count, [&](std::size_t worker, std::size_t job) noexcept { ... });
+//
+//     parallel_for(count, 4, interrupted, [&] {  // for long jobs: scans, files, simulated frames
+//       return [reader = Reader()](std::size_t job) mutable { ... };  // may throw
+//     });
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 namespace flagstone {
 
-/// Threads that work on one scan together. They are started once; in between they watch for work
-/// for some microseconds, so that the next step of a scan finds them awake, and then sleep. They
-/// have their ScopedFloatingPointMode (see there); the thread that calls `run` does as it likes.
+/// The largest number of threads that can be requested; the smallest is 1.
+inline constexpr unsigned max_threads = 1024;
+
+/// Returns `threads`. Throws std::invalid_argument if it is not 1 to `max_threads`; the message
+/// begins with `where`, such as "surface".
+unsigned checked_threads(std::string_view where, unsigned threads);
+
+/// Returns `threads`, or the number of cores if it is 0.
+unsigned threads_or_cores(unsigned threads) noexcept;
+
+/// A fixed-size thread pool. Between jobs, workers spin for a few microseconds so that the next
+/// step of a scan finds them awake, and then block. Workers set the floating-point mode (see
+/// ScopedFloatingPointMode); the calling thread is left as it is.
+///
+/// After a fork() the child starts its own workers at its first `run`.
 class ThreadPool {
  public:
-  /// `size` >= 1 counts the thread that calls `run`. May throw std::bad_alloc; where the system has
-  /// no more threads, or no memory for them, the crew is smaller.
+  /// `size` >= 1 includes the thread that calls `run`. May throw std::bad_alloc. If the system has
+  /// no more threads, or no memory for them, the pool is smaller.
   explicit ThreadPool(unsigned size);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  /// How many work together.
-  [[nodiscard]] std::size_t size() const noexcept { return others_.size() + 1; }
+  /// Number of threads, including the caller's. It never grows.
+  [[nodiscard]] std::size_t size() const noexcept { return workers_.size() + 1; }
 
-  /// Calls `work(worker, job)` for the jobs 0 to `count` - 1, each once, in any order, from threads
-  /// that are the workers 0 to size() - 1; worker 0 is the caller. Returns when all are done.
+  /// Calls `work(worker, job)` once for each job from 0 to `count` - 1, in any order. `worker` is
+  /// the number of the thread, 0 to size() - 1; the caller is worker 0. Returns when all jobs are
+  /// done. `work` must not throw. Not thread-safe.
   template <class Work>
   void run(std::size_t count, const Work& work) noexcept {
-    if (others_.empty() || count <= 1) {
+    if (workers_.empty() || count <= 1) {
       for (std::size_t job = 0; job < count; ++job) work(std::size_t{0}, job);
       return;
     }
@@ -44,19 +71,58 @@ class ThreadPool {
  private:
   using Call = void (*)(const void* context, std::size_t worker, std::size_t job) noexcept;
 
+  void start_workers(std::size_t count) noexcept;
+  void forget_workers() noexcept;
+  [[nodiscard]] bool has_forked() const noexcept;
   void run_together() noexcept;
   void take_jobs(std::size_t worker) noexcept;
-  void serve(std::size_t worker) noexcept;
+  void worker_loop(std::size_t worker, std::uint32_t round) noexcept;
 
-  std::vector<std::thread> others_;
+  std::vector<std::thread> workers_;
+  std::uint32_t forks_ = 0;  ///< forks before the workers were started
   std::size_t count_ = 0;
   const void* context_ = nullptr;
   Call call_ = nullptr;
-  int looks_ = 0;                           ///< how long to watch before sleeping
-  std::atomic<std::size_t> next_ = 0;       ///< job
-  std::atomic<std::uint32_t> round_ = 0;    ///< raised when there is work
-  std::atomic<std::uint32_t> at_work_ = 0;  ///< other threads that are not done with the round
-  std::atomic<bool> dismissed_ = false;
+  int spin_count_ = 0;                     ///< how often to look before blocking
+  std::atomic<std::size_t> next_ = 0;      ///< job
+  std::atomic<std::uint32_t> round_ = 0;   ///< raised when there is work
+  std::atomic<std::uint32_t> active_ = 0;  ///< workers that have not finished the round
+  std::atomic<bool> stopping_ = false;
 };
+
+/// Calls `work`, which must not throw, on up to `threads` threads at once, the caller's included;
+/// returns how many there were.
+std::size_t run_on_threads(unsigned threads, const std::function<void()>& work);
+
+/// A `stop` for parallel_for that never stops.
+inline constexpr auto never_stop = [] { return false; };
+
+/// Hands out the jobs 0 to `count` - 1, in this order, to at most `threads` threads (0: all cores),
+/// one of them the caller's. Each thread that gets a job calls `make_worker()` once and passes the
+/// job numbers to the result, which may keep state and may throw. No more jobs are handed out once
+/// `stop()` returns true or a job throws; the first exception is rethrown here when all threads
+/// have finished. All threads run in the ScopedFloatingPointMode. Returns the number of threads.
+template <class Stop, class MakeWorker>
+std::size_t parallel_for(std::size_t count, unsigned threads, const Stop& stop,
+                         const MakeWorker& make_worker) {
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&]() noexcept {
+    try {
+      std::size_t job = stop() ? count : next++;
+      if (job >= count) return;
+      for (auto worker = make_worker(); job < count; job = stop() ? count : next++) worker(job);
+    } catch (...) {
+      next = count;
+      const std::scoped_lock lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  const std::size_t useful = std::clamp<std::size_t>(count, 1, threads_or_cores(threads));
+  const std::size_t used = run_on_threads(static_cast<unsigned>(useful), work);
+  if (failure) std::rethrow_exception(failure);
+  return used;
+}
 
 }  // namespace flagstone

@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -51,12 +49,6 @@ PatchworkConfig checked(PatchworkConfig config) {
   return config;
 }
 
-unsigned checked(unsigned threads) {
-  if (threads >= 1 && threads <= 1024) return threads;
-  throw std::invalid_argument("patchwork: threads is " + std::to_string(threads) +
-                              ", allowed are 1 to 1024");
-}
-
 }  // namespace
 
 namespace patchwork {
@@ -91,8 +83,8 @@ struct Patchwork::Pipeline {
         zones(config),
         likelihood(config, zones.rings()),
         seed_floors(patchwork::seed_floors(config)),
-        crew(checked(threads)) {
-    for (std::size_t i = 0; i < crew.size(); ++i) fitters.emplace_back(config);
+        pool(checked_threads("patchwork", threads)) {
+    for (std::size_t i = 0; i < pool.size(); ++i) fitters.emplace_back(config);
   }
 
   void reserve(std::size_t point_count, Segmentation& result) {
@@ -108,7 +100,7 @@ struct Patchwork::Pipeline {
     StageClock clock(stage_times);
 
     // Concentric Zone Model (III-B)
-    crew.run(ScanPoints::chunk_count(cloud.size()),
+    pool.run(ScanPoints::chunk_count(cloud.size()),
              [&](std::size_t, std::size_t chunk) { read_chunk(cloud, chunk, zones, scan); });
     clock.end(Stage::bin);
     groups.group(scan, cloud.size(), zones.group_count());
@@ -120,7 +112,7 @@ struct Patchwork::Pipeline {
     // Planes and verdicts (III-C, III-D), sixteen bins at a time
     const std::span<Patch> patches = result.mutable_patches();
     const std::size_t batches = (fitted_count + batch_size - 1) / batch_size;
-    crew.run(batches, [&](std::size_t worker, std::size_t batch) {
+    pool.run(batches, [&](std::size_t worker, std::size_t batch) {
       StageClock no_clock(nullptr);
       segment_batch(batch, patches, labels, fitters[worker], worker == 0 ? clock : no_clock);
     });
@@ -240,8 +232,8 @@ struct Patchwork::Pipeline {
   Buffer<FittedBin> fitted_bins;
   std::size_t fitted_count = 0;
   StageTimes* stage_times = nullptr;
-  std::vector<patchwork::Fitter> fitters;  ///< one for each of the crew
-  ThreadPool crew;
+  std::vector<patchwork::Fitter> fitters;  ///< one per thread
+  ThreadPool pool;
 };
 
 Patchwork::Patchwork(PatchworkConfig config, unsigned threads)

@@ -8,8 +8,6 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -82,12 +80,6 @@ SurfaceConfig checked(SurfaceConfig config) {
   return config;
 }
 
-unsigned checked(unsigned threads) {
-  if (threads >= 1 && threads <= 1024) return threads;
-  throw std::invalid_argument("surface: threads is " + std::to_string(threads) +
-                              ", allowed are 1 to 1024");
-}
-
 /// The lowest of that many points are seeds.
 std::uint32_t seed_count(std::size_t points) {
   return static_cast<std::uint32_t>(std::clamp<std::size_t>(points / 5, 3, 20));
@@ -137,10 +129,10 @@ struct Surface::Pipeline {
         point_heights(config, cells),
         lower_ground(cells),
         groups(plane_fits::Listing::points),
-        crew(checked(threads)) {
+        pool(checked_threads("surface", threads)) {
     for (const surface::Grid& grid : pyramid.grids()) widest = std::max(widest, grid.width);
     pull_push = PullPush(widest);
-    for (std::size_t i = 0; i < crew.size(); ++i) fitters.emplace_back();
+    for (std::size_t i = 0; i < pool.size(); ++i) fitters.emplace_back();
     fitted_patches.reserve(square_patches.list().size());
     planes.reserve(square_patches.list().size());
     accepted.reserve(square_patches.list().size());
@@ -170,7 +162,7 @@ struct Surface::Pipeline {
     const ScopedFloatingPointMode own;
     StageClock clock(stage_times);
     const std::size_t chunks = ScanPoints::chunk_count(cloud.size());
-    crew.run(chunks, [&](std::size_t, std::size_t chunk) {
+    pool.run(chunks, [&](std::size_t, std::size_t chunk) {
       surface::read_chunk(cloud, chunk, cells, scan);
     });
     clock.end(Stage::bin);
@@ -181,7 +173,7 @@ struct Surface::Pipeline {
     // Planes, sixteen patches at a time
     const std::span<Patch> found = result.mutable_patches();
     const std::size_t batches = (fitted_count + batch_size - 1) / batch_size;
-    crew.run(batches, [&](std::size_t worker, std::size_t batch) {
+    pool.run(batches, [&](std::size_t worker, std::size_t batch) {
       StageClock no_clock(nullptr);
       fit_batch(batch, found, fitters[worker], worker == 0 ? clock : no_clock);
     });
@@ -191,18 +183,18 @@ struct Surface::Pipeline {
     join(found);
     coarse.finish(pull_push);
     clock.end(Stage::join);
-    pyramid.refine(groups, pull_push, crew);
+    pyramid.refine(groups, pull_push, pool);
     copy_to(result.mutable_surface());
     clock.end(Stage::refine);
 
     // Points
     const std::span<float> heights = result.start_heights();
     point_heights.set_surface(pyramid.grids());
-    crew.run(chunks,
+    pool.run(chunks,
              [&](std::size_t, std::size_t chunk) { point_heights.measure(scan, chunk, heights); });
     clock.end(Stage::measure);
     for (surface::Fitter& fitter : fitters) fitter.totals = {};
-    crew.run(chunks, [&](std::size_t worker, std::size_t chunk) {
+    pool.run(chunks, [&](std::size_t worker, std::size_t chunk) {
       point_heights.label(scan, chunk, heights, labels, fitters[worker].totals);
     });
     LabelTotals totals{};
@@ -327,8 +319,8 @@ struct Surface::Pipeline {
   std::size_t fitted_count = 0;
   AcceptedPatches accepted;
   StageTimes* stage_times = nullptr;
-  std::vector<surface::Fitter> fitters;  ///< one for each of the crew
-  ThreadPool crew;
+  std::vector<surface::Fitter> fitters;  ///< one per thread
+  ThreadPool pool;
 };
 
 Surface::Surface(SurfaceConfig config, unsigned threads)

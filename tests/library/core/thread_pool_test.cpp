@@ -4,11 +4,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <deque>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -18,37 +25,37 @@ namespace {
 using testing::Each;
 
 /// How often each job was done.
-std::vector<int> times_done(ThreadPool& crew, std::size_t jobs) {
+std::vector<int> times_done(ThreadPool& pool, std::size_t jobs) {
   std::vector<std::atomic<int>> done(jobs);
-  crew.run(jobs, [&](std::size_t, std::size_t job) { ++done[job]; });
+  pool.run(jobs, [&](std::size_t, std::size_t job) { ++done[job]; });
   return {done.begin(), done.end()};
 }
 
-class CrewOf : public testing::TestWithParam<unsigned> {
+class ThreadPoolOf : public testing::TestWithParam<unsigned> {
  protected:
-  ThreadPool crew{GetParam()};
+  ThreadPool pool{GetParam()};
 };
 
-INSTANTIATE_TEST_SUITE_P(Threads, CrewOf, testing::Range(1U, 9U),
+INSTANTIATE_TEST_SUITE_P(Threads, ThreadPoolOf, testing::Range(1U, 9U),
                          testing::PrintToStringParamName());
 
-TEST_P(CrewOf, CountsTheCaller) { EXPECT_EQ(crew.size(), GetParam()); }
+TEST_P(ThreadPoolOf, IncludesTheCaller) { EXPECT_EQ(pool.size(), GetParam()); }
 
-TEST_P(CrewOf, DoesEveryJobOnce) {
+TEST_P(ThreadPoolOf, DoesEveryJobOnce) {
   for (const std::size_t jobs : {1U, 2U, 3U, 7U, 8U, 9U, 100U, 5000U}) {
-    EXPECT_THAT(times_done(crew, jobs), Each(1)) << jobs << " jobs";
+    EXPECT_THAT(times_done(pool, jobs), Each(1)) << jobs << " jobs";
   }
 }
 
-TEST_P(CrewOf, DoesNothingWhereThereAreNoJobs) {
-  crew.run(0, [](std::size_t, std::size_t) { ADD_FAILURE() << "there was no job"; });
+TEST_P(ThreadPoolOf, DoesNothingWhereThereAreNoJobs) {
+  pool.run(0, [](std::size_t, std::size_t) { ADD_FAILURE() << "there was no job"; });
 }
 
-TEST_P(CrewOf, WorksAThousandRoundsWithoutLosingOrRepeatingAJob) {
+TEST_P(ThreadPoolOf, WorksAThousandRoundsWithoutLosingOrRepeatingAJob) {
   std::vector<std::atomic<std::size_t>> done(24);
   for (std::size_t round = 0; round < 1000; ++round) {
     const std::size_t jobs = round % done.size() + 1;
-    crew.run(jobs, [&](std::size_t, std::size_t job) { ++done[job]; });
+    pool.run(jobs, [&](std::size_t, std::size_t job) { ++done[job]; });
   }
 
   for (std::size_t job = 0; job < done.size(); ++job) {
@@ -58,11 +65,11 @@ TEST_P(CrewOf, WorksAThousandRoundsWithoutLosingOrRepeatingAJob) {
   }
 }
 
-TEST_P(CrewOf, HasFinishedWhenRunReturns) {
+TEST_P(ThreadPoolOf, HasFinishedWhenRunReturns) {
   // Plain numbers: what the others wrote must be seen without any synchronisation of ours.
   std::vector<std::size_t> squares(2000);
   for (std::size_t factor = 1; factor <= 50; ++factor) {
-    crew.run(squares.size(),
+    pool.run(squares.size(),
              [&](std::size_t, std::size_t job) { squares[job] = factor * job * job; });
     for (std::size_t job = 0; job < squares.size(); ++job) {
       ASSERT_EQ(squares[job], factor * job * job);
@@ -70,11 +77,11 @@ TEST_P(CrewOf, HasFinishedWhenRunReturns) {
   }
 }
 
-TEST_P(CrewOf, GivesEachWorkerANumberOfItsOwn) {
-  std::vector<std::atomic<std::thread::id>> thread_of(crew.size());
+TEST_P(ThreadPoolOf, GivesEachWorkerANumberOfItsOwn) {
+  std::vector<std::atomic<std::thread::id>> thread_of(pool.size());
   std::atomic<int> wrong = 0;
   for (int round = 0; round < 50; ++round) {
-    crew.run(200, [&](std::size_t worker, std::size_t) {
+    pool.run(200, [&](std::size_t worker, std::size_t) {
       if (worker >= thread_of.size()) {
         ++wrong;
         return;
@@ -91,35 +98,141 @@ TEST_P(CrewOf, GivesEachWorkerANumberOfItsOwn) {
       << "worker 0 is the caller";
 }
 
-TEST_P(CrewOf, MaySleepBetweenRounds) {
+TEST_P(ThreadPoolOf, MaySleepBetweenRounds) {
   for (int round = 0; round < 5; ++round) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    EXPECT_THAT(times_done(crew, 64), Each(1));
+    EXPECT_THAT(times_done(pool, 64), Each(1));
   }
 }
 
-TEST_P(CrewOf, CanBeDismissedWithoutEverHavingWorked) {
+TEST_P(ThreadPoolOf, CanBeDestroyedWithoutEverHavingWorked) {
   for (int i = 0; i < 50; ++i) const ThreadPool unused(GetParam());
 }
 
-TEST_P(CrewOf, CanBeDismissedRightAfterWork) {
+TEST_P(ThreadPoolOf, CanBeDestroyedRightAfterWork) {
   for (int i = 0; i < 50; ++i) {
     ThreadPool brief(GetParam());
     EXPECT_THAT(times_done(brief, 16), Each(1));
   }
 }
 
-TEST_P(CrewOf, CanRunFromAJobOfAnotherCrew) {
-  // Each outer worker has a crew of its own, as segmenters of a parallel program have.
+TEST_P(ThreadPoolOf, CanRunFromAJobOfAnotherPool) {
+  // Each outer worker has a pool of its own, as segmenters of a parallel program have.
   std::deque<ThreadPool> inner;
-  for (std::size_t i = 0; i < crew.size(); ++i) inner.emplace_back(GetParam());
+  for (std::size_t i = 0; i < pool.size(); ++i) inner.emplace_back(GetParam());
   std::atomic<std::size_t> done = 0;
 
-  crew.run(40, [&](std::size_t worker, std::size_t) {
+  pool.run(40, [&](std::size_t worker, std::size_t) {
     inner[worker].run(10, [&](std::size_t, std::size_t) { ++done; });
   });
 
   EXPECT_EQ(done, 400U);
+}
+
+/// The exit code of `work` in a child process; 124 if it takes longer than 20 seconds.
+int exit_code_of_child(const std::function<int()>& work) {
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);
+    _exit(work());
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 124;
+}
+
+TEST_P(ThreadPoolOf, StartsItsOwnWorkersAfterAFork) {
+  EXPECT_THAT(times_done(pool, 100), Each(1));
+
+  const int exit_code = exit_code_of_child([&] {
+    for (int round = 0; round < 20; ++round) {
+      for (const int times : times_done(pool, 100)) {
+        if (times != 1) return 1;
+      }
+    }
+    // A child of the child, too.
+    return exit_code_of_child([&] { return times_done(pool, 3) == std::vector{1, 1, 1} ? 0 : 2; });
+  });
+
+  EXPECT_EQ(exit_code, 0);
+  EXPECT_THAT(times_done(pool, 100), Each(1)) << "the parent's workers stay";
+}
+
+TEST_P(ThreadPoolOf, CanBeDestroyedInAChildThatHasNotUsedIt) {
+  auto copied = std::make_unique<ThreadPool>(GetParam());
+  EXPECT_EQ(exit_code_of_child([&] {
+              copied.reset();
+              return 0;
+            }),
+            0);
+}
+
+TEST(ThreadCount, IsOneToMaxThreads) {
+  EXPECT_EQ(checked_threads("here", 1), 1U);
+  EXPECT_EQ(checked_threads("here", max_threads), 1024U);
+  for (const unsigned threads : {0U, 1025U}) {
+    EXPECT_THAT([&] { checked_threads("here", threads); },
+                testing::ThrowsMessage<std::invalid_argument>(
+                    "here: threads is " + std::to_string(threads) + ", allowed are 1 to 1024"));
+  }
+}
+
+TEST(ThreadCount, IsTheNumberOfCoresForZero) {
+  EXPECT_EQ(threads_or_cores(0), std::max(1U, std::thread::hardware_concurrency()));
+  EXPECT_EQ(threads_or_cores(3), 3U);
+}
+
+TEST_P(ThreadPoolOf, ParallelForDoesEveryJobOnceWithAWorkerPerThread) {
+  std::vector<std::atomic<int>> done(500);
+  std::atomic<std::size_t> workers = 0;
+
+  const std::size_t threads = parallel_for(done.size(), GetParam(), never_stop, [&] {
+    ++workers;
+    return [&](std::size_t job) { ++done[job]; };
+  });
+
+  EXPECT_THAT(std::vector<int>(done.begin(), done.end()), Each(1));
+  EXPECT_EQ(threads, GetParam());
+  EXPECT_GE(workers, 1U);
+  EXPECT_LE(workers, GetParam());
+}
+
+TEST_P(ThreadPoolOf, ParallelForUsesNoMoreThreadsThanJobs) {
+  const auto make_worker = [] { return [](std::size_t) {}; };
+  EXPECT_EQ(parallel_for(2, GetParam(), never_stop, make_worker), std::min(2U, GetParam()));
+  EXPECT_EQ(parallel_for(0, GetParam(), never_stop, make_worker), 1U);
+}
+
+TEST_P(ThreadPoolOf, ParallelForRethrowsTheFirstExceptionAndHandsOutNoMoreJobs) {
+  std::atomic<std::size_t> done = 0;
+  const auto run = [&] {
+    parallel_for(100'000, GetParam(), never_stop, [&] {
+      return [&](std::size_t job) {
+        ++done;
+        if (job == 3) throw std::runtime_error("job 3");
+      };
+    });
+  };
+
+  EXPECT_THAT(run, testing::ThrowsMessage<std::runtime_error>("job 3"));
+  EXPECT_LT(done, 100'000U);
+}
+
+TEST_P(ThreadPoolOf, ParallelForRethrowsWhatMakeWorkerThrows) {
+  const auto make_worker = [&]() -> std::function<void(std::size_t)> {
+    throw std::runtime_error("no worker");
+  };
+  EXPECT_THAT([&] { parallel_for(5, GetParam(), never_stop, make_worker); },
+              testing::ThrowsMessage<std::runtime_error>("no worker"));
+}
+
+TEST_P(ThreadPoolOf, ParallelForStopsWhenAsked) {
+  std::atomic<std::size_t> done = 0;
+  parallel_for(
+      100'000, GetParam(), [&] { return done >= 10; },
+      [&] { return [&](std::size_t) { ++done; }; });
+  EXPECT_GE(done, 10U);
+  EXPECT_LE(done, 10U + GetParam());
 }
 
 }  // namespace

@@ -15,19 +15,19 @@
 namespace flagstone {
 namespace {
 
-TEST(CrewWithoutMemory, IsSmallerOrRefusedAndNeverLosesAJob) {
+TEST(ThreadPoolWithoutMemory, IsSmallerOrRefusedAndNeverLosesAJob) {
   for (std::size_t bytes = 0; bytes <= 400; bytes += 8) {
     std::vector<std::atomic<int>> done(20);
     io::allocated = 0;
     io::allowed = bytes;
     try {
-      ThreadPool crew(8);
+      ThreadPool pool(8);
       io::allowed = io::unlimited;
-      crew.run(done.size(), [&](std::size_t, std::size_t job) { ++done[job]; });
+      pool.run(done.size(), [&](std::size_t, std::size_t job) { ++done[job]; });
       EXPECT_TRUE(std::ranges::all_of(done, [](int times) { return times == 1; })) << bytes;
     } catch (const std::bad_alloc&) {
       io::allowed = io::unlimited;
-      EXPECT_LT(bytes, 7 * sizeof(void*)) << "there was room for a crew of one";
+      EXPECT_LT(bytes, 7 * sizeof(void*)) << "there was room for a pool of one";
     }
   }
 }
