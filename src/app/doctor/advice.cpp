@@ -80,7 +80,7 @@ std::string to_toml(const Advice& advice) {
   if (!advice.has_mount) return text;
   text += "\n[mount]\n";
   if (differs(mount.up, usual.up)) {
-    text += fmt::format("tilt = \"given\"\nup = {}  # where up is in the cloud's frame\n",
+    text += fmt::format("tilt = \"fixed\"\nup = {}  # where up is in the cloud's frame\n",
                         numbers(mount.up, 4));
   }
   if (differs(mount.origin, usual.origin)) {

@@ -79,7 +79,7 @@ Finding axes(const CommonOrientation& orientation) {
   finding.sentence = name == "-z" ? "z is down: the clouds are upside down."
                                   : fmt::format("Up is {}, not z.", name);
   finding.remedy =
-      fmt::format("Set mount.tilt = \"given\" and mount.up = {}.", components(orientation.axis, 1));
+      fmt::format("Set mount.tilt = \"fixed\" and mount.up = {}.", components(orientation.axis, 1));
   return finding;
 }
 
@@ -103,7 +103,7 @@ Finding tilt(const CommonOrientation& orientation, const Advice& advice) {
   if (!orientation.is_tilted()) return finding;
   finding.severity = Severity::fix;
   finding.remedy = fmt::format(
-      "Set mount.tilt = \"given\" and mount.up = {}, unless the vehicle stood level before a "
+      "Set mount.tilt = \"fixed\" and mount.up = {}, unless the vehicle stood level before a "
       "slope.",
       components(advice.mount.up, 4));
   return finding;

@@ -179,7 +179,7 @@ TEST(ConfigToml, AValueOfTheWrongTypeIsRefusedWithItsPlaceAndTheTypeAllowed) {
   EXPECT_THAT(complaint("iterations = 3.5\n"),
               points_at(1, 14, "iterations is a whole number, not a floating-point"));
   EXPECT_THAT(complaint("evaluate_final_set = 1\n"),
-              points_at(1, 19, "evaluate_final_set is true or false, not a integer"));
+              points_at(1, 22, "evaluate_final_set is true or false, not a integer"));
   EXPECT_THAT(complaint("flatness.thresholds = 0.1\n"),
               points_at(1, 23, "flatness.thresholds is an array of numbers"));
   EXPECT_THAT(complaint("flatness.thresholds = [0.1, true]\n"),

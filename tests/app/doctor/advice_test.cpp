@@ -88,7 +88,7 @@ TEST(AdviceToml, HoldsOfTheMountWhatDiffers) {
             "sensor = \"os0-128\"\n"
             "sensor_height = 2.0  # metres above the ground\n"
             "\n[mount]\n"
-            "tilt = \"given\"\n"
+            "tilt = \"fixed\"\n"
             "up = [0.0, -1.0, 0.0]  # where up is in the cloud's frame\n"
             "origin = [0.0, 0.25, -1.5]  # where the sensor is in the cloud's frame, metres\n"
             "scale = 0.01  # metres a unit\n");

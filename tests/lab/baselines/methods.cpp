@@ -30,7 +30,7 @@ std::vector<Method> methods() {
       {"Cascaded", make<Cascaded>, false, 81.2, 85.5},
       {"RGpf", make_r_gpf, true, 82.7, 87.4},
       {"Patchwork", make<Patchwork>, true, 93.9, 97.6},
-      {"GroundSurface", make<Surface>, true, 95.5, 98.8, false},
+      {"Surface", make<Surface>, true, 95.5, 98.8, false},
   };
 }
 

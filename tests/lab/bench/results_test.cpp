@@ -91,7 +91,7 @@ TEST(Results, StagesAreThoseOfTheMethod) {
 TEST(Results, TextOfSurfaceNamesItAndHasARowForEveryStage) {
   const std::string text = to_text(example("surface"));
 
-  EXPECT_THAT(text, testing::StartsWith("GroundSurface with avx2, 1 thread;"));
+  EXPECT_THAT(text, testing::StartsWith("Surface with avx2, 1 thread;"));
   for (std::size_t stage = 0; stage < stage_count; ++stage) {
     EXPECT_THAT(text, ContainsRegex(std::string("\n") + to_string(static_cast<Stage>(stage)) +
                                     " +50.0 +50.0 +25.000 +0.50 +10.0\n"));
