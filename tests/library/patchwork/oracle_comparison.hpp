@@ -16,7 +16,7 @@ struct Difference {
   std::size_t different_labels = 0;
   std::size_t patches = 0;
   std::size_t different_verdicts = 0;
-  double largest_normal_error = 0;  ///< 1 - |cos| between normals where verdicts agree
+  double largest_normal_error = 0;  ///< 1 - |cos| between normals where verdicts and labels agree
 
   Difference& operator+=(const Difference& other);
 };
