@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "library/core/point_validity.hpp"
+
 namespace flagstone::mount {
 namespace {
 
@@ -60,7 +62,7 @@ std::span<const NearPoint> NearPoints::find(CloudView cloud, const Mount& mount,
                                     p.z * mount.scale - mount.origin[2]};
       const float square = dot(from_sensor, from_sensor);
       const bool is_near = square > nearest_square_ && square <= farthest_square;  // not if NaN
-      if (!is_near || (p.x == 0 && p.y == 0 && p.z == 0)) continue;
+      if (!is_near || is_missing_return(p)) continue;
       const float z = dot(level.z, from_sensor);
       if (z > 0 && z * z > steepest_ * steepest_ * square) continue;
       const float x = dot(level.x, from_sensor);

@@ -10,9 +10,6 @@
 
 namespace flagstone::patchwork {
 
-/// Farther above or below the sensor a coordinate is no height: the point is out of range, metres.
-inline constexpr float max_height = 10000;
-
 /// As many bins as PatchworkConfig::check() allows.
 inline constexpr std::uint32_t most_bins = 65535;
 

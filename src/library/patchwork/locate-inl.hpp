@@ -13,6 +13,7 @@
 #endif
 // clang-format on
 
+#include "library/core/point_validity.hpp"
 #include "library/core/simd/lanes-inl.hpp"
 #include "library/patchwork/concentric_zones.hpp"
 
@@ -87,19 +88,11 @@ HWY_INLINE IntVector with_binless(IntVector bins, FloatVector squared_range, Flo
                                   FloatVector y, FloatVector z, const ConcentricZones& zones) {
   const FloatTag d;
   const IntTag di;
-  const FloatVector zero = hn::Zero(d);
-  // Infinity * 0 and NaN * 0 are NaN.
-  const FloatVector nothing =
-      hn::Add(hn::Add(hn::Mul(x, zero), hn::Mul(y, zero)), hn::Mul(z, zero));
-  // Looked at as integers without their sign, numbers are zero if they are, not if they are
-  // denormal.
-  const IntVector bits = hn::BitCast(di, hn::Or(hn::Or(x, y), z));
-  const auto somewhere = hn::Ne(hn::ShiftLeft<1>(bits), hn::Zero(di));
-  const auto valid = hn::And(hn::Eq(nothing, zero), hn::RebindMask(d, somewhere));
+  const auto valid = is_valid(x, y, z);
   const auto in_range =
       hn::And(hn::And(hn::Ge(squared_range, hn::Set(d, zones.min_squared_range())),
                       hn::Lt(squared_range, hn::Set(d, zones.max_squared_range()))),
-              hn::Le(hn::Abs(z), hn::Set(d, max_height)));
+              hn::Le(hn::Abs(z), hn::Set(d, max_coordinate)));
   const IntVector binless = hn::IfThenElse(
       hn::RebindMask(di, valid), all_lanes(zones.out_of_range()), all_lanes(zones.invalid()));
   return hn::IfThenElse(hn::RebindMask(di, hn::And(in_range, valid)), bins, binless);
@@ -159,7 +152,7 @@ HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z,
   const auto in_range =
       hn::And(hn::And(hn::Ge(squared_range, hn::Set(d, zones.least_squared_range())),
                       hn::Lt(squared_range, hn::Set(d, zones.max_squared_range()))),
-              hn::Le(hn::Abs(z), hn::Set(d, max_height)));
+              hn::Le(hn::Abs(z), hn::Set(d, max_coordinate)));
   if (HWY_UNLIKELY(!hn::AllTrue(d, in_range))) {
     bins = with_binless(bins, squared_range, x, y, z, zones);
   }

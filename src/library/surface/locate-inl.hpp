@@ -13,6 +13,7 @@
 #endif
 // clang-format on
 
+#include "library/core/point_validity.hpp"
 #include "library/core/simd/lanes-inl.hpp"
 #include "library/surface/square_cells.hpp"
 
@@ -70,32 +71,14 @@ HWY_INLINE IntVector cell_of(FloatVector x, FloatVector y, const SquareCells& ce
   return hn::Add(whole_part(first), whole_part(hn::Mul(hn::ConvertTo(d, z_order), share)));
 }
 
-/// Whether points are anywhere at all: no coordinate infinite or not a number, not all zero.
-HWY_INLINE hn::Mask<FloatTag> is_valid(FloatVector x, FloatVector y, FloatVector z) {
-  const FloatTag d;
-  const IntTag di;
-  const FloatVector zero = hn::Zero(d);
-  // Infinity * 0 and NaN * 0 are NaN.
-  const FloatVector nothing =
-      hn::Add(hn::Add(hn::Mul(x, zero), hn::Mul(y, zero)), hn::Mul(z, zero));
-  // Looked at as integers without their sign, numbers are zero if they are, not if they are
-  // denormal.
-  const IntVector bits = hn::BitCast(di, hn::Or(hn::Or(x, y), z));
-  const auto somewhere = hn::RebindMask(d, hn::Ne(hn::ShiftLeft<1>(bits), hn::Zero(di)));
-  return hn::And(hn::Eq(nothing, zero), somewhere);
-}
-
 /// Whether points are valid and in range.
 HWY_INLINE hn::Mask<FloatTag> is_good(FloatVector x, FloatVector y, FloatVector z,
                                       const SquareCells& cells) {
   const FloatTag d;
-  const IntTag di;
   const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));  // infinite if too far
   const auto in_range = hn::And(hn::Lt(squared_range, hn::Set(d, cells.max_squared_range())),
-                                hn::Le(hn::Abs(z), hn::Set(d, max_height)));
-  const IntVector bits = hn::BitCast(di, hn::Or(hn::Or(x, y), z));
-  const auto somewhere = hn::RebindMask(d, hn::Ne(hn::ShiftLeft<1>(bits), hn::Zero(di)));
-  return hn::And(in_range, somewhere);
+                                hn::Le(hn::Abs(z), hn::Set(d, max_coordinate)));
+  return hn::And(in_range, is_return(x, y, z));
 }
 
 /// The cells of points, each a cell, noise(), out_of_range() or invalid(). Takes any bit pattern.

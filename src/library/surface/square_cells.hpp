@@ -11,9 +11,6 @@
 
 namespace flagstone::surface {
 
-/// Farther above or below the sensor a coordinate is no height: the point is out of range, metres.
-inline constexpr float max_height = 10000;
-
 /// Side of a block, metres.
 inline constexpr int block_size = 8;
 

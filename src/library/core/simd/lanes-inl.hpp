@@ -225,6 +225,23 @@ HWY_INLINE void load_points(const float* HWY_RESTRICT points, FloatVector& x, Fl
   }
 }
 
+/// Whether points are not the all-zero missing return. Read as integers without their sign, so that
+/// denormals are not zero.
+HWY_INLINE hn::Mask<FloatTag> is_return(FloatVector x, FloatVector y, FloatVector z) {
+  const IntTag di;
+  const IntVector bits = hn::BitCast(di, hn::Or(hn::Or(x, y), z));
+  return hn::RebindMask(FloatTag(), hn::Ne(hn::ShiftLeft<1>(bits), hn::Zero(di)));
+}
+
+/// is_valid of point_validity.hpp: no coordinate infinite or NaN, not all zero.
+HWY_INLINE hn::Mask<FloatTag> is_valid(FloatVector x, FloatVector y, FloatVector z) {
+  const FloatVector zero = hn::Zero(FloatTag());
+  // Infinity * 0 and NaN * 0 are NaN.
+  const FloatVector nothing =
+      hn::Add(hn::Add(hn::Mul(x, zero), hn::Mul(y, zero)), hn::Mul(z, zero));
+  return hn::And(hn::Eq(nothing, zero), is_return(x, y, z));
+}
+
 }  // namespace
 }  // namespace flagstone::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
