@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t longest_quote = 32;
 
 void append_hex(std::string& out, char c) {
-  fmt::format_to(std::back_inserter(out), "\\x{:02x}", static_cast<unsigned char>(c));
+  out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -31,9 +30,8 @@ Status with_path(const std::filesystem::path& path, Status status);
 /// bad_file, "byte OFFSET: reason".
 template <class... Args>
 Status bad_byte(std::size_t offset, fmt::format_string<Args...> reason, Args&&... args) {
-  std::string message = fmt::format("byte {}: ", offset);
-  fmt::format_to(std::back_inserter(message), reason, std::forward<Args>(args)...);
-  return Status(StatusCode::bad_file, std::move(message));
+  return Status(StatusCode::bad_file, fmt::format("byte {}: ", offset) +
+                                          fmt::format(reason, std::forward<Args>(args)...));
 }
 
 /// invalid_argument with a formatted reason.
