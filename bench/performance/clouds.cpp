@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "flagstone/sensor.hpp"
-#include "lab/sim/mounting.hpp"
+#include "lab/sim/drive.hpp"
 #include "lab/sim/noise.hpp"
 #include "lab/sim/scan.hpp"
 #include "lab/sim/street.hpp"

@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "lab/sim/drive.hpp"
-#include "lab/sim/scene_kind.hpp"
+#include "lab/sim/scene.hpp"
 #include "library/core/random.hpp"
 #include "terminal.hpp"
 

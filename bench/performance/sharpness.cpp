@@ -25,8 +25,8 @@
 #include <vector>
 
 #include "lab/sim/drive.hpp"
-#include "lab/sim/scene_kind.hpp"
-#include "lab/sim/step_view.hpp"
+#include "lab/sim/ground_step.hpp"
+#include "lab/sim/scene.hpp"
 #include "terminal.hpp"
 
 namespace flagstone::performance {

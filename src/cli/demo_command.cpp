@@ -28,7 +28,7 @@
 #include "lab/eval/confusion.hpp"
 #include "lab/eval/height_score.hpp"
 #include "lab/eval/protocol.hpp"
-#include "lab/sim/simulate_street.hpp"
+#include "lab/sim/drive.hpp"
 #include "library/core/statistics.hpp"
 #include "library/core/stopwatch.hpp"
 

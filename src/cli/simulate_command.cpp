@@ -33,10 +33,9 @@
 #include "cli/simulated_sequence.hpp"
 #include "files/io/sensor_file.hpp"
 #include "flagstone/sensor.hpp"
-#include "lab/sim/conditions.hpp"
 #include "lab/sim/drive.hpp"
 #include "lab/sim/noise.hpp"
-#include "lab/sim/scene_kind.hpp"
+#include "lab/sim/scene.hpp"
 #include "library/core/stopwatch.hpp"
 
 namespace flagstone::cli {

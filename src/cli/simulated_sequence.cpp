@@ -23,8 +23,8 @@
 #include "files/io/write_cloud.hpp"
 #include "flagstone/version.hpp"
 #include "lab/sim/drive.hpp"
-#include "lab/sim/echo.hpp"
-#include "lab/sim/semantic_class.hpp"
+#include "lab/sim/measurement.hpp"
+#include "lab/sim/mesh.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;

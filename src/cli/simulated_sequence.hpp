@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "flagstone/sensor.hpp"
-#include "lab/sim/frame.hpp"
-#include "lab/sim/mounting.hpp"
+#include "lab/sim/drive.hpp"
+#include "lab/sim/geometry.hpp"
 #include "lab/sim/scan.hpp"
 
 namespace flagstone::cli {

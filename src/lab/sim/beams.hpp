@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "flagstone/sensor.hpp"
-#include "lab/sim/vector3.hpp"
+#include "lab/sim/geometry.hpp"
 
 namespace flagstone::sim {
 

@@ -2,13 +2,40 @@
 // SPDX-License-Identifier: MIT
 #include "lab/sim/drive.hpp"
 
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <utility>
 
-#include "lab/sim/true_ground.hpp"
+#include "flagstone/sensor.hpp"
+#include "lab/sim/ground.hpp"
+#include "lab/sim/noise.hpp"
+#include "lab/sim/street.hpp"
 
 namespace flagstone::sim {
+
+Frame vehicle_pose(const Ground& ground, double x, double y, double yaw) {
+  constexpr double wheelbase = 2.7;  // of KITTI's car, metres
+  constexpr double track = 1.6;
+  return frame_on_wheels(ground, x, y, yaw, wheelbase, track);
+}
+
+Frame sensor_pose(const Frame& vehicle, const Mounting& mounting) {
+  constexpr double radians = std::numbers::pi / 180;
+  Frame pose = raised(vehicle, mounting.height);
+  const double pitch = mounting.pitch * radians;
+  const Vector3 up = std::sin(pitch) * pose.forward + std::cos(pitch) * pose.up;
+  pose.forward = std::cos(pitch) * pose.forward - std::sin(pitch) * pose.up;
+  const double roll = mounting.roll * radians;
+  pose.up = std::cos(roll) * up - std::sin(roll) * pose.left;
+  pose.left = std::cos(roll) * pose.left + std::sin(roll) * up;
+  return pose;
+}
+
+Frame sensor_pose(const Ground& ground, const Sensor& sensor, double x, double y, double yaw) {
+  return sensor_pose(vehicle_pose(ground, x, y, yaw), {.height = sensor.height});
+}
 
 std::uint64_t drive_seed(std::uint64_t sequence_seed, std::uint64_t index) noexcept {
   return Random::stream(sequence_seed, index).bits();
@@ -40,6 +67,27 @@ SimulatedScan Drive::scan(const Scene& scene, const Noise& noise, int frame,
 std::vector<float> Drive::ground_of(const SimulatedScan& scan, int frame) const {
   const auto index = static_cast<std::size_t>(frame);
   return true_ground(landscape_.ground, poses_[index], upward_[index], scan.xyzi);
+}
+
+namespace {
+
+/// Where the sensor is in a street.
+Frame pose_in(const Scene& street, const Sensor& sensor) {
+  constexpr double right_lane = -1.6;  // metres left of the centre line
+  return sensor_pose(street.ground(), sensor, 0, right_lane, 0);
+}
+
+}  // namespace
+
+SimulatedScan simulate_street(std::uint64_t seed, unsigned threads) {
+  const Scene street = make_street(seed);
+  const Sensor& sensor = Sensor::named("hdl-64e");
+  return simulate(street, sensor, Noise{}, pose_in(street, sensor), seed, {.threads = threads});
+}
+
+std::vector<float> street_ground(std::uint64_t seed, std::span<const float> xyzi) {
+  const Scene street = make_street(seed);
+  return true_ground(street.ground(), pose_in(street, Sensor::named("hdl-64e")), xyzi);
 }
 
 }  // namespace flagstone::sim

@@ -3,17 +3,34 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "flagstone/sensor.hpp"
-#include "lab/sim/frame.hpp"
-#include "lab/sim/landscape.hpp"
-#include "lab/sim/mounting.hpp"
+#include "lab/sim/geometry.hpp"
+#include "lab/sim/ground.hpp"
 #include "lab/sim/scan.hpp"
 #include "lab/sim/scene.hpp"
-#include "lab/sim/scene_kind.hpp"
 
 namespace flagstone::sim {
+
+/// How a sensor sits on its vehicle.
+struct Mounting {
+  double height = 0;  ///< above the ground the vehicle stands on, metres
+  double pitch = 0;   ///< degrees, positive: looks down ahead
+  double roll = 0;    ///< degrees, positive: its right side is the lower one; after the pitch
+};
+
+/// Where a vehicle stands at (x, y) heading for `yaw` (radians), as a car on its wheels: origin on
+/// the ground, tilted with it.
+Frame vehicle_pose(const Ground& ground, double x, double y, double yaw);
+
+/// Where its sensor is.
+Frame sensor_pose(const Frame& vehicle, const Mounting& mounting);
+
+/// Where an upright sensor at its usual height is when its vehicle stands at (x, y) heading for
+/// `yaw` (radians).
+Frame sensor_pose(const Ground& ground, const Sensor& sensor, double x, double y, double yaw);
 
 /// Seed of the world of drive `index` of a sequence: every drive has a world of its own, which does
 /// not depend on how many there are.
@@ -53,5 +70,13 @@ class Drive {
   std::vector<Frame> poses_;     // of the sensor
   std::vector<Vector3> upward_;  // z axes of the vehicle
 };
+
+/// One scan of a random street as an HDL-64E on a car in the right-hand lane takes it, with the
+/// default noise: some 120,000 points. The same seed gives the same bytes.
+SimulatedScan simulate_street(std::uint64_t seed, unsigned threads = 1);
+
+/// Where the ground of that street truly is at each point of its scan, see true_ground(): metres,
+/// sensor frame. `xyzi` are the scan's.
+std::vector<float> street_ground(std::uint64_t seed, std::span<const float> xyzi);
 
 }  // namespace flagstone::sim

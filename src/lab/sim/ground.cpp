@@ -3,13 +3,17 @@
 #include "lab/sim/ground.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 namespace flagstone::sim {
+
 namespace {
 
 bool ascends(const std::vector<double>& lines) {
@@ -141,6 +145,77 @@ void Ground::add_to(Mesh& mesh) const {
       mesh.add_triangle({p00, p10 + 1, p00 + 1}, surface);
     }
   }
+}
+
+Frame frame_on_wheels(const Ground& ground, double x, double y, double yaw, double length,
+                      double width) {
+  const auto on_ground = [&](double ahead, double aside) {
+    const double px = x + ahead * std::cos(yaw) - aside * std::sin(yaw);
+    const double py = y + ahead * std::sin(yaw) + aside * std::cos(yaw);
+    return Vector3{px, py, ground.height(px, py)};
+  };
+  Frame frame;
+  frame.origin = on_ground(0, 0);
+  frame.forward = normalized(on_ground(length / 2, 0) - on_ground(-length / 2, 0));
+  const Vector3 across = on_ground(0, width / 2) - on_ground(0, -width / 2);
+  frame.up = normalized(cross(frame.forward, across));
+  frame.left = cross(frame.up, frame.forward);
+  return frame;
+}
+
+void add_lines(std::vector<double>& lines, double begin, double end, double step) {
+  const int count = std::max(1, static_cast<int>(std::ceil((end - begin) / step - 1e-9)));
+  for (int i = 0; i <= count; ++i) lines.push_back(begin + (end - begin) * i / count);
+}
+
+void finish_lines(std::vector<double>& lines) {
+  constexpr double same = 1e-6;
+  std::ranges::sort(lines);
+  const auto repeated = std::ranges::unique(lines, [](double a, double b) { return b - a < same; });
+  lines.erase(repeated.begin(), repeated.end());
+}
+
+Ground cut_ground(GroundPlan plan) {
+  GroundGrid grid{.x = std::move(plan.x), .offset = {}, .t = std::move(plan.t)};
+  std::vector<double> heights;
+  std::vector<Surface> surfaces;
+  heights.reserve(grid.x.size() * grid.t.size());
+  surfaces.reserve(grid.x.size() * grid.t.size());
+  for (std::size_t i = 0; i < grid.x.size(); ++i) {
+    grid.offset.push_back(plan.offset(grid.x[i]));
+    for (const double t : grid.t) heights.push_back(plan.height(grid.x[i], t));
+    if (i + 1 == grid.x.size()) break;
+    const double middle_x = (grid.x[i] + grid.x[i + 1]) / 2;
+    for (std::size_t j = 0; j + 1 < grid.t.size(); ++j) {
+      surfaces.push_back(plan.surface(middle_x, (grid.t[j] + grid.t[j + 1]) / 2));
+    }
+  }
+  return {std::move(grid), std::move(heights), std::move(surfaces)};
+}
+
+std::vector<float> true_ground(const Ground& ground, const Frame& pose, Vector3 up,
+                               std::span<const float> xyzi) {
+  constexpr std::size_t columns = 4;
+  std::vector<float> heights;
+  heights.reserve(xyzi.size() / columns);
+  for (std::size_t i = 0; i + columns <= xyzi.size(); i += columns) {
+    const Vector3 point{xyzi[i], xyzi[i + 1], xyzi[i + 2]};
+    if (point.x == 0 && point.y == 0 && point.z == 0) {
+      heights.push_back(std::numeric_limits<float>::quiet_NaN());
+      continue;
+    }
+    const Vector3 world = pose.to_world(point);
+    const double to_ground = world.z > ground.height(world.x, world.y) ? -1 : 1;
+    const std::optional<double> way = ground.first_crossing(world, to_ground * up);
+    heights.push_back(way ? static_cast<float>(point.z + to_ground * *way)
+                          : std::numeric_limits<float>::quiet_NaN());
+  }
+  return heights;
+}
+
+std::vector<float> true_ground(const Ground& ground, const Frame& pose,
+                               std::span<const float> xyzi) {
+  return true_ground(ground, pose, pose.up, xyzi);
 }
 
 }  // namespace flagstone::sim

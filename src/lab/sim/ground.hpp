@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "lab/sim/geometry.hpp"
 #include "lab/sim/mesh.hpp"
-#include "lab/sim/semantic_class.hpp"
 
 namespace flagstone::sim {
 
@@ -61,5 +63,43 @@ class Ground {
   std::vector<double> heights_;
   std::vector<Surface> surfaces_;
 };
+
+/// Standing on the ground at (x, y) as a car stands on its wheels: tilted like the ground between
+/// points `length` metres apart along and `width` metres across, origin on the ground.
+Frame frame_on_wheels(const Ground& ground, double x, double y, double yaw, double length,
+                      double width);
+
+/// Adds lines from `begin` to `end` inclusive, evenly spaced, at most `step` apart.
+void add_lines(std::vector<double>& lines, double begin, double end, double step);
+
+/// Sorts, and drops lines that are so near to another one that only rounding tells them apart.
+void finish_lines(std::vector<double>& lines);
+
+/// A ground as formulas, and the lines at which they are taken. Metres; t is measured to the left
+/// of a line that runs along x.
+struct GroundPlan {
+  std::vector<double> x, t;                            ///< ascending, see finish_lines()
+  std::function<double(double x)> offset;              ///< y of t = 0
+  std::function<double(double x, double t)> height;    ///< at the crossings of the lines
+  std::function<Surface(double x, double t)> surface;  ///< in the middle of every cell
+};
+
+/// The plan as triangles.
+Ground cut_ground(GroundPlan plan);
+
+/// Where the ground truly is at each point of a scan, so that the point stands z - ground metres
+/// above it along `up`, the vehicle's z axis in the world, of length 1. For a sensor that is
+/// mounted upright that is the z of the ground on the line through the point along the sensor's own
+/// z axis. `xyzi` holds 4 floats a point as SimulatedScan does.
+///
+/// The line leans with the vehicle, so that it may meet a steep face more than once: what counts is
+/// the first ground on the way down from a point above the ground, or up from one below. NaN where
+/// the ground does not cover the point or the way, and for (0, 0, 0), which is no echo at all.
+std::vector<float> true_ground(const Ground& ground, const Frame& pose, Vector3 up,
+                               std::span<const float> xyzi);
+
+/// The same for a sensor that is mounted upright.
+std::vector<float> true_ground(const Ground& ground, const Frame& pose,
+                               std::span<const float> xyzi);
 
 }  // namespace flagstone::sim

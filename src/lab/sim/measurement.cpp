@@ -5,7 +5,188 @@
 #include <algorithm>
 #include <cmath>
 
+#include "library/core/exponential.hpp"
+
 namespace flagstone::sim {
+
+Air::Air(const Noise& noise, const Sensor& sensor, const Surroundings& surroundings,
+         const Frame& pose, std::uint64_t seed)
+    : noise_(noise), sensor_(sensor), surroundings_(surroundings), origin_(pose.origin) {
+  constexpr double spread = 25;  // metres from the sensor
+  constexpr double clear = 2;    // of the sensor: it does not stand in a cloud
+  Random random(seed);
+  for (int i = 0; i < noise.dust_clouds; ++i) {
+    const double radius = random.uniform(1.5, 4);
+    Vector3 from_sensor{random.uniform(-spread, spread), random.uniform(-spread, spread), 0};
+    if (i == 0) {  // what the own vehicle stirs up
+      const double behind = radius + clear + random.uniform(0, 4);
+      from_sensor = -behind * pose.forward + random.uniform(-1, 1) * pose.left;
+    }
+    Vector3 centre = origin_ + from_sensor;
+    centre.z = surroundings.ground().height(centre.x, centre.y) + random.uniform(0, 0.6) * radius;
+    if (length(centre - origin_) < radius + clear) continue;
+    clouds_.push_back({.centre = centre, .radius = radius});
+  }
+}
+
+std::optional<Echo> Air::echo(Vector3 direction, double way, Random& random) const {
+  const auto rain = drop(direction, way, random);
+  const auto cloud = dust(direction, rain ? rain->range : way, random);
+  return cloud ? cloud : rain;
+}
+
+double Air::transmission(Vector3 direction, double way) const {
+  double depth = 2 * noise_.rain_extinction * way;
+  for (const Cloud& cloud : clouds_) {
+    depth += noise_.dust_extinction * within(cloud, direction, way).depth();
+  }
+  return depth == 0 ? 1 : exponential(-depth);
+}
+
+double Air::Stretch::density(double range) const noexcept {
+  const double from_middle = range - middle;
+  return (half_squared - from_middle * from_middle) / (radius * radius);
+}
+
+double Air::Stretch::depth() const noexcept {
+  const auto up_to = [&](double range) {
+    const double from_middle = range - middle;
+    return (half_squared - from_middle * from_middle / 3) * from_middle;
+  };
+  return begin < end ? (up_to(end) - up_to(begin)) / (radius * radius) : 0;
+}
+
+Air::Stretch Air::within(const Cloud& cloud, Vector3 direction, double way) const noexcept {
+  const Vector3 to_centre = cloud.centre - origin_;
+  const double middle = dot(to_centre, direction);
+  const double half_squared =
+      cloud.radius * cloud.radius - (dot(to_centre, to_centre) - middle * middle);
+  if (half_squared <= 0 || middle <= 0) return {};
+  const double half = std::sqrt(half_squared);
+  return {.begin = std::max(middle - half, sensor_.min_range),
+          .end = std::min(middle + half, way),
+          .middle = middle,
+          .half_squared = half_squared,
+          .radius = cloud.radius};
+}
+
+// The light that a drop sends back falls with the square of its range, and so does how often one
+// is seen.
+std::optional<Echo> Air::drop(Vector3 direction, double way, Random& random) const {
+  if (!random.chance(noise_.rain_rate)) return std::nullopt;
+  constexpr double nearest = 1;  // metres; nearer drops are out of the receiver's sight
+  constexpr double farthest = 20;
+  const double begin = std::max(nearest, sensor_.min_range);
+  const double end = std::min(farthest, sensor_.max_range);
+  if (begin >= end) return std::nullopt;
+  const double range = 1 / (1 / begin - random.uniform() * (1 / begin - 1 / end));
+  const double intensity = random.uniform(0, 0.1);
+  if (range >= way || !surroundings_.is_clear_of_ground(origin_ + range * direction)) {
+    return std::nullopt;
+  }
+  return Echo{.range = range,
+              .intensity = intensity,
+              .semantic = SemanticClass::outlier,
+              .kind = EchoKind::rain};
+}
+
+std::optional<Echo> Air::dust(Vector3 direction, double way, Random& random) const {
+  constexpr double step = 0.2;  // metres
+  std::optional<double> first;
+  for (const Cloud& cloud : clouds_) {
+    const Stretch stretch = within(cloud, direction, first.value_or(way));
+    for (double begin = stretch.begin; begin < stretch.end; begin += step) {
+      const double end = std::min(begin + step, stretch.end);
+      const double density = stretch.density((begin + end) / 2);
+      if (!random.chance(noise_.dust_extinction * density * (end - begin))) continue;
+      const double range = random.uniform(begin, end);
+      if (!surroundings_.is_clear_of_ground(origin_ + range * direction)) continue;
+      first = range;
+      break;
+    }
+  }
+  if (!first) return std::nullopt;
+  return Echo{.range = *first,
+              .intensity = random.uniform(0.05, 0.25),
+              .semantic = SemanticClass::outlier,
+              .kind = EchoKind::dust};
+}
+
+namespace {
+
+// A whole number with this mean.
+std::size_t drawn_count(double mean, Random& random) {
+  const auto whole = static_cast<std::size_t>(mean);
+  return whole + (random.chance(mean - static_cast<double>(whole)) ? 1 : 0);
+}
+
+// Below `count`, which is not 0.
+std::size_t drawn_index(std::size_t count, Random& random) {
+  return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
+}
+
+}  // namespace
+
+Bursts::Bursts(const Noise& noise, const Sensor& sensor, const Beams& beams, std::uint64_t seed) {
+  if (noise.block_loss_rate > 0) {
+    lose_blocks(noise.block_loss_rate, beams, Random::stream(seed, 0));
+  }
+  if (noise.crosstalk_rate > 0) {
+    add_crosstalk(noise.crosstalk_rate, sensor, beams, Random::stream(seed, 1));
+  }
+}
+
+// A packet of the sensor: some firings of neighbouring rows.
+void Bursts::lose_blocks(double rate, const Beams& beams, Random random) {
+  constexpr std::size_t blocks_a_row = 60;
+  constexpr std::size_t blocks_a_column = 4;
+  const std::size_t rows = beams.size() / beams.row_length();
+  const std::size_t width = (beams.row_length() + blocks_a_row - 1) / blocks_a_row;
+  const std::size_t height = (rows + blocks_a_column - 1) / blocks_a_column;
+  lost_.resize(beams.size());
+  const auto block = static_cast<double>(width * height);
+  for (std::size_t left = drawn_count(rate * static_cast<double>(beams.size()) / block, random);
+       left > 0; --left) {
+    const std::size_t first_row = drawn_index(rows - height + 1, random);
+    const std::size_t first = drawn_index(beams.row_length() - width + 1, random);
+    for (std::size_t row = first_row; row < first_row + height; ++row) {
+      for (std::size_t i = first; i < first + width; ++i)
+        lost_[row * beams.row_length() + i] = true;
+    }
+  }
+}
+
+// While the two sensors look at each other, the range that is made up drifts with the difference of
+// their clocks: a streak of points.
+void Bursts::add_crosstalk(double rate, const Sensor& sensor, const Beams& beams, Random random) {
+  constexpr std::size_t shortest = 8;  // firings
+  constexpr std::size_t longest = 40;
+  constexpr double share_hit = 0.75;
+  constexpr double mean_hits = share_hit * (shortest + longest) / 2;
+  constexpr double farthest = 60;  // metres
+  constexpr double drift = 1;      // metres a firing
+  constexpr double jitter = 0.3;   // metres
+  const double reach = std::min(sensor.max_range, sensor.min_range + farthest);
+  crosstalk_.resize(beams.size());
+  for (std::size_t left = drawn_count(rate * static_cast<double>(beams.size()) / mean_hits, random);
+       left > 0; --left) {
+    const std::size_t first = drawn_index(beams.size(), random);
+    const std::size_t row_end = (first / beams.row_length() + 1) * beams.row_length();
+    const std::size_t end =
+        std::min(first + shortest + drawn_index(longest - shortest + 1, random), row_end);
+    double range = random.uniform(sensor.min_range, reach);
+    const double step = random.uniform(-drift, drift);
+    for (std::size_t beam = first; beam < end; ++beam, range += step) {
+      const double made_up = range + random.uniform(-jitter, jitter);
+      const bool hit = random.chance(share_hit);
+      // What drifts out of reach comes in again at the other end, as a clock does.
+      if (range < sensor.min_range) range = reach;
+      if (range > reach) range = sensor.min_range;
+      if (hit) crosstalk_[beam] = std::clamp(made_up, sensor.min_range, sensor.max_range);
+    }
+  }
+}
+
 namespace {
 
 Vector3 mirrored(Vector3 direction, Vector3 normal) {

@@ -2,21 +2,145 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "flagstone/sensor.hpp"
-#include "lab/sim/air.hpp"
 #include "lab/sim/beams.hpp"
-#include "lab/sim/bursts.hpp"
-#include "lab/sim/echo.hpp"
-#include "lab/sim/frame.hpp"
+#include "lab/sim/geometry.hpp"
+#include "lab/sim/mesh.hpp"
 #include "lab/sim/noise.hpp"
-#include "lab/sim/surroundings.hpp"
+#include "lab/sim/ray_caster.hpp"
+#include "lab/sim/scan.hpp"
+#include "lab/sim/scene.hpp"
 #include "library/core/random.hpp"
 
 namespace flagstone::sim {
+
+/// What the sensor reports for a beam.
+struct Echo {
+  double range;      ///< metres
+  double intensity;  ///< 0..1
+  SemanticClass semantic;
+  EchoKind kind = EchoKind::surface;
+};
+
+/// What beams meet at one stop: a scene, and what moves in it as it is then. Refers to both.
+class Surroundings {
+ public:
+  struct Meeting {
+    double range;            ///< metres along the beam
+    double incidence;        ///< cosine of the angle between beam and surface normal, 0..1
+    Vector3 normal;          ///< of length 1, on either side
+    const Surface* surface;  ///< of the scene or of what moves
+  };
+
+  /// `moving` may be null: nothing does.
+  Surroundings(const Scene& scene, const RayCaster* moving) : scene_(&scene), moving_(moving) {}
+
+  [[nodiscard]] const Ground& ground() const noexcept { return scene_->ground(); }
+
+  /// What is nearest between `near` and `far` metres from `origin`; `direction` has length 1.
+  [[nodiscard]] std::optional<Meeting> cast(Vector3 origin, Vector3 direction, double near,
+                                            double far) const noexcept {
+    std::optional<Meeting> nearest;
+    for (const RayCaster* caster : {&scene_->caster(), moving_}) {
+      if (caster == nullptr) continue;
+      const auto hit = caster->cast(origin, direction, near, nearest ? nearest->range : far);
+      if (!hit) continue;
+      nearest = Meeting{.range = hit->range,
+                        .incidence = hit->incidence,
+                        .normal = hit->normal,
+                        .surface = &caster->mesh().surface(hit->triangle)};
+    }
+    return nearest;
+  }
+
+  /// Is a point so far above or below the ground that range noise does not carry it there?
+  [[nodiscard]] bool is_clear_of_ground(Vector3 point) const noexcept {
+    return std::abs(point.z - ground().height(point.x, point.y)) > clearance;
+  }
+  [[nodiscard]] bool is_below_ground(Vector3 point) const noexcept {
+    return point.z < ground().height(point.x, point.y) - clearance;
+  }
+
+ private:
+  static constexpr double clearance = 0.15;  // metres
+
+  const Scene* scene_;
+  const RayCaster* moving_;
+};
+
+/// What is in the air during one scan: rain, and clouds of dust that lie about the vehicle and
+/// behind it. Nothing in it comes within Surroundings' clearance of the ground.
+class Air {
+ public:
+  /// Refers to what it is given.
+  Air(const Noise& noise, const Sensor& sensor, const Surroundings& surroundings, const Frame& pose,
+      std::uint64_t seed);
+
+  /// What the air sends back of a beam, if anything does, before it has gone `way` metres.
+  [[nodiscard]] std::optional<Echo> echo(Vector3 direction, double way, Random& random) const;
+
+  /// Share of the light that comes through from `way` metres off: the way back from there, since
+  /// the way there is one that echo() let pass, and both ways through the rain.
+  [[nodiscard]] double transmission(Vector3 direction, double way) const;
+
+ private:
+  struct Cloud {
+    Vector3 centre;
+    double radius;
+  };
+  // Of a beam in a cloud, metres along the beam.
+  struct Stretch {
+    double begin, end;
+    double middle;        // of the chord through the whole cloud
+    double half_squared;  // of that chord's length
+    double radius;        // of the cloud
+
+    // Density at `range`, 0 to 1: 1 in the middle of a cloud, falling to 0 at its rim.
+    [[nodiscard]] double density(double range) const noexcept;
+    // Sum of the density over the stretch, metres.
+    [[nodiscard]] double depth() const noexcept;
+  };
+
+  [[nodiscard]] Stretch within(const Cloud& cloud, Vector3 direction, double way) const noexcept;
+  [[nodiscard]] std::optional<Echo> drop(Vector3 direction, double way, Random& random) const;
+  [[nodiscard]] std::optional<Echo> dust(Vector3 direction, double way, Random& random) const;
+
+  const Noise& noise_;
+  const Sensor& sensor_;
+  const Surroundings& surroundings_;
+  Vector3 origin_;
+  std::vector<Cloud> clouds_;
+};
+
+/// What befalls many beams of a scan together, drawn before they are cast.
+class Bursts {
+ public:
+  Bursts(const Noise& noise, const Sensor& sensor, const Beams& beams, std::uint64_t seed);
+
+  /// Is the beam in a block that was lost on the way from the sensor?
+  [[nodiscard]] bool is_lost(std::size_t beam) const noexcept {
+    return !lost_.empty() && lost_[beam];
+  }
+
+  /// The range that the light of another sensor made up, metres, if it hit this beam.
+  [[nodiscard]] std::optional<double> crosstalk(std::size_t beam) const noexcept {
+    if (crosstalk_.empty() || crosstalk_[beam] == 0) return std::nullopt;
+    return crosstalk_[beam];
+  }
+
+ private:
+  void lose_blocks(double rate, const Beams& beams, Random random);
+  void add_crosstalk(double rate, const Sensor& sensor, const Beams& beams, Random random);
+
+  std::vector<bool> lost_;         // one a beam, or empty: none is
+  std::vector<double> crosstalk_;  // one a beam, 0 where there is none, or empty
+};
 
 /// Follows single beams of one scan. Everything random about a beam comes from streams of its own,
 /// so that several threads may ask for beams in any order. Refers to what it is given.

@@ -5,12 +5,57 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
 #include <vector>
 
-#include "lab/sim/semantic_class.hpp"
-#include "lab/sim/vector3.hpp"
+#include "lab/sim/geometry.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
+
+/// What a surface is; the codes are SemanticKITTI's label ids. J. Behley et al., "SemanticKITTI: A
+/// Dataset for Semantic Scene Understanding of LiDAR Sequences", ICCV 2019.
+enum class SemanticClass : std::uint8_t {
+  outlier = 1,  ///< no surface: ghosts, mixed pixels, rain, dust, crosstalk
+  car = 10,
+  bus = 13,
+  truck = 18,
+  other_vehicle = 20,  ///< excavators, tractors, forklifts
+  person = 30,
+  bicyclist = 31,  ///< with the bicycle
+  road = 40,
+  parking = 44,
+  sidewalk = 48,  ///< kerb faces too: annotators colour the whole kerb with the sidewalk
+  other_ground = 49,
+  building = 50,
+  fence = 51,            ///< crash barriers and low walls too
+  other_structure = 52,  ///< walls that hold land, tunnels, gantries, shelters, racks
+  lane_marking = 60,
+  vegetation = 70,
+  trunk = 71,
+  terrain = 72,
+  pole = 80,
+  traffic_sign = 81,
+  other_object = 99,  ///< what stands about: benches, bins, pallets, heaps
+};
+
+/// SemanticKITTI's name, e.g. "lane-marking"; empty for a code that is none of these.
+std::string_view name_of(SemanticClass semantic) noexcept;
+
+/// Is this a class of the ground surface (40, 44, 48, 49, 60, 72)?
+constexpr bool is_ground(SemanticClass semantic) noexcept {
+  switch (semantic) {
+    case SemanticClass::road:
+    case SemanticClass::parking:
+    case SemanticClass::sidewalk:
+    case SemanticClass::other_ground:
+    case SemanticClass::lane_marking:
+    case SemanticClass::terrain: return true;
+    default: return false;
+  }
+}
 
 /// What a triangle is made of.
 struct Surface {
@@ -18,6 +63,9 @@ struct Surface {
   float reflectivity = 0.3f;  ///< share of the light sent back at normal incidence, 0..1
   float mirror = 0;  ///< how well it mirrors beams, 0..1: 0 dry, 1 window glass, still water
 };
+
+/// A surface whose reflectivity is drawn from an interval.
+Surface random_shade(SemanticClass semantic, Interval reflectivity, Random& random);
 
 /// Triangles in the world frame. Which way round a triangle runs does not matter: a beam hits both
 /// sides.
@@ -52,5 +100,60 @@ class Mesh {
   std::vector<Triangle> triangles_;
   std::vector<Surface> surfaces_;  // one per triangle
 };
+
+/// A box in a frame: the two corners with the smallest and the largest coordinates, metres.
+struct Box {
+  Vector3 low, high;
+};
+void add_box(Mesh& mesh, const Frame& frame, const Box& box, Surface surface);
+
+/// A cross-section of a body at `x`: a trapezoid in the frame's y-z plane, symmetric about y = 0.
+struct Section {
+  double x = 0;
+  double low = 0, high = 0;                        ///< heights of the lower and upper edge, metres
+  double half_width_low = 0, half_width_high = 0;  ///< at those edges, metres
+};
+/// A closed body through the sections, which are ordered by x.
+void add_loft(Mesh& mesh, const Frame& frame, std::span<const Section> sections, Surface surface);
+
+/// A closed truncated cone along the straight line from `from` to `to` in the frame; `sides` >= 3.
+struct Cone {
+  Vector3 from, to;
+  double radius_from = 0, radius_to = 0;  ///< metres
+  int sides = 10;
+};
+void add_cone(Mesh& mesh, const Frame& frame, const Cone& cone, Surface surface);
+
+/// Leaves in an ellipsoid: squares of every direction, more of them towards its surface.
+struct Leaves {
+  Vector3 centre;  ///< world frame
+  Vector3 radii;   ///< half axes along x, y and z, metres
+  int count = 0;
+  double size = 0.15;  ///< mean edge of a leaf, metres; single ones differ by a half
+};
+void add_leaves(Mesh& mesh, const Leaves& leaves, Surface surface, Random& random);
+
+/// Where a place in a road's own coordinates lies in the world: x along the road, t to the left of
+/// its centre line, z above a level that the road defines. Metres.
+using RoadPlace = std::function<Vector3(double x, double t, double z)>;
+
+/// A point of an outline across a road.
+struct OutlinePoint {
+  double t, z;
+};
+
+/// Draws an outline along a road from x.low to x.high, in straight pieces of at most `step` metres:
+/// walls, rails, vaults. An outline that ends where it begins encloses a body, whose ends are
+/// closed; it has to be convex.
+void add_extrusion(Mesh& mesh, std::span<const OutlinePoint> outline, Interval x, double step,
+                   const RoadPlace& place, Surface surface);
+
+/// The outline of a rectangle.
+struct BeamSection {
+  Interval t, z;
+};
+/// A body of rectangular section along a road: walls, beams, slabs.
+void add_beam(Mesh& mesh, const BeamSection& section, Interval x, double step,
+              const RoadPlace& place, Surface surface);
 
 }  // namespace flagstone::sim

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "flagstone/sensor.hpp"
 #include "library/core/random.hpp"
 
@@ -93,5 +96,31 @@ double measured_intensity(const Noise& noise, double reflectivity, double incide
 /// Does a beam that meets the ground at `range` metres return by way of its mirror image, if that
 /// hits something near enough?
 bool is_mirrored(const Noise& noise, double range, Random& random);
+
+/// A sensor's own noise by name.
+struct NoiseLevel {
+  std::string_view name;
+  std::string_view summary;  ///< a line for a list
+  Noise noise;
+};
+
+/// clean, default, harsh. The default is Noise{}.
+std::span<const NoiseLevel> noise_levels() noexcept;
+
+/// The level of this name; null if there is none.
+const NoiseLevel* find_noise_level(std::string_view name) noexcept;
+
+/// A kind of weather by name, which comes on top of the sensor's own noise.
+struct Weather {
+  std::string_view name;
+  std::string_view summary;  ///< a line for a list
+  void (*add_to)(Noise& noise);
+};
+
+/// clear, rain, dust, wet.
+std::span<const Weather> weathers() noexcept;
+
+/// The weather of this name; null if there is none.
+const Weather* find_weather(std::string_view name) noexcept;
 
 }  // namespace flagstone::sim

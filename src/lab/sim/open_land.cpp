@@ -7,22 +7,31 @@
 #include <cstddef>
 #include <numbers>
 
-#include "lab/sim/ground_plan.hpp"
+#include "lab/sim/ground.hpp"
 
 namespace flagstone::sim {
-namespace {
 
-constexpr double full_turn = 2 * std::numbers::pi;
-
-}  // namespace
-
-double WindingPath::y(double x) const noexcept {
-  return slope * x + swing * std::sin(full_turn * x / swing_length);
+double Wave::at(double x, double t) const noexcept {
+  return amplitude * std::sin(along * x + across * t + phase);
 }
 
-Stop WindingPath::at(double x) const noexcept {
-  const double wave = full_turn / swing_length;
-  return {.x = x, .y = y(x), .yaw = std::atan(slope + swing * wave * std::cos(wave * x))};
+double sum_at(std::span<const Wave> waves, double x, double t) noexcept {
+  double sum = 0;
+  for (const Wave& wave : waves) sum += wave.at(x, t);
+  return sum;
+}
+
+void draw_waves(std::vector<Wave>& waves, int count, Interval amplitude, Interval length,
+                Random& random) {
+  constexpr double full_turn = 2 * std::numbers::pi;
+  for (int i = 0; i < count; ++i) {
+    const double direction = random.uniform(0, full_turn);
+    const double wave = full_turn / random.uniform(length.low, length.high);
+    waves.push_back({.amplitude = random.uniform(amplitude.low, amplitude.high),
+                     .along = wave * std::cos(direction),
+                     .across = wave * std::sin(direction),
+                     .phase = random.uniform(0, full_turn)});
+  }
 }
 
 double smooth_step(double begin, double end, double value) noexcept {

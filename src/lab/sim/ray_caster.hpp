@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "lab/sim/geometry.hpp"
 #include "lab/sim/mesh.hpp"
-#include "lab/sim/vector3.hpp"
 
 namespace flagstone::sim {
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "lab/sim/route.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace flagstone::sim {
@@ -21,6 +23,51 @@ std::vector<Stop> wander_along(const std::function<Stop(double x)>& path, Random
     stops.push_back(stop);
   }
   return stops;
+}
+
+namespace {
+
+constexpr double full_turn = 2 * std::numbers::pi;
+
+}  // namespace
+
+double WindingPath::y(double x) const noexcept {
+  return slope * x + swing * std::sin(full_turn * x / swing_length);
+}
+
+Stop WindingPath::at(double x) const noexcept {
+  const double wave = full_turn / swing_length;
+  return {.x = x, .y = y(x), .yaw = std::atan(slope + swing * wave * std::cos(wave * x))};
+}
+
+RoadCurve::RoadCurve(double half_length, double curvature, double begin, double ramp)
+    : half_length_(half_length), begin_(begin), ramp_(ramp) {
+  Stop stop{.x = -half_length, .y = 0, .yaw = 0};
+  for (; stop.x <= half_length + 0.5; stop.x += 1) {
+    line_.push_back(stop);
+    stop.y += std::tan(stop.yaw);
+    stop.yaw += curvature * share(stop.x + 0.5) / std::cos(stop.yaw);
+  }
+  // Along x where the drive begins.
+  const Stop middle = at(0);
+  for (Stop& each : line_) each.y -= middle.y + (each.x - middle.x) * std::tan(middle.yaw);
+  for (Stop& each : line_) each.yaw = std::atan(std::tan(each.yaw) - std::tan(middle.yaw));
+}
+
+Stop RoadCurve::at(double x) const noexcept {
+  const double from_begin =
+      std::clamp(x + half_length_, 0.0, static_cast<double>(line_.size() - 1));
+  const auto before = std::min(static_cast<std::size_t>(from_begin), line_.size() - 2);
+  const double share = x + half_length_ - static_cast<double>(before);
+  const Stop& one = line_[before];
+  const Stop& next = line_[before + 1];
+  return {.x = x,
+          .y = one.y + share * (next.y - one.y),
+          .yaw = one.yaw + std::clamp(share, 0.0, 1.0) * (next.yaw - one.yaw)};
+}
+
+double RoadCurve::share(double x) const noexcept {
+  return std::clamp((x - begin_) / ramp_, 0.0, 1.0);
 }
 
 }  // namespace flagstone::sim

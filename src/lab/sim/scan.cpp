@@ -8,7 +8,6 @@
 
 #include "lab/sim/beams.hpp"
 #include "lab/sim/measurement.hpp"
-#include "lab/sim/surroundings.hpp"
 
 namespace flagstone::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "lab/sim/ground_plan.hpp"
+#include "lab/sim/ground.hpp"
 
 namespace flagstone::sim {
 namespace {

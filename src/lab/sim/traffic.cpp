@@ -8,13 +8,9 @@
 #include <numbers>
 #include <utility>
 
-#include "lab/sim/bus.hpp"
-#include "lab/sim/car.hpp"
-#include "lab/sim/cyclist.hpp"
-#include "lab/sim/forklift.hpp"
-#include "lab/sim/frame.hpp"
-#include "lab/sim/person.hpp"
-#include "lab/sim/truck.hpp"
+#include "lab/sim/geometry.hpp"
+#include "lab/sim/people.hpp"
+#include "lab/sim/vehicles.hpp"
 
 namespace flagstone::sim {
 namespace {

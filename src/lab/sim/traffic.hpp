@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "lab/sim/geometry.hpp"
 #include "lab/sim/ground.hpp"
-#include "lab/sim/interval.hpp"
 #include "lab/sim/mesh.hpp"
 #include "lab/sim/route.hpp"
 

@@ -10,8 +10,8 @@
 #include <map>
 #include <utility>
 
-#include "lab/sim/semantic_class.hpp"
-#include "lab/sim/simulate_street.hpp"
+#include "lab/sim/drive.hpp"
+#include "lab/sim/mesh.hpp"
 #include "library/core/random.hpp"
 
 namespace flagstone::doctor {

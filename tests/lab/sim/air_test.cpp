@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "lab/sim/air.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "lab/sim/beams.hpp"
 #include "lab/sim/flat_scene.hpp"
+#include "lab/sim/measurement.hpp"
 
 namespace flagstone::sim {
 namespace {

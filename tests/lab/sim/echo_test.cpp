@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "lab/sim/echo.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,9 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "lab/sim/conditions.hpp"
 #include "lab/sim/drive.hpp"
 #include "lab/sim/flat_scene.hpp"
+#include "lab/sim/measurement.hpp"
+#include "lab/sim/noise.hpp"
 #include "lab/sim/scan.hpp"
 
 namespace flagstone::sim {

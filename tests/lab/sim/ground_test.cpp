@@ -5,11 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
+#include "lab/sim/drive.hpp"
 #include "lab/sim/ray_caster.hpp"
+#include "lab/sim/scene.hpp"
 #include "lab/sim/street_shape.hpp"
+#include "library/core/random.hpp"
 
 namespace flagstone::sim {
 namespace {
@@ -140,6 +147,180 @@ TEST(Street, GradesFollowOneAnotherInAnyNumber) {
   EXPECT_NEAR(grade(100), 0.15, 0.001);
   EXPECT_EQ(shape.height(0, 0), 0);
 }
+
+constexpr Surface soil{};
+constexpr double face_width = 0.02;  // width of the face of a step, metres
+
+// Flat at 0 for y below 0, flat at 1 m beyond a face that leans back by 2 cm; 20 m square.
+Ground step_ground() {
+  return {{.x = {-10, 10}, .offset = {0, 0}, .t = {-10, 0, face_width, 10}},
+          {0, 0, 1, 1, 0, 0, 1, 1},
+          {soil, soil, soil}};
+}
+
+// A slope of 1 in 10 along x.
+Ground slope_ground() {
+  return {{.x = {-10, 10}, .offset = {0, 0}, .t = {-10, 10}}, {-1, -1, 1, 1}, {soil}};
+}
+
+TEST(FirstCrossing, OfAVerticalRayIsTheGroundBelow) {
+  const Ground ground = step_ground();
+
+  EXPECT_EQ(ground.first_crossing({1, -3, 5}, {0, 0, -1}), 5);
+  EXPECT_EQ(ground.first_crossing({1, 3, 5}, {0, 0, -1}), 4);
+  EXPECT_EQ(ground.first_crossing({1, 3, -2}, {0, 0, 1}), 3) << "from below";
+  EXPECT_EQ(ground.first_crossing({1, 3, 5}, {0, 0, -2}), 2) << "in lengths of the direction";
+}
+
+TEST(FirstCrossing, IsZeroOnTheGroundItself) {
+  EXPECT_EQ(step_ground().first_crossing({1, 3, 1}, {0, 0, -1}), 0);
+  EXPECT_EQ(step_ground().first_crossing({1, 3, 1}, {0, 0, 1}), 0);
+}
+
+TEST(FirstCrossing, IsTheFirstOfSeveral) {
+  // Leans by 0.1 m a metre, the face by 0.02: it leaves the upper level through the face again.
+  const Ground ground = step_ground();
+  const Vector3 leaning{0, -0.1, -1};
+
+  EXPECT_NEAR(ground.first_crossing({0, 0.2205, 3}, leaning).value(), 2, 1e-12);
+  EXPECT_NEAR(ground.first_crossing({0, 0.2195, 3}, leaning).value(), 3, 1e-12) << "past the face";
+  EXPECT_NEAR(ground.first_crossing({0, -0.05, 0.5}, {0, 0.5, -0.1}).value(), 3 / 25.1, 1e-12)
+      << "the face itself";
+}
+
+TEST(FirstCrossing, IsNothingOffTheGridOrForARayThatLeavesIt) {
+  const Ground ground = step_ground();
+
+  EXPECT_EQ(ground.first_crossing({11, 0, 5}, {0, 0, -1}), std::nullopt);
+  EXPECT_EQ(ground.first_crossing({9, 0, 5}, {1, 0, -1}), std::nullopt);
+  EXPECT_EQ(ground.first_crossing({0, 0, 5}, {0, 0, 1}), std::nullopt) << "away from the ground";
+  EXPECT_EQ(ground.first_crossing({0, 0, 5}, {1, 0, 0}), std::nullopt) << "above it all the way";
+}
+
+// Everything that bends the ground of a street.
+Ground steeper_street() {
+  StreetShape shape = hilly_street();
+  shape.grade = 0.1;
+  shape.grade_changes = {{.change = -0.2, .x = 15}};
+  return make_ground(shape);
+}
+
+TEST(FirstCrossing, LiesOnTheGroundAndNothingOfTheGroundBefore) {
+  const Ground ground = steeper_street();
+  Random random(7);
+  for (int ray = 0; ray < 5'000; ++ray) {
+    const Vector3 origin{random.uniform(-25, 25), random.uniform(-20, 20), random.uniform(-4, 4)};
+    const bool above = origin.z > ground.height(origin.x, origin.y);
+    const Vector3 direction{random.uniform(-1, 1), random.uniform(-1, 1), above ? -1.0 : 1.0};
+    const auto gap = [&](double way) {
+      const Vector3 at = origin + way * direction;
+      return (above ? 1 : -1) * (at.z - ground.height(at.x, at.y));
+    };
+
+    const std::optional<double> way = ground.first_crossing(origin, direction);
+
+    ASSERT_TRUE(way) << "ray " << ray;
+    ASSERT_NEAR(gap(*way), 0, 1e-9) << "ray " << ray;
+    for (int part = 0; part < 50; ++part) {
+      ASSERT_GT(gap(*way * part / 50), -1e-9) << "ray " << ray << ", part " << part;
+    }
+  }
+}
+
+TEST(TrueGround, IsMeasuredAlongTheZAxisOfATiltedSensor) {
+  const Ground ground = slope_ground();
+  const double slope = std::atan(0.1);
+  // Stands on the slope as a vehicle does, 2 m above it: the ground is level in its frame.
+  const Frame pose = raised(frame_on_wheels(ground, 0, 0, 0.5, 2, 1), 2);
+
+  const std::vector<float> heights =
+      true_ground(ground, pose, std::vector<float>{3, 1, 0.5F, 0, -4, 0, 2, 2, -2, 0, 1, 1, -3, 0});
+
+  ASSERT_EQ(heights.size(), 3U);
+  for (const float height : heights) EXPECT_NEAR(height, -2, 1e-6);
+  EXPECT_NEAR(std::acos(pose.up.z), slope, 1e-12);
+}
+
+TEST(TrueGround, OfAPointBelowTheGroundIsTheGroundAboveIt) {
+  const Frame level{.origin = {0, 0, 2}};
+
+  const std::vector<float> heights =
+      true_ground(step_ground(), level, std::vector<float>{1, 3, -4, 0, 1, -3, -4, 0});
+
+  EXPECT_EQ(heights, (std::vector<float>{-1, -2}));
+}
+
+TEST(TrueGround, IsNotKnownWhereTheGroundDoesNotReach) {
+  const Frame level{.origin = {0, 0, 2}};
+
+  const std::vector<float> heights =
+      true_ground(step_ground(), level, std::vector<float>{12, 0, -2, 0});
+
+  ASSERT_EQ(heights.size(), 1U);
+  EXPECT_TRUE(std::isnan(heights[0]));
+}
+
+TEST(TrueGround, IsNotKnownForABeamWithoutEcho) {
+  const Frame level{.origin = {0, 0, 2}};
+
+  const std::vector<float> heights =
+      true_ground(step_ground(), level, std::vector<float>{0, 0, 0, 0, 0, 0, 0.5F, 0});
+
+  EXPECT_TRUE(std::isnan(heights[0]));
+  EXPECT_EQ(heights[1], -2);
+}
+
+class TrueGroundOfScene : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(TrueGroundOfScene, IsWhereGroundPointsWithoutNoiseAre) {
+  Sensor sensor = Sensor::named("hdl-64e");
+  sensor.firings = 360;
+  const Drive drive(*find_scene_kind(GetParam()), sensor, 3);
+  const Scene scene = drive.scene();
+  for (const int frame : {0, 6}) {
+    const SimulatedScan scan = drive.scan(scene, no_noise(), frame);
+
+    const std::vector<float> heights =
+        true_ground(scene.ground(), drive.poses()[static_cast<std::size_t>(frame)], scan.xyzi);
+
+    ASSERT_EQ(heights.size(), scan.size());
+    std::size_t faces = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      const float height = scan.xyzi[4 * i + 2] - heights[i];
+      ASSERT_GT(height, -0.002) << "point " << i;
+      if (is_ground(static_cast<SemanticClass>(scan.classes[i]))) faces += height > 0.002;
+    }
+    // Rounding carries a point off the edge of a steep face, and then the ground lies well below.
+    EXPECT_LE(faces, scan.size() / 2'000);
+  }
+}
+
+TEST(StreetGround, IsWhereTheGroundPointsOfThatStreetsScanAre) {
+  const SimulatedScan scan = simulate_street(3, 2);
+
+  const std::vector<float> heights = street_ground(3, scan.xyzi);
+  const std::vector<float> of_another = street_ground(4, scan.xyzi);
+
+  ASSERT_EQ(heights.size(), scan.size());
+  std::size_t near = 0;
+  std::size_t near_another = 0;
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!is_ground(static_cast<SemanticClass>(scan.classes[i]))) continue;
+    constexpr float range_noise = 0.1F;  // metres; what it makes of a height is less
+    const float z = scan.xyzi[4 * i + 2];
+    ++all;
+    near += std::abs(z - heights[i]) < range_noise;
+    near_another += std::abs(z - of_another[i]) < range_noise;
+  }
+  EXPECT_GT(near, all - all / 100);
+  EXPECT_LT(near_another, near);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TrueGroundOfScene,
+                         testing::Values("flat_street", "steep_street", "parked_cars",
+                                         "bushes_and_lawn", "bumpy_field", "steps", "drops"),
+                         [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace
 }  // namespace flagstone::sim

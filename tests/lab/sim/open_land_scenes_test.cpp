@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "lab/sim/drive.hpp"
-#include "lab/sim/scene_kind.hpp"
-#include "lab/sim/wild_plants.hpp"
+#include "lab/sim/plants.hpp"
+#include "lab/sim/scene.hpp"
 
 namespace flagstone::sim {
 namespace {

@@ -12,8 +12,7 @@
 #include <set>
 #include <vector>
 
-#include "lab/sim/mounting.hpp"
-#include "lab/sim/simulate_street.hpp"
+#include "lab/sim/drive.hpp"
 #include "lab/sim/street.hpp"
 
 namespace flagstone::sim {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "lab/sim/drive.hpp"
-#include "lab/sim/scene_kind.hpp"
+#include "lab/sim/scene.hpp"
 
 namespace flagstone::sim {
 namespace {

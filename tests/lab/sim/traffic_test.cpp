@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/ground_plan.hpp"
+#include "lab/sim/ground.hpp"
 
 namespace flagstone::sim {
 namespace {

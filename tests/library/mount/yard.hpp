@@ -10,8 +10,8 @@
 
 #include "flagstone/cloud_view.hpp"
 #include "flagstone/mount.hpp"
-#include "lab/sim/mounting.hpp"
-#include "lab/sim/shapes.hpp"
+#include "lab/sim/drive.hpp"
+#include "lab/sim/mesh.hpp"
 
 namespace flagstone::tests {
 

@@ -11,7 +11,7 @@
 #include "files/io/cloud.hpp"
 #include "files/io/read_cloud.hpp"
 #include "flagstone/patchwork_config.hpp"
-#include "lab/sim/simulate_street.hpp"
+#include "lab/sim/drive.hpp"
 #include "library/patchwork/oracle_comparison.hpp"
 #include "random_cloud.hpp"
 #include "real_scans.hpp"

@@ -6,7 +6,7 @@
 
 #include "flagstone/patchwork.hpp"
 #include "forced_target.hpp"
-#include "lab/sim/simulate_street.hpp"
+#include "lab/sim/drive.hpp"
 #include "library/core/simd_target.hpp"
 #include "library/patchwork/outcome.hpp"
 

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/simulate_street.hpp"
+#include "lab/sim/drive.hpp"
 #include "library/surface/outcome.hpp"
 #include "random_cloud.hpp"
 #include "random_surface.hpp"

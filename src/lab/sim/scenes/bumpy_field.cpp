@@ -6,13 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/interval.hpp"
-#include "lab/sim/mound.hpp"
+#include "lab/sim/furniture.hpp"
+#include "lab/sim/geometry.hpp"
 #include "lab/sim/open_land.hpp"
 #include "lab/sim/plants.hpp"
 #include "lab/sim/scenes/scenes.hpp"
-#include "lab/sim/street_furniture.hpp"
-#include "lab/sim/waves.hpp"
 
 namespace flagstone::sim {
 namespace {

@@ -7,19 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/barrier.hpp"
-#include "lab/sim/building_materials.hpp"
-#include "lab/sim/excavation.hpp"
-#include "lab/sim/ground_plan.hpp"
-#include "lab/sim/machines.hpp"
-#include "lab/sim/mound.hpp"
+#include "lab/sim/furniture.hpp"
+#include "lab/sim/goods.hpp"
+#include "lab/sim/ground.hpp"
+#include "lab/sim/mesh.hpp"
 #include "lab/sim/open_land.hpp"
-#include "lab/sim/person.hpp"
+#include "lab/sim/people.hpp"
 #include "lab/sim/plants.hpp"
 #include "lab/sim/scenes/scenes.hpp"
-#include "lab/sim/shapes.hpp"
 #include "lab/sim/traffic.hpp"
-#include "lab/sim/waves.hpp"
+#include "lab/sim/vehicles.hpp"
 
 namespace flagstone::sim {
 namespace {

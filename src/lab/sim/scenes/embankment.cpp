@@ -10,18 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/barrier.hpp"
-#include "lab/sim/dam_edges.hpp"
-#include "lab/sim/ground_plan.hpp"
+#include "lab/sim/furniture.hpp"
+#include "lab/sim/ground.hpp"
+#include "lab/sim/mesh.hpp"
 #include "lab/sim/open_land.hpp"
 #include "lab/sim/plants.hpp"
 #include "lab/sim/road_edge.hpp"
 #include "lab/sim/scenes/scenes.hpp"
-#include "lab/sim/shapes.hpp"
-#include "lab/sim/street_furniture.hpp"
 #include "lab/sim/traffic.hpp"
-#include "lab/sim/waves.hpp"
-#include "lab/sim/wild_plants.hpp"
 
 namespace flagstone::sim {
 namespace {

@@ -7,13 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/ground_plan.hpp"
+#include "lab/sim/ground.hpp"
 #include "lab/sim/open_land.hpp"
 #include "lab/sim/plants.hpp"
 #include "lab/sim/scenes/scenes.hpp"
 #include "lab/sim/traffic.hpp"
-#include "lab/sim/waves.hpp"
-#include "lab/sim/wild_plants.hpp"
 
 namespace flagstone::sim {
 namespace {

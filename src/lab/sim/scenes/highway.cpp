@@ -8,13 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/barrier.hpp"
-#include "lab/sim/ground_plan.hpp"
+#include "lab/sim/furniture.hpp"
+#include "lab/sim/ground.hpp"
+#include "lab/sim/mesh.hpp"
 #include "lab/sim/plants.hpp"
-#include "lab/sim/road_curve.hpp"
+#include "lab/sim/route.hpp"
 #include "lab/sim/scenes/scenes.hpp"
-#include "lab/sim/shapes.hpp"
-#include "lab/sim/street_furniture.hpp"
 #include "lab/sim/street_shape.hpp"
 #include "lab/sim/traffic.hpp"
 

@@ -7,15 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/ground_plan.hpp"
-#include "lab/sim/interval.hpp"
+#include "lab/sim/furniture.hpp"
+#include "lab/sim/geometry.hpp"
+#include "lab/sim/goods.hpp"
+#include "lab/sim/ground.hpp"
+#include "lab/sim/mesh.hpp"
 #include "lab/sim/scenes/scenes.hpp"
-#include "lab/sim/shapes.hpp"
 #include "lab/sim/street_shape.hpp"
-#include "lab/sim/town_furniture.hpp"
 #include "lab/sim/traffic.hpp"
-#include "lab/sim/truck.hpp"
-#include "lab/sim/warehouse.hpp"
+#include "lab/sim/vehicles.hpp"
 
 namespace flagstone::sim {
 namespace {

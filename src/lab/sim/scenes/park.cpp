@@ -7,16 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/ground_plan.hpp"
+#include "lab/sim/furniture.hpp"
+#include "lab/sim/ground.hpp"
 #include "lab/sim/open_land.hpp"
-#include "lab/sim/person.hpp"
+#include "lab/sim/people.hpp"
 #include "lab/sim/plants.hpp"
 #include "lab/sim/scenes/scenes.hpp"
-#include "lab/sim/street_furniture.hpp"
-#include "lab/sim/town_furniture.hpp"
 #include "lab/sim/traffic.hpp"
-#include "lab/sim/waves.hpp"
-#include "lab/sim/wild_plants.hpp"
 
 namespace flagstone::sim {
 namespace {

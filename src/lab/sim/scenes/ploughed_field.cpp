@@ -8,13 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/ground_plan.hpp"
-#include "lab/sim/machines.hpp"
+#include "lab/sim/ground.hpp"
 #include "lab/sim/open_land.hpp"
 #include "lab/sim/plants.hpp"
 #include "lab/sim/scenes/scenes.hpp"
 #include "lab/sim/traffic.hpp"
-#include "lab/sim/waves.hpp"
+#include "lab/sim/vehicles.hpp"
 
 namespace flagstone::sim {
 namespace {

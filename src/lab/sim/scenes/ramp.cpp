@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/car.hpp"
-#include "lab/sim/ground_plan.hpp"
-#include "lab/sim/interval.hpp"
+#include "lab/sim/geometry.hpp"
+#include "lab/sim/ground.hpp"
+#include "lab/sim/mesh.hpp"
 #include "lab/sim/scenes/scenes.hpp"
-#include "lab/sim/shapes.hpp"
 #include "lab/sim/traffic.hpp"
+#include "lab/sim/vehicles.hpp"
 
 namespace flagstone::sim {
 namespace {

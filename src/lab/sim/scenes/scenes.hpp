@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "lab/sim/landscape.hpp"
+#include "lab/sim/scene.hpp"
 
 namespace flagstone::sim {
 

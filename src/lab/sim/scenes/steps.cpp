@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/car.hpp"
-#include "lab/sim/ground_plan.hpp"
+#include "lab/sim/furniture.hpp"
+#include "lab/sim/ground.hpp"
 #include "lab/sim/plants.hpp"
 #include "lab/sim/road_edge.hpp"
 #include "lab/sim/scenes/scenes.hpp"
-#include "lab/sim/street_furniture.hpp"
+#include "lab/sim/vehicles.hpp"
 
 namespace flagstone::sim {
 namespace {

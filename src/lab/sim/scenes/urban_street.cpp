@@ -8,15 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "lab/sim/car.hpp"
-#include "lab/sim/interval.hpp"
+#include "lab/sim/buildings.hpp"
+#include "lab/sim/furniture.hpp"
+#include "lab/sim/geometry.hpp"
 #include "lab/sim/plants.hpp"
 #include "lab/sim/scenes/scenes.hpp"
-#include "lab/sim/street_furniture.hpp"
 #include "lab/sim/street_shape.hpp"
-#include "lab/sim/terrace_house.hpp"
-#include "lab/sim/town_furniture.hpp"
 #include "lab/sim/traffic.hpp"
+#include "lab/sim/vehicles.hpp"
 
 namespace flagstone::sim {
 namespace {

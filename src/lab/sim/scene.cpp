@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/sim/scene.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "lab/sim/scenes/scenes.hpp"
+
+namespace flagstone::sim {
+
+namespace {
+
+constexpr std::array kinds{
+    SceneKind{"flat_street", "residential street, nearly level", flat_street},
+    SceneKind{"steep_street", "the same with grades of 10 to 25 %, crests and dips", steep_street},
+    SceneKind{"parked_cars", "narrow street, cars along both kerbs or in bays", parked_cars},
+    SceneKind{"bushes_and_lawn", "lane through greens: bushes, hedges, tufts, low growth",
+              bushes_and_lawn},
+    SceneKind{"bumpy_field", "open terrain without a road: bumps, slopes, banks, dips",
+              bumpy_field},
+    SceneKind{"steps", "road with known kerbs, ditches, drop-offs, stairs, embankments", steps},
+    SceneKind{"park", "winding gravel path, lawns, high grass, trees, a pond, people", park},
+    SceneKind{"forest_track", "two ruts through a wood: roots, banks, trunks, ferns, logs",
+              forest_track},
+    SceneKind{"ploughed_field", "furrows crossed at an angle, headland, ditch, hedge, tractor",
+              ploughed_field},
+    SceneKind{"embankment", "road on a dam: drops, ditch, culvert; a cutting on the other side",
+              embankment},
+    SceneKind{"construction_site", "churned earth, pit, trench, heaps, materials, excavator",
+              construction_site},
+    SceneKind{"urban_street", "terraced houses, shop windows, buses, cyclists, pedestrians",
+              urban_street},
+    SceneKind{"highway", "2 x 3 lanes, barriers, slopes, superelevation, trucks", highway},
+    SceneKind{"drops", "the same road along quays, deep ditches, embankments down", drops},
+    SceneKind{"crossroads", "crowned roads that cross, islands, flower beds, waiting traffic",
+              crossroads},
+    SceneKind{"ramp", "car park of two storeys, a ramp of 12 to 15 % between, low ceilings", ramp},
+    SceneKind{"tunnel", "two lanes into a hill: walkways, vault or slab, fans, wet patches",
+              tunnel},
+    SceneKind{"indoor_hall", "warehouse: racks, pallets, forklifts, docks, a glossy floor",
+              indoor_hall},
+};
+
+}  // namespace
+
+std::span<const SceneKind> scene_kinds() noexcept { return kinds; }
+
+const SceneKind* find_scene_kind(std::string_view name) noexcept {
+  const auto* found = std::ranges::find(kinds, name, &SceneKind::name);
+  return found == kinds.end() ? nullptr : found;
+}
+
+}  // namespace flagstone::sim

@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "lab/sim/drive.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "lab/sim/flat_scene.hpp"
+
+namespace flagstone::sim {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+
+TEST(Mounting, UprightSensorLooksAlongItsVehicle) {
+  const Frame vehicle = upright_frame({1, 2, 3}, 0.5);
+
+  const Frame pose = sensor_pose(vehicle, {.height = 2});
+
+  EXPECT_EQ(length(pose.forward - vehicle.forward), 0);
+  EXPECT_EQ(length(pose.up - vehicle.up), 0);
+  EXPECT_NEAR(length(pose.origin - Vector3{1, 2, 5}), 0, 1e-12);
+}
+
+TEST(Mounting, PitchLooksDownAheadAndRollLowersTheRightSide) {
+  const Frame pitched = sensor_pose(Frame{}, {.height = 1, .pitch = 20});
+  const Frame rolled = sensor_pose(Frame{}, {.height = 1, .roll = 10});
+
+  EXPECT_NEAR(pitched.forward.z, -std::sin(20 * radians), 1e-12);
+  EXPECT_NEAR(pitched.left.z, 0, 1e-12);
+  EXPECT_NEAR(rolled.left.z, std::sin(10 * radians), 1e-12);
+  EXPECT_NEAR(rolled.forward.z, 0, 1e-12);
+}
+
+TEST(Mounting, AxesStayAtRightAngles) {
+  const Frame pose = sensor_pose(Frame{}, {.height = 1, .pitch = 25, .roll = -15});
+
+  EXPECT_NEAR(length(cross(pose.forward, pose.left) - pose.up), 0, 1e-12);
+  EXPECT_NEAR(pose.up.z, std::cos(25 * radians) * std::cos(15 * radians), 1e-12);
+}
+
+TEST(Mounting, HeightsAreMeasuredAlongTheVehicleHoweverTheSensorLeans) {
+  const Sensor& sensor = Sensor::named("os0-128");
+  const Drive drive(*find_scene_kind("flat_street"), sensor,
+                    {.height = 1.2, .pitch = 20, .roll = -10}, 1);
+  const Drive upright(*find_scene_kind("flat_street"), sensor, {.height = 1.2}, 1);
+  const Scene scene = drive.scene();
+  const SimulatedScan scan = drive.scan(scene, no_noise(), 0);
+
+  const std::vector<float> ground = drive.ground_of(scan, 0);
+
+  ASSERT_EQ(ground.size(), scan.size());
+  const Frame& leaning = drive.poses()[0];
+  const Frame& vehicle = upright.poses()[0];
+  double farthest = 0;
+  for (std::size_t i = 0; i < scan.size(); i += 7) {
+    const Vector3 point = point_of(scan, i);
+    const double height = point.z - static_cast<double>(ground[i]);
+    const Vector3 foot = leaning.to_world(point) - height * vehicle.up;
+    farthest = std::max(farthest, std::abs(foot.z - scene.ground().height(foot.x, foot.y)));
+  }
+  EXPECT_LT(farthest, 0.001);
+}
+
+constexpr Surface house{.semantic = SemanticClass::building, .reflectivity = 0.5F};
+constexpr Surface lorry{.semantic = SemanticClass::car, .reflectivity = 0.5F};
+constexpr double first_gap = 6;  // metres to the lorry at stop 0
+constexpr double step = 3;       // metres it drives from stop to stop
+
+// The vehicle stands still before a house 20 m ahead, and a lorry drives away from it.
+Landscape lorry_before_a_house(std::uint64_t /*seed*/) {
+  Landscape landscape{.ground = flat_ground(),
+                      .route = std::vector<Stop>(frames_per_drive),
+                      .furnish =
+                          [](const Ground&) {
+                            Mesh mesh;
+                            add_wall(mesh, 20, house);
+                            return mesh;
+                          },
+                      .moving =
+                          [](const Ground&, int stop) {
+                            Mesh mesh;
+                            add_wall(mesh, first_gap + step * stop, lorry);
+                            return mesh;
+                          }};
+  return landscape;
+}
+
+SimulatedScan scan_at(int stop, const Noise& noise = no_noise()) {
+  const SceneKind kind{"lorry", "", lorry_before_a_house};
+  const Drive drive(kind, sensor_ahead(10, 50), 1);
+  const Scene scene = drive.scene();
+  return drive.scan(scene, noise, stop);
+}
+
+TEST(Moving, ThingsAreHitWhereTheyAreAtTheStop) {
+  for (const int stop : {0, 1, 4}) {
+    const SimulatedScan scan = scan_at(stop);
+    ASSERT_EQ(scan.size(), 500U);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      ASSERT_EQ(class_of(scan, i), SemanticClass::car);
+      ASSERT_NEAR(point_of(scan, i).x, first_gap + step * stop, 1e-4);
+    }
+  }
+}
+
+TEST(Moving, ThingsAreHiddenBehindWhatStands) {
+  const SimulatedScan scan = scan_at(8);
+
+  ASSERT_EQ(scan.size(), 500U);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    ASSERT_EQ(class_of(scan, i), SemanticClass::building);
+    ASSERT_NEAR(point_of(scan, i).x, 20, 1e-4);
+  }
+}
+
+TEST(Moving, ThingsAreSeenInMirrors) {
+  Mesh pane;
+  add_wall(pane, 10, {.semantic = SemanticClass::building, .mirror = 1});
+  const Scene scene = flat_scene(pane);
+  Mesh behind;
+  add_wall(behind, -4, lorry);
+  const RayCaster moving(std::move(behind));
+  Noise noise = no_noise();
+  noise.mirroring = 1;
+
+  const SimulatedScan scan =
+      simulate(scene, sensor_ahead(20, 200), noise, above_origin(1.5), 1, {.moving = &moving});
+
+  EXPECT_GT(count(scan, EchoKind::ghost), 200);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (scan.echoes[i] == EchoKind::ghost) {
+      ASSERT_NEAR(point_of(scan, i).x, 10 + 14, 1e-4);
+    }
+  }
+}
+
+TEST(Moving, NothingIsTheSameAsNoMoving) {
+  const Scene scene = flat_scene();
+  const RayCaster nothing{Mesh{}};
+  const Sensor& sensor = Sensor::named("vlp-16");
+
+  const SimulatedScan still = simulate(scene, sensor, Noise{}, above_origin(1), 1);
+  const SimulatedScan empty =
+      simulate(scene, sensor, Noise{}, above_origin(1), 1, {.moving = &nothing});
+
+  EXPECT_EQ(still.xyzi, empty.xyzi);
+}
+
+}  // namespace
+}  // namespace flagstone::sim
