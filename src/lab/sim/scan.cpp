@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <optional>
-#include <thread>
 
 #include "lab/sim/beams.hpp"
 #include "lab/sim/measurement.hpp"
+#include "library/core/thread_pool.hpp"
 
 namespace flagstone::sim {
 namespace {
@@ -46,17 +46,8 @@ SimulatedScan simulate(const Scene& scene, const Sensor& sensor, const Noise& no
   const Surroundings surroundings(scene, options.moving);
   const Measurement measure(surroundings, sensor, noise, beams, pose, seed);
   std::vector<std::optional<Echo>> echoes(beams.size());
-  const auto cast_block = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t beam = begin; beam < end; ++beam) echoes[beam] = measure(beam);
-  };
-  {
-    std::vector<std::jthread> others;
-    for (unsigned block = 1; block < threads; ++block) {
-      others.emplace_back(cast_block, beams.size() * block / threads,
-                          beams.size() * (block + 1) / threads);
-    }
-    cast_block(0, beams.size() / threads);
-  }
+  ThreadPool(threads).run(
+      beams.size(), [&](std::size_t, std::size_t beam) noexcept { echoes[beam] = measure(beam); });
   return collect(beams, echoes, options.keep_no_returns);
 }
 
