@@ -1,16 +1,18 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Any points people have, as three columns that the compiled part reads where they lie."""
+"""Points of any type, as three columns that the compiled part reads in place."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-# What the points of a scan are given as: a NumPy array, or what DLPack, the buffer protocol or NumPy's own
-# conversion make one of. Nothing narrower says it, since pandas, torch and others share no base class.
+# A NumPy array, or anything that DLPack, the buffer protocol or NumPy's own conversion turns into one. No type is
+# narrower, since pandas, PyArrow, torch and others share no base class.
 PointsLike = Any
 
 Column = npt.NDArray[np.float32] | npt.NDArray[np.float64]
@@ -19,72 +21,105 @@ _WANTED = "wanted is (N, 3) or more columns, float32 or float64: x, y, z in metr
 _CPU_DEVICES = (1, 3)  # DLPack's kDLCPU, and kDLCUDAHost: host memory too
 # No scan has so few points with so many columns: rows and columns were exchanged.
 _FEW_ROWS, _MANY_COLUMNS = 8, 8
+_FIELDS_NAMED = 8  # at most, in an error
 
 
 def columns_of(points: PointsLike) -> tuple[Column, Column, Column]:
-    """x, y and z of every point: views of the caller's memory, or a conversion where the type asks for one.
+    """x, y and z of every point: views of the caller's memory, or a conversion if the type needs one.
 
     Args:
-        points: An array of shape (N, >=3), or an array with fields or a frame with columns x, y and z.
+        points: An array of shape (N, >=3) or (H, W, >=3), or an array with fields, a data frame or a table with
+            columns x, y and z. Organized clouds, (H, W), become N = H * W points, row by row.
 
     Returns:
         Three arrays of shape (N,), each float32 or float64 in this machine's byte order.
 
     Raises:
-        TypeError: These are no points in the processor's memory, or not of floats.
-        ValueError: The shape is another.
+        TypeError: These are not points in the memory of the CPU, or not of floats.
+        ValueError: The shape is not supported.
     """
-    if _has_named_columns(points):
-        return _named_columns(points)
+    names = _column_names(points)
+    if names is not None:
+        return _named_columns(points, names)
     array = _array_of(points)
     if array.dtype.names is not None:
-        return _named_columns(array)
+        return _named_columns(array, array.dtype.names)
     kind = f"{type(points).__name__} of shape {array.shape}"
+    if array.ndim == 3 and array.shape[2] >= 3:
+        if array.shape[0] <= _FEW_ROWS and array.shape[2] > _MANY_COLUMNS:
+            raise ValueError(f"points: {kind}; {_WANTED} in the last axis: pass numpy.moveaxis(points, 0, -1)")
+        array = array.reshape(-1, array.shape[2])
     if array.ndim != 2 or array.shape[1] < 3:
         hint = "; pass points.T if coordinates go down the rows" if array.ndim == 2 and array.shape[0] == 3 else ""
         raise ValueError(f"points: {kind}; {_WANTED}{hint}")
     if array.shape[0] <= _FEW_ROWS and array.shape[1] > _MANY_COLUMNS:
-        raise ValueError(f"points: {kind}; {_WANTED}, a point a row: pass points.T")
+        raise ValueError(f"points: {kind}; {_WANTED}, one point per row: pass points.T")
     array = _floats(array, "points")
     return array[:, 0], array[:, 1], array[:, 2]
 
 
-def _has_named_columns(points: PointsLike) -> bool:
-    """Whether it is a frame: of pandas, polars or alike."""
-    return hasattr(points, "columns") and hasattr(points, "__getitem__") and not isinstance(points, np.ndarray)
+def _column_names(points: PointsLike) -> Sequence[str] | None:
+    """Names of the columns of a data frame (pandas, polars) or table (PyArrow); None for anything else."""
+    if isinstance(points, np.ndarray):
+        return None
+    for attribute in ("column_names", "columns"):
+        names = getattr(points, attribute, None)
+        if names is not None and hasattr(points, "__getitem__"):
+            return [str(name) for name in names]
+    return None
 
 
-def _named_columns(points: PointsLike) -> tuple[Column, Column, Column]:
-    names = list(points.dtype.names) if isinstance(points, np.ndarray) else [str(name) for name in points.columns]
+def _named_columns(points: PointsLike, names: Sequence[str]) -> tuple[Column, Column, Column]:
     missing = [name for name in ("x", "y", "z") if name not in names]
     if missing:
-        raise ValueError(f"points: no {' and no '.join(missing)} among the fields {', '.join(names)}; {_WANTED}")
-    x, y, z = (_floats(np.asarray(points[name]), f"points: field {name}") for name in ("x", "y", "z"))
-    for name, column in (("x", x), ("y", y), ("z", z)):
-        if column.ndim != 1:
-            raise ValueError(f"points: field {name} of shape {column.shape}; wanted is one number a point, (N,)")
+        others = f" and {len(names) - _FIELDS_NAMED} more" if len(names) > _FIELDS_NAMED else ""
+        raise ValueError(
+            f"points: no {' and no '.join(missing)} among the fields {', '.join(names[:_FIELDS_NAMED])}{others}; "
+            f"{_WANTED}"
+        )
+    columns = [np.asarray(points[name]) for name in ("x", "y", "z")]
+    shape = points.shape if isinstance(points, np.ndarray) else columns[0].shape[:1]
+    for name, column in zip("xyz", columns, strict=True):
+        if column.shape != shape or len(shape) not in (1, 2):
+            raise ValueError(f"points: field {name} of shape {column.shape}; wanted is one number per point, (N,)")
+    x, y, z = (
+        _floats(column.reshape(-1), f"points: field {name}") for name, column in zip("xyz", columns, strict=True)
+    )
     return x, y, z
 
 
 def _array_of(points: PointsLike) -> npt.NDArray[Any]:
     if isinstance(points, np.ndarray):
         return points
-    if hasattr(points, "__dlpack__"):
-        try:
-            device = int(points.__dlpack_device__()[0])
-            if device in _CPU_DEVICES:
-                return np.from_dlpack(points)
-        except (BufferError, RuntimeError, TypeError, ValueError) as error:
-            reason = " ".join(str(error).split())
-            raise TypeError(f"points: {type(points).__name__} cannot be read: {reason}; {_WANTED}") from error
+    if isinstance(points, (str, os.PathLike)):
+        path = os.fspath(points)
+        raise TypeError(f"points: {path!r} is a path; read it first: segment(flagstone.io.read({path!r}))")
+    if type(points).__module__.partition(".")[0] == "laspy":
         raise TypeError(
-            f"points: {type(points).__name__} in the memory of another device (DLPack's type {device}); "
-            "flagstone reads the processor's: copy them there first, with torch points.cpu()"
+            f"points: {type(points).__name__} of laspy holds map coordinates; for points around a sensor at x, y, z: "
+            "segment(flagstone.io.read(FILE, origin=(x, y, z)))"
         )
+    if hasattr(points, "__dlpack__"):
+        return _from_dlpack(points)
     try:
         return np.asarray(points)
     except ValueError as error:
-        raise TypeError(f"points: {type(points).__name__} is no array: {error}; {_WANTED}") from error
+        raise TypeError(f"points: {type(points).__name__} is not an array: {error}; {_WANTED}") from error
+
+
+def _from_dlpack(points: PointsLike) -> npt.NDArray[Any]:
+    try:
+        device = points.__dlpack_device__()[0]
+        number = getattr(device, "value", device)  # an enum, as of Open3D, need not convert to int
+        if not isinstance(number, int) or number in _CPU_DEVICES:
+            return np.from_dlpack(points)
+    except (BufferError, RuntimeError, TypeError, ValueError) as error:
+        reason = " ".join(str(error).split())
+        raise TypeError(f"points: {type(points).__name__} cannot be read: {reason}; {_WANTED}") from error
+    raise TypeError(
+        f"points: {type(points).__name__} is in the memory of another device (DLPack type {number}); "
+        "copy it to the CPU first, with torch: points.cpu()"
+    )
 
 
 def _floats(array: npt.NDArray[Any], what: str) -> Column:

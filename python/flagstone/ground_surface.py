@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,7 @@ from flagstone import _core
 
 
 class GroundSample(NamedTuple):
-    """What the ground is like at places of shape S, which x and y broadcast to."""
+    """The ground at places of shape S, which x and y broadcast to."""
 
     height: npt.NDArray[np.float32]
     """S: z of the ground, metres, in the sensor's frame; NaN where it is not known."""
@@ -56,6 +56,9 @@ class GroundSurface:
     def __init__(self, result: _core.Result) -> None:
         self._result = result
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self._result.grids(),)
+
     def __bool__(self) -> bool:
         """Whether there is a surface."""
         return self.extent > 0
@@ -74,23 +77,31 @@ class GroundSurface:
         """The grids, coarsest and largest first."""
         return tuple(Grid(cell, heights, confidences) for cell, heights, confidences in self._result.grids())
 
-    def height(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32]:
-        """How high the ground is at places: z, metres; NaN where it is not known.
+    @overload
+    def height(self, x: float, y: float) -> float: ...
+    @overload
+    def height(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32]: ...
+    def height(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32] | float:
+        """Elevation of the ground at places: z, metres; NaN if unknown.
 
         Args:
             x: Metres forward, any shape.
-            y: Metres to the left, any shape that broadcasts with x's.
+            y: Metres to the left, any shape that broadcasts with that of x.
 
         Returns:
-            Heights in the shape that x and y broadcast to.
+            Heights in the shape that x and y broadcast to; a float if both are numbers.
         """
         places_x, places_y, shape = _places(x, y)
-        return self._result.height_at(places_x, places_y).reshape(shape)
+        return _shaped(self._result.height_at(places_x, places_y), shape)
 
-    def resolution(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32]:
+    @overload
+    def resolution(self, x: float, y: float) -> float: ...
+    @overload
+    def resolution(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32]: ...
+    def resolution(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32] | float:
         """Side of the cells at places, metres; NaN outside. Arguments and shape are those of `height`."""
         places_x, places_y, shape = _places(x, y)
-        return self._result.resolution_at(places_x, places_y).reshape(shape)
+        return _shaped(self._result.resolution_at(places_x, places_y), shape)
 
     def at(self, x: npt.ArrayLike, y: npt.ArrayLike) -> GroundSample:
         """Height, normal, slope and confidence at places. Arguments are those of `height`."""
@@ -102,6 +113,15 @@ class GroundSurface:
             slope=table[:, 4].reshape(shape),
             confidence=table[:, 5].reshape(shape),
         )
+
+
+def _shaped(values: npt.NDArray[np.float32], shape: tuple[int, ...]) -> npt.NDArray[np.float32] | float:
+    return values.reshape(shape) if shape else float(values[0])
+
+
+def _restored(grids: list[Any]) -> GroundSurface:
+    none = np.empty(0, np.uint8)
+    return GroundSurface(_core.restored_result(none, None, none, grids, (0.0, (0.0, 0.0, 1.0), (0.0,) * 3, 1.0, "")))
 
 
 def _places(

@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+import copy
+from collections.abc import Callable
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -54,12 +56,16 @@ class Segmentation:
     """Labels, heights, patches and surface of one scan of N points.
 
     Arrays are read-only views of memory that the result owns; they stay valid for as long as they, or the result, are
-    held. Once nobody holds any of them, the memory serves a later scan of the same segmenter.
+    held. Once nobody holds any of them, the memory serves a later scan of the same segmenter. Results can be pickled
+    and copied; a copy has memory of its own.
     """
 
-    def __init__(self, result: _core.Result, segmenter: _core.Segmenter) -> None:
+    def __init__(self, result: _core.Result, settings: Callable[[], dict[str, Any]]) -> None:
         self._result = result
-        self._segmenter = segmenter
+        self._settings = settings
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self._result.state(), self.settings)
 
     def __len__(self) -> int:
         """Number of points, N."""
@@ -71,7 +77,10 @@ class Segmentation:
 
     @property
     def labels(self) -> npt.NDArray[np.uint8]:
-        """(N,): code of each point, in input order; see `Label`."""
+        """(N,): code of each point, in input order; see `Label`.
+
+        Of an organized cloud of shape (H, W) they go row by row: `labels.reshape(H, W)`.
+        """
         return self._result.labels()
 
     @property
@@ -97,8 +106,8 @@ class Segmentation:
 
         - `zone`, `ring`, `sector` (uint16): place in the zone model, from 0, the innermost; sectors counter-clockwise
           from the rear. Of `surface`: zone 0 are squares of 4 m, zone 1 of 8 m, ring the row, sector the column.
-        - `verdict` (uint16): see `Verdict`. `point_count` |S_n|, `ground_count`, and of those `lower_ground_count`, below
-          the plane in one of their own (uint32).
+        - `verdict` (uint16): see `Verdict`. `point_count` |S_n|, `ground_count`, and of those
+          `lower_ground_count`, below the plane in one of their own (uint32).
         - `mean` (3 float32), metres; `normal` (3 float32) n = v_3, unit length, upward, eq. (3); `d` (float32): the
           plane is normal . p + d = 0; `eigenvalues` (3 float32) of the covariance, descending, square metres. Zero
           where no plane was fitted.
@@ -126,7 +135,7 @@ class Segmentation:
     @property
     def settings(self) -> dict[str, Any]:
         """Every setting the scan was segmented with, as `Segmenter.settings`: the zones of `patches` among them."""
-        return self._segmenter.settings()
+        return self._settings()
 
     def to_pandas(self) -> pandas.DataFrame:
         """The patches as a data frame: a row a patch, a column a field.
@@ -150,3 +159,7 @@ class Segmentation:
                 columns[name] = patches[name]
         frame: pandas.DataFrame = pd.DataFrame(columns)
         return frame
+
+
+def _restored(state: tuple[Any, ...], settings: dict[str, Any]) -> Segmentation:
+    return Segmentation(_core.restored_result(*state), partial(copy.deepcopy, settings))

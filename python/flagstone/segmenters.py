@@ -5,7 +5,10 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
 
 from flagstone import _core
 from flagstone._points import PointsLike, columns_of
@@ -21,12 +24,15 @@ SensorHeight = float | Literal["estimate", "track"]
 Tilt = tuple[float, float, float] | Literal["off", "estimate"]
 
 
+_DEFAULTS = {"sensor": None, "sensor_height": None, "tilt": None, "preset": "default", "config": None, "threads": 1}
+
+
 class Segmenter:
     """A ground segmentation method. Made by its class, `Surface` or `Patchwork`, or by name, `make_segmenter`.
 
     Threads may share one: their calls take turns, each with the interpreter's lock released. To work on several scans
     at once, give each thread a segmenter of its own. Segmenters can be pickled, which keeps how they were made, not
-    what scans have told them. One made with `threads` above 1 does not survive a fork().
+    what scans have told them. After a fork, parent and child may both use one.
     """
 
     def __init__(
@@ -51,6 +57,7 @@ class Segmenter:
             **settings,
         }
         self._method = method
+        _check_types(sensor, sensor_height, tilt, preset, config, threads)
         self._core = _core.Segmenter(
             method=method,
             preset=preset,
@@ -63,8 +70,12 @@ class Segmenter:
         )
 
     def __repr__(self) -> str:
-        given = {name: value for name, value in self._made_of.items() if value not in (None, "default", 1)}
-        return f"make_segmenter({', '.join([repr(self._method), *(f'{k}={v!r}' for k, v in given.items())])})"
+        made_by_name = type(self) is Segmenter
+        arguments = [repr(self._method)] if made_by_name else []
+        for name, value in self._made_of.items():
+            if name not in _DEFAULTS or type(value) is not type(_DEFAULTS[name]) or value != _DEFAULTS[name]:
+                arguments.append(f"{name}={value!r}")
+        return f"{'make_segmenter' if made_by_name else type(self).__name__}({', '.join(arguments)})"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _remake, (self._method, self._made_of)
@@ -83,10 +94,11 @@ class Segmenter:
         """Labels every point of a scan.
 
         Args:
-            points: (N, >=3) float32 or float64: x, y, z in metres, whatever else behind them. Any strides; a NumPy
-                array, or anything that speaks DLPack or the buffer protocol (a torch tensor of the CPU); or fields or
-                columns named x, y and z: a structured array, a pandas frame. float32 is read where it lies, without a
-                copy. Any bit pattern is allowed: what is not finite is labelled `invalid`.
+            points: (N, >=3) float32 or float64: x, y, z in metres, then any other columns. Any strides; a NumPy array,
+                or anything that supports DLPack or the buffer protocol (a torch or Open3D tensor of the CPU); or
+                fields or columns named x, y and z: a structured array, a data frame, a PyArrow table. Organized
+                clouds, (H, W, >=3) or (H, W) records, count as H * W points, row by row. float32 is read in place,
+                without a copy. Any bit pattern is allowed: points that are not finite are labelled `invalid`.
 
         Returns:
             The result, whose arrays stay valid as long as they are held. The same points give the same bytes every
@@ -96,11 +108,14 @@ class Segmenter:
             TypeError: The points are not floats, or not in the processor's memory.
             ValueError: Their shape is another, or they are more than 2^32 - 1.
             MemoryError: They are more than the memory holds.
+
+        Warns:
+            UserWarning: Nearly all points are out of range, once per segmenter: the scan may not be in metres.
         """
         result = self._core.segment_rows(points)  # the usual case
         if result is None:
             result = self._core.segment(*columns_of(points))
-        return Segmentation(result, self._core)
+        return Segmentation(result, self._core.settings)
 
     def reset(self) -> None:
         """Forgets all scans: as newly made. Only how the sensor stands, where it is estimated, is ever remembered."""
@@ -256,3 +271,29 @@ def _remake(name: str, made_of: dict[str, Any]) -> Segmenter:
 def method_names() -> tuple[str, ...]:
     """What `make_segmenter` knows, in the order of the paper's Table I, then `surface`."""
     return tuple(_core.method_names())
+
+
+def _check_types(
+    sensor: object, sensor_height: object, tilt: object, preset: object, config: object, threads: object
+) -> None:
+    """Raises TypeError, in one line, if an argument is of another type; values are checked by the compiled part."""
+    for name, value, fits, wanted in (
+        ("sensor", sensor, sensor is None or isinstance(sensor, (str, os.PathLike)), "a name or path"),
+        ("sensor_height", sensor_height, _is_height(sensor_height), 'a number, "estimate" or "track"'),
+        ("tilt", tilt, _is_tilt(tilt), 'three numbers (x, y, z), "estimate" or "off"'),
+        ("preset", preset, isinstance(preset, str), "a name"),
+        ("config", config, config is None or isinstance(config, (str, os.PathLike)), "a path"),
+        ("threads", threads, isinstance(threads, (int, np.integer)), "a whole number"),
+    ):
+        if not fits:
+            raise TypeError(f"{name} = {value!r} is not {wanted}")
+
+
+def _is_height(value: object) -> bool:
+    return value is None or isinstance(value, (str, int, float, np.integer, np.floating))
+
+
+def _is_tilt(value: object) -> bool:
+    if value is None or isinstance(value, str):
+        return True
+    return isinstance(value, (Sequence, np.ndarray)) and len(value) == 3 and all(map(_is_height, value))

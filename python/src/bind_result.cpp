@@ -2,9 +2,24 @@
 // SPDX-License-Identifier: MIT
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstring>
+#include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "bindings.hpp"
 #include "result.hpp"
@@ -143,7 +158,76 @@ nb::tuple tuple_of(const std::array<float, 3>& v) { return nb::make_tuple(v[0], 
 nb::tuple mount(const Result& result) {
   const Mount& mount = result.mount();
   return nb::make_tuple(mount.sensor_height, tuple_of(mount.up), tuple_of(mount.origin),
-                        mount.scale, to_sentence(result.decision()).c_str());
+                        mount.scale, result.decision());
+}
+
+/// All of a result, for pickling: what restored_result() takes.
+nb::tuple state(nb::handle self) {
+  const Segmentation& segmentation = result_of(self).segmentation();
+  nb::object known_heights = nb::none();
+  if (segmentation.heights().size() == segmentation.labels().size()) {
+    known_heights = nb::cast(heights(self));
+  }
+  return nb::make_tuple(labels(self), known_heights, patches(self), grids(self),
+                        mount(result_of(self)));
+}
+
+template <class Number>
+using Given = nb::ndarray<const Number, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using GivenTable = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using GivenGrid = std::tuple<float, GivenTable, GivenTable>;
+using GivenMount =
+    std::tuple<float, std::array<float, 3>, std::array<float, 3>, float, std::string>;
+
+void restore_labels(const Given<std::uint8_t>& labels, Segmentation& segmentation) {
+  const std::span<Label> restored = segmentation.start(labels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels.data()[i] >= label_count) throw nb::value_error("pickled result: unknown label");
+    restored[i] = static_cast<Label>(labels.data()[i]);
+  }
+}
+
+GroundSurface::Grid restored_grid(const GivenGrid& given) {
+  const auto& [cell, heights, confidences] = given;
+  const std::size_t width = heights.shape(0);
+  const bool is_square = width >= 2 && width % 2 == 0 && heights.shape(1) == width;
+  if (!is_square || confidences.shape(0) != width || confidences.shape(1) != width || !(cell > 0)) {
+    throw nb::value_error("pickled result: grids of an unknown layout");
+  }
+  return {.cell = cell,
+          .width = width,
+          .heights = {heights.data(), heights.data() + heights.size()},
+          .confidences = {confidences.data(), confidences.data() + confidences.size()}};
+}
+
+/// A result from its state(). Throws nb::value_error for a state of another version's layout.
+std::unique_ptr<Result> restored_result(const Given<std::uint8_t>& labels,
+                                        const std::optional<Given<float>>& heights,
+                                        const Given<std::uint8_t>& patches,
+                                        const std::vector<GivenGrid>& grids,
+                                        const GivenMount& mount) {
+  auto segmentation = std::make_unique<Segmentation>();
+  restore_labels(labels, *segmentation);
+  if (heights) {
+    if (heights->size() != labels.size()) throw nb::value_error("pickled result: heights missing");
+    std::copy_n(heights->data(), heights->size(), segmentation->start_heights().begin());
+  }
+  if (patches.size() % sizeof(Patch) != 0) {
+    throw nb::value_error("pickled result: patches of another version of flagstone");
+  }
+  segmentation->mutable_patches().resize(patches.size() / sizeof(Patch));
+  if (patches.size() != 0) {
+    std::memcpy(segmentation->mutable_patches().data(), patches.data(), patches.size());
+  }
+  if (!grids.empty()) {
+    std::vector<GroundSurface::Grid>& to = segmentation->mutable_surface().start();
+    for (const GivenGrid& grid : grids) to.push_back(restored_grid(grid));
+  }
+  segmentation->finish();
+  const auto& [height, up, origin, scale, decision] = mount;
+  return std::make_unique<Result>(
+      std::move(segmentation),
+      Mount{.sensor_height = height, .up = up, .origin = origin, .scale = scale}, decision);
 }
 
 }  // namespace
@@ -151,7 +235,14 @@ nb::tuple mount(const Result& result) {
 void bind_result(nb::module_& module) {
   module.def("patch_fields", &patch_fields,
              nb::sig("def patch_fields() -> tuple[list[tuple[str, str, int]], int]"));
+  module.def(
+      "restored_result", &restored_result, nb::arg("labels"), nb::arg("heights").none(),
+      nb::arg("patches"), nb::arg("grids"), nb::arg("mount"),
+      nb::sig("def restored_result(labels: object, heights: object, patches: object, grids: "
+              "list[tuple[float, typing.Any, typing.Any]], mount: tuple[float, tuple[float, float, "
+              "float], tuple[float, float, float], float, str]) -> Result"));
   nb::class_<Result>(module, "Result")
+      .def("state", &state, nb::sig("def state(self) -> tuple[typing.Any, ...]"))
       .def("labels", &labels, nb::sig("def labels(self) -> numpy.typing.NDArray[numpy.uint8]"))
       .def("ground", &ground, nb::sig("def ground(self) -> numpy.typing.NDArray[numpy.bool_]"))
       .def("heights", &heights, nb::sig("def heights(self) -> numpy.typing.NDArray[numpy.float32]"))

@@ -6,11 +6,14 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/variant.h>
+#include <pthread.h>
 
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +21,7 @@
 #include "bindings.hpp"
 #include "flagstone/gravity_aligned_segmenter.hpp"
 #include "lab/baselines/settings.hpp"
+#include "library/core/thread_pool.hpp"
 #include "library/mount/mount_settings.hpp"
 #include "method.hpp"
 #include "points.hpp"
@@ -28,14 +32,30 @@ namespace nb = nanobind;
 namespace flagstone::python {
 namespace {
 
-/// A method with what it was made of. Threads that share it take turns.
+/// How often this process and its ancestors have forked.
+std::atomic<std::uint32_t> forks = 0;
+
+unsigned checked_threads(std::int64_t threads) {
+  if (threads >= 1 && threads <= max_threads) return static_cast<unsigned>(threads);
+  throw std::invalid_argument(
+      fmt::format("threads = {} is out of range; allowed: 1 to {}", threads, max_threads));
+}
+
+/// Are nine points in ten out of range? A scan in millimetres looks like this. Few points may be
+/// anywhere.
+bool mostly_out_of_range(const Segmentation& segmentation) {
+  constexpr std::size_t min_points = 1000;
+  const std::size_t finite = segmentation.labels().size() - segmentation.count(Label::invalid);
+  return finite >= min_points && segmentation.count(Label::out_of_range) > finite / 10 * 9;
+}
+
+/// A method and its settings. Threads that share it take turns. After a fork the child may use it,
+/// even if another thread of the parent was segmenting.
 class SharedSegmenter {
  public:
   SharedSegmenter(const MethodChoice& choice, unsigned threads)
-      : method_(choice.method), config_(resolve(choice, mount_settings_)) {
-    const float height = sensor_height_of(config_, mount_settings_.mount.sensor_height);
-    segmenter_ = std::make_unique<GravityAlignedSegmenter>(make_method(method_, config_, threads),
-                                                           height, mount_settings_);
+      : method_(choice.method), threads_(threads), config_(resolve(choice, mount_settings_)) {
+    make();
   }
 
   /// None where they are not rows of points; segment() says then whether they are points at all.
@@ -49,8 +69,9 @@ class SharedSegmenter {
   }
 
   void reset() {
+    recover_from_fork();
     const nb::gil_scoped_release released;
-    const std::scoped_lock lock(turn_);
+    const std::scoped_lock lock(*turn_);
     segmenter_->reset();
   }
 
@@ -58,30 +79,70 @@ class SharedSegmenter {
   [[nodiscard]] MountSettings mount_settings() const { return mount_settings_; }
 
  private:
+  void make() {
+    const float height = sensor_height_of(config_, mount_settings_.mount.sensor_height);
+    segmenter_ = std::make_unique<GravityAlignedSegmenter>(make_method(method_, config_, threads_),
+                                                           height, mount_settings_);
+  }
+
+  /// If a thread that the child process does not have was segmenting during the fork, its lock is
+  /// never released and its memory is half written: both are abandoned. The caller holds the
+  /// interpreter's lock, so that no other thread of the child is here.
+  void recover_from_fork() {
+    const std::uint32_t now = forks.load(std::memory_order_relaxed);
+    if (forks_ == now) return;
+    forks_ = now;
+    if (turn_->try_lock()) {
+      turn_->unlock();
+      return;
+    }
+    static_cast<void>(turn_.release());
+    static_cast<void>(segmenter_.release());
+    static_cast<void>(copy_.release());
+    turn_ = std::make_unique<std::mutex>();
+    copy_ = std::make_unique<std::vector<float>>();
+    make();
+  }
+
+  void warn_if_mostly_out_of_range(const Segmentation& segmentation) {
+    if (has_warned_ || !mostly_out_of_range(segmentation)) return;
+    has_warned_ = true;
+    const std::string message = fmt::format(
+        "{} of {} points are out of range; is the scan in metres? For millimetres pass "
+        "mount={{\"scale\": 0.001}}; `flagstone doctor SCAN` finds the scale",
+        segmentation.count(Label::out_of_range), segmentation.labels().size());
+    if (PyErr_WarnEx(PyExc_UserWarning, message.c_str(), 2) != 0) throw nb::python_error();
+  }
+
   template <class AnyPoints>
   std::unique_ptr<Result> segment_points(const AnyPoints& points) {
+    recover_from_fork();
     Status status;
     std::unique_ptr<Result> result;
     {
       const nb::gil_scoped_release released;
       // Taken after the interpreter's lock is given up: others wait for their turn without it.
-      const std::scoped_lock lock(turn_);
+      const std::scoped_lock lock(*turn_);
       std::unique_ptr<Segmentation> segmentation = spare_->take();
-      status = segmenter_->segment(points.view(copy_), *segmentation);
+      status = segmenter_->segment(points.view(*copy_), *segmentation);
       result = std::make_unique<Result>(std::move(segmentation), spare_, segmenter_->mount(),
                                         segmenter_->decision());
     }
     raise_if_failed(status);
+    warn_if_mostly_out_of_range(result->segmentation());
     return result;
   }
 
-  std::mutex turn_;
+  std::unique_ptr<std::mutex> turn_ = std::make_unique<std::mutex>();
   std::string method_;
+  unsigned threads_;
   MountSettings mount_settings_;
   MethodConfig config_;
   std::unique_ptr<GravityAlignedSegmenter> segmenter_;
   std::shared_ptr<SpareResults> spare_ = std::make_shared<SpareResults>();
-  std::vector<float> copy_;
+  std::unique_ptr<std::vector<float>> copy_ = std::make_unique<std::vector<float>>();
+  std::uint32_t forks_ = forks.load(std::memory_order_relaxed);
+  bool has_warned_ = false;
 };
 
 /// The number that the shortest text of a float stands for: 1.73 instead of 1.7300000190734863.
@@ -168,6 +229,7 @@ std::uintptr_t address_of(nb::handle x, nb::handle y, nb::handle z) {
 }  // namespace
 
 void bind_segmenter(nb::module_& module) {
+  pthread_atfork(nullptr, nullptr, [] { forks.fetch_add(1, std::memory_order_relaxed); });
   using Height = std::variant<std::monostate, float, std::string>;
   using Tilt = std::variant<std::monostate, std::array<float, 3>, std::string>;
   module.def("address_of", &address_of, nb::arg("x"), nb::arg("y"), nb::arg("z"),
@@ -179,7 +241,7 @@ void bind_segmenter(nb::module_& module) {
           "__init__",
           [](SharedSegmenter* self, std::string method, std::string preset, std::string sensor,
              std::string config_file, std::string settings, Height sensor_height, Tilt tilt,
-             unsigned threads) {
+             std::int64_t threads) {
             new (self) SharedSegmenter({.method = std::move(method),
                                         .preset = std::move(preset),
                                         .sensor = std::move(sensor),
@@ -187,7 +249,7 @@ void bind_segmenter(nb::module_& module) {
                                         .settings = std::move(settings),
                                         .sensor_height = std::move(sensor_height),
                                         .tilt = std::move(tilt)},
-                                       threads);
+                                       checked_threads(threads));
           },
           nb::kw_only(), nb::arg("method"), nb::arg("preset"), nb::arg("sensor"),
           nb::arg("config_file"), nb::arg("settings"), nb::arg("sensor_height").none(),

@@ -2,20 +2,51 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <mutex>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "flagstone/mount.hpp"
 #include "flagstone/segmentation.hpp"
-#include "spare_results.hpp"
 
 namespace flagstone::python {
 
-/// One segmented scan, for Python to look into. Arrays that Python has of it keep it alive; when
-/// the last is gone its memory serves another scan.
+/// Results that are no longer in use, kept so that the next scan finds their memory grown: after
+/// the first scans, a scan allocates nothing, as in C++. Any thread may take and give back. Neither
+/// ever waits, so a lock that was held while the process forked cannot block the child.
+class SpareResults {
+ public:
+  SpareResults() { spare_.reserve(max_kept); }
+
+  std::unique_ptr<Segmentation> take() {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock || spare_.empty()) return std::make_unique<Segmentation>();
+    std::unique_ptr<Segmentation> result = std::move(spare_.back());
+    spare_.pop_back();
+    return result;
+  }
+
+  void give_back(std::unique_ptr<Segmentation> result) noexcept {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (lock && spare_.size() < max_kept) spare_.push_back(std::move(result));
+  }
+
+ private:
+  static constexpr std::size_t max_kept = 2;
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Segmentation>> spare_;
+};
+
+/// The result of one scan, as Python reads it. NumPy arrays of its memory keep it alive; when the
+/// last of them is gone, its memory serves another scan.
 class Result {
  public:
   Result(std::unique_ptr<Segmentation> segmentation, std::shared_ptr<SpareResults> spare,
@@ -24,8 +55,15 @@ class Result {
         spare_(std::move(spare)),
         mount_(mount),
         decision_(decision) {}
+
+  /// A result restored from a pickle, with its decision in words.
+  Result(std::unique_ptr<Segmentation> segmentation, const Mount& mount, std::string decision)
+      : segmentation_(std::move(segmentation)),
+        mount_(mount),
+        decision_in_words_(std::move(decision)) {}
+
   ~Result() {
-    if (segmentation_) spare_->give_back(std::move(segmentation_));
+    if (spare_) spare_->give_back(std::move(segmentation_));
   }
   Result(const Result&) = delete;
   Result& operator=(const Result&) = delete;
@@ -34,19 +72,38 @@ class Result {
 
   [[nodiscard]] const Segmentation& segmentation() const noexcept { return *segmentation_; }
   [[nodiscard]] const Mount& mount() const noexcept { return mount_; }
-  [[nodiscard]] const MountDecision& decision() const noexcept { return decision_; }
+
+  /// What the scan says about the mount, in one sentence.
+  [[nodiscard]] std::string decision() const {
+    return decision_in_words_.empty() ? to_sentence(decision_) : decision_in_words_;
+  }
 
   /// 1 for each point of the ground, else 0. May throw std::bad_alloc, the first time.
-  [[nodiscard]] std::span<const std::uint8_t> ground();
+  [[nodiscard]] std::span<const std::uint8_t> ground() {
+    const std::span<const Label> labels = segmentation_->labels();
+    if (ground_.size() != labels.size()) {
+      ground_.resize(labels.size());
+      std::ranges::transform(labels, ground_.begin(), [](Label label) {
+        return static_cast<std::uint8_t>(label == Label::ground);
+      });
+    }
+    return ground_;
+  }
 
   /// The heights; all NaN where the method has none. May throw std::bad_alloc, the first time.
-  [[nodiscard]] std::span<const float> heights();
+  [[nodiscard]] std::span<const float> heights() {
+    const std::size_t points = segmentation_->labels().size();
+    if (segmentation_->heights().size() == points) return segmentation_->heights();
+    unknown_heights_.resize(points, std::numeric_limits<float>::quiet_NaN());
+    return unknown_heights_;
+  }
 
  private:
   std::unique_ptr<Segmentation> segmentation_;
   std::shared_ptr<SpareResults> spare_;
   Mount mount_;
   MountDecision decision_;
+  std::string decision_in_words_;
   std::vector<std::uint8_t> ground_;
   std::vector<float> unknown_heights_;
 };

@@ -4,7 +4,11 @@
 
 from __future__ import annotations
 
+import copy
 import gc
+import multiprocessing
+import pickle
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -40,7 +44,7 @@ def test_arrays_outlive_result_and_segmenter_and_later_scans(scan: Scan) -> None
     segmenter = flagstone.Surface()
     result = segmenter.segment(scan)
     held = [result.labels, result.ground, result.heights, result.patches, result.surface.grids[0].heights]
-    copies = [array.copy() for array in held]
+    expected = [array.tobytes() for array in held]
     surface = result.surface
     height = surface.height(5, 5)
     del result
@@ -48,8 +52,7 @@ def test_arrays_outlive_result_and_segmenter_and_later_scans(scan: Scan) -> None
         segmenter.segment(made_up_scan(30_000, seed))
     del segmenter
     gc.collect()
-    for array, copy in zip(held, copies, strict=True):
-        assert array.tobytes() == copy.tobytes()
+    assert [array.tobytes() for array in held] == expected
     assert surface.height(5, 5) == height
 
 
@@ -98,7 +101,8 @@ def test_the_surface_answers_at_places_of_any_shape(scan: Scan) -> None:
     assert surface and surface.extent > 50
     x, y = np.linspace(-8, 8, 5), np.linspace(-8, 8, 7)[:, None]
     assert surface.height(x, y).shape == (7, 5)
-    assert surface.height(1, 2).shape == ()
+    for number in (surface.height(1, 2), surface.resolution(1.0, np.float32(2))):
+        assert type(number) is float
     assert np.allclose(surface.height(x, y), -1.73, atol=0.05)
     at = surface.at(x, y)
     assert np.array_equal(at.height, surface.height(x, y))
@@ -155,3 +159,57 @@ def test_result_says_the_settings_it_was_made_with(scan: Scan) -> None:
     result = flagstone.Patchwork(distance_margin=0.25).segment(scan)
     assert result.settings["distance_margin"] == 0.25
     assert result.settings == flagstone.Patchwork(distance_margin=0.25).settings
+
+
+@pytest.mark.parametrize("method", ["surface", "patchwork"])
+@pytest.mark.parametrize("copied", [copy.deepcopy, copy.copy, lambda result: pickle.loads(pickle.dumps(result))])
+def test_a_result_can_be_pickled_and_copied(
+    method: str, copied: Callable[[flagstone.Segmentation], flagstone.Segmentation], scan: Scan
+) -> None:
+    result = flagstone.make_segmenter(method, sensor_height="estimate").segment(scan)
+    other = copied(result)
+    for name in ("labels", "ground", "heights", "patches"):
+        ours, theirs = getattr(result, name), getattr(other, name)
+        assert theirs.dtype == ours.dtype and theirs.tobytes() == ours.tobytes()
+        assert not np.shares_memory(ours, theirs)
+    assert (other.counts, other.mount, other.settings) == (result.counts, result.mount, result.settings)
+    x, y = np.random.default_rng(1).uniform(-60, 60, (2, 500))
+    for answer, expected in zip(other.surface.at(x, y), result.surface.at(x, y), strict=True):
+        assert np.array_equal(answer, expected, equal_nan=True)
+
+
+def test_parts_of_a_result_can_be_pickled(scan: Scan) -> None:
+    result = flagstone.Surface(sensor_height="track").segment(scan)
+    surface, grid, patches, mount = pickle.loads(
+        pickle.dumps((result.surface, result.surface.grids[0], result.patches, result.mount))
+    )
+    assert surface.height(5, 0) == result.surface.height(5, 0) and surface.extent == result.surface.extent
+    assert np.array_equal(grid.heights, result.surface.grids[0].heights, equal_nan=True)
+    assert patches.tobytes() == result.patches.tobytes() and mount == result.mount
+
+
+def test_a_pickle_that_does_not_fit_is_refused(scan: Scan) -> None:
+    labels, heights, patches, grids, mount = flagstone.Surface().segment(scan)._result.state()
+    side = np.zeros((4, 6), np.float32)
+    for state in (
+        (labels + np.uint8(5), heights, patches, grids, mount),
+        (labels, heights[1:], patches, grids, mount),
+        (labels, heights, patches[1:], grids, mount),
+        (labels, heights, patches, [(1.0, side, side)], mount),
+    ):
+        with pytest.raises(ValueError, match="pickled result"):
+            flagstone._core.restored_result(*state)
+
+
+def segment_here(points: Scan) -> flagstone.Segmentation:
+    return flagstone.Surface().segment(points)
+
+
+def test_results_come_back_from_other_processes(scan: Scan) -> None:
+    scans = [scan, scan[:5000]]
+    expected = [segment_here(points).labels.tobytes() for points in scans]
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        assert [result.labels.tobytes() for result in pool.map(segment_here, scans)] == expected
+    joblib = pytest.importorskip("joblib")
+    results = joblib.Parallel(n_jobs=2)(joblib.delayed(flagstone.Surface().segment)(points) for points in scans)
+    assert [result.labels.tobytes() for result in results] == expected

@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 import array
+import enum
 import subprocess
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -100,13 +102,13 @@ def test_a_tensor_of_the_processor_is_read_where_it_lies(scan: Scan, expected: n
 class DLPackOnly:
     """An array of some other library: it speaks DLPack, and nothing else."""
 
-    def __init__(self, scan: Scan, device: int = 1) -> None:
+    def __init__(self, scan: Scan, device: object = 1) -> None:
         self._scan, self._device = scan, device
 
     def __dlpack__(self, **arguments: object) -> object:
         return self._scan.__dlpack__(**arguments)
 
-    def __dlpack_device__(self) -> tuple[int, int]:
+    def __dlpack_device__(self) -> tuple[object, int]:
         return self._device, 0
 
 
@@ -114,6 +116,65 @@ def test_what_speaks_dlpack_is_read_where_it_lies(scan: Scan, expected: npt.NDAr
     points = DLPackOnly(scan)
     assert np.array_equal(SURFACE.segment(points).labels, expected)
     assert _core.address_of(*columns_of(points)) == scan.ctypes.data
+
+
+class DeviceType(enum.Enum):
+    """As Open3D has it: no int() of it."""
+
+    CPU = 1
+    CUDA = 2
+
+
+def test_devices_of_dlpack_may_be_enums(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
+    assert np.array_equal(SURFACE.segment(DLPackOnly(scan, DeviceType.CPU)).labels, expected)
+    assert np.array_equal(SURFACE.segment(DLPackOnly(scan, object())).labels, expected)
+    with pytest.raises(TypeError, match=r"DLPackOnly is in the memory of another device.*\.cpu\(\)"):
+        SURFACE.segment(DLPackOnly(scan, DeviceType.CUDA))
+
+
+def test_a_table_of_pyarrow_is_read_by_its_columns(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    table = pyarrow.table({name: scan[:, i] for i, name in enumerate(("x", "y", "z", "intensity"))})
+    assert np.array_equal(SURFACE.segment(table).labels, expected)
+    with pytest.raises(ValueError, match="no z among the fields x, y, intensity; wanted") as raised:
+        SURFACE.segment(table.drop_columns("z"))
+    assert len(str(raised.value)) < 200
+
+
+def test_laspy_data_is_refused_with_what_to_do() -> None:
+    laspy = pytest.importorskip("laspy")
+    with pytest.raises(TypeError, match=r"LasData of laspy holds map coordinates.*flagstone\.io\.read\(FILE, origin="):
+        SURFACE.segment(laspy.create())
+
+
+@pytest.mark.parametrize("layout", ["rows of four", "inside a wider array", "float64", "records", "records of float64"])
+def test_an_organized_cloud_has_labels_row_by_row(layout: str, scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
+    flat = (IN_PLACE | CONVERTED)[layout](scan)
+    assert isinstance(flat, np.ndarray)
+    organized = flat.reshape(100, len(scan) // 100, *flat.shape[1:])
+    assert np.array_equal(SURFACE.segment(organized).labels, expected)
+    if layout in IN_PLACE:
+        first_x = flat["x"] if flat.dtype.names else flat[:, 0]
+        assert _core.address_of(*columns_of(organized)) == first_x.__array_interface__["data"][0]
+
+
+def test_a_scan_in_millimetres_is_warned_about_once(scan: Scan) -> None:
+    segmenter = flagstone.Surface()
+    with pytest.warns(UserWarning, match=r"20000 of 20000 points are out of range.*flagstone doctor") as warned:
+        segmenter.segment(scan * 1000)
+        segmenter.segment(scan * 1000)
+    assert len(warned) == 1 and warned[0].filename == __file__
+    in_metres = flagstone.Surface(mount={"scale": 0.001}).segment(scan * 1000)
+    assert np.mean(in_metres.labels == segmenter.segment(scan).labels) > 0.999
+
+
+def test_few_points_and_half_a_scan_out_of_range_are_no_reason_to_warn(scan: Scan) -> None:
+    far = scan.copy()
+    far[::2, 0] += 1000
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        flagstone.Surface().segment(far)
+        flagstone.Surface().segment(1000 * scan[:100])
 
 
 @settings(deadline=None, max_examples=50)
@@ -137,7 +198,9 @@ WRONG: dict[str, tuple[object, type[Exception], str]] = {
     "two columns": (np.zeros((9, 2), np.float32), ValueError, r"shape \(9, 2\).*\(N, 3\)"),
     "two coordinates of rows": (np.zeros((3, 2), np.float32), ValueError, r"shape \(3, 2\).*pass points\.T"),
     "one row": (np.zeros(12, np.float32), ValueError, r"shape \(12,\).*\(N, 3\)"),
-    "three axes": (np.zeros((2, 9, 3), np.float32), ValueError, r"shape \(2, 9, 3\)"),
+    "a picture of two channels": (np.zeros((9, 9, 2), np.float32), ValueError, r"shape \(9, 9, 2\)"),
+    "channels before rows": (np.zeros((5, 64, 99), np.float32), ValueError, r"shape \(5, 64, 99\).*numpy\.moveaxis"),
+    "four axes": (np.zeros((2, 9, 9, 3), np.float32), ValueError, r"shape \(2, 9, 9, 3\)"),
     "whole numbers": (np.zeros((9, 3), np.int32), TypeError, r"int32.*astype\(numpy\.float32\)"),
     "half precision": (np.zeros((9, 3), np.float16), TypeError, r"float16.*astype"),
     "truth values": (np.zeros((9, 3), bool), TypeError, r"bool.*float32 or float64"),
@@ -145,9 +208,14 @@ WRONG: dict[str, tuple[object, type[Exception], str]] = {
     "objects": (np.full((9, 3), None), TypeError, r"object.*float32 or float64"),
     "nothing": (None, ValueError, r"NoneType of shape \(\)"),
     "an empty list": ([], ValueError, r"list of shape \(0,\)"),
-    "rows of different length": ([[1.0, 2, 3], [4.0]], TypeError, r"list is no array"),
-    "a text": ("scan.bin", ValueError, r"str of shape \(\)"),
+    "rows of different length": ([[1.0, 2, 3], [4.0]], TypeError, r"list is not an array"),
+    "a path": ("scan.bin", TypeError, r"'scan\.bin' is a path.*segment\(flagstone\.io\.read\('scan\.bin'\)\)"),
     "bytes": (array.array("f", [1, 2, 3]), ValueError, r"array of shape \(3,\)"),
+    "records of many fields": (
+        np.zeros(9, [(f"c{i}", "f4") for i in range(20)]),
+        ValueError,
+        "fields c0, c1, c2, c3, c4, c5, c6, c7 and 12 more",
+    ),
     "records without z": (np.zeros(9, [("x", "f4"), ("y", "f4")]), ValueError, r"no z among the fields x, y"),
     "records of integers": (np.zeros(9, [("x", "i4"), ("y", "i4"), ("z", "i4")]), TypeError, r"field x: .*int32"),
     "records of vectors": (np.zeros(9, [("x", "3f4"), ("y", "f4"), ("z", "f4")]), ValueError, r"field x of shape"),

@@ -4,7 +4,10 @@
 
 from __future__ import annotations
 
+import os
 import pickle
+import subprocess
+import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -36,6 +39,12 @@ def test_a_file_of_settings_is_laid_under_those_by_name(tmp_path: Path) -> None:
     file.write_text("distance_margin = 0.05\nseed_count = 7\n")
     settings = Patchwork(config=file, seed_count=9).settings
     assert settings["distance_margin"] == 0.05 and settings["seed_count"] == 9
+
+
+def test_python_m_flagstone_is_the_command() -> None:
+    environment = {**os.environ, "PYTHONPATH": str(Path(flagstone.__file__).parents[1])}
+    command = [sys.executable, "-m", "flagstone", "sensors"]
+    assert subprocess.run(command, env=environment, capture_output=True, text=True).stdout == run_command("sensors")
 
 
 def test_a_file_the_command_prints_makes_the_same_segmenter(tmp_path: Path) -> None:
@@ -77,7 +86,13 @@ WRONG: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"sensor_height": 1000}, ValueError, r"sensor_height = 1000 is out of range; allowed: -100 to 100 m"),
     ({"tilt": "left"}, ValueError, 'tilt = "left" is neither "off" nor "estimate"'),
     ({"tilt": (0, 0, 0)}, ValueError, "up"),
-    ({"threads": 0}, ValueError, "threads is 0, allowed are 1 to 1024"),
+    ({"threads": 0}, ValueError, "threads = 0 is out of range; allowed: 1 to 1024"),
+    ({"threads": -1}, ValueError, "threads = -1 is out of range; allowed: 1 to 1024"),
+    ({"threads": "two"}, TypeError, "threads = 'two' is not a whole number"),
+    ({"sensor_height": [1]}, TypeError, r"sensor_height = \[1\] is not a number"),
+    ({"tilt": (1, 2)}, TypeError, r"tilt = \(1, 2\) is not three numbers"),
+    ({"sensor": 64}, TypeError, "sensor = 64 is not a name or path"),
+    ({"config": 1}, TypeError, "config = 1 is not a path"),
     ({"config": "nowhere.toml"}, ValueError, "nowhere.toml"),
 ]
 
@@ -139,6 +154,46 @@ def test_a_segmenter_can_be_pickled(segmenter: flagstone.Segmenter, scan: Scan) 
     again = pickle.loads(pickle.dumps(segmenter))
     assert type(again) is type(segmenter) and again.settings == segmenter.settings
     assert np.array_equal(again.segment(scan).labels, segmenter.segment(scan).labels)
+
+
+def test_a_segmenter_is_printed_as_it_was_made() -> None:
+    assert repr(Surface()) == "Surface()"
+    assert (
+        repr(Surface(sensor_height=1.5, point={"margin": 0.2})) == "Surface(sensor_height=1.5, point={'margin': 0.2})"
+    )
+    assert repr(Patchwork(preset="paper", threads=2)) == "Patchwork(preset='paper', threads=2)"
+    assert repr(make_segmenter("gpf", tilt=np.array([0, 0, 1]))) == "make_segmenter('gpf', tilt=array([0, 0, 1]))"
+
+
+FORKED = """
+import os, signal, threading, numpy as np, flagstone
+from conftest import made_up_scan
+
+scan = made_up_scan(100_000)
+segmenter = flagstone.Surface(threads=2)
+expected = segmenter.segment(scan).labels.copy()
+{before}
+for _ in range(5):
+    child = os.fork()
+    if child == 0:
+        signal.alarm(20)  # a child that hangs dies
+        os._exit(0 if np.array_equal(segmenter.segment(scan).labels, expected) else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+assert np.array_equal(segmenter.segment(scan).labels, expected)
+os._exit(0)
+"""
+OTHER_THREADS_SEGMENT = """
+for _ in range(2):
+    threading.Thread(target=lambda: [segmenter.segment(scan) for _ in range(100_000)], daemon=True).start()
+"""
+
+
+@pytest.mark.parametrize("before", ["", OTHER_THREADS_SEGMENT], ids=["idle", "while other threads segment"])
+def test_after_a_fork_parent_and_child_may_use_a_segmenter(before: str) -> None:
+    program = [sys.executable, "-W", "ignore", "-c", FORKED.format(before=before)]
+    path = os.pathsep.join([str(Path(__file__).parent), str(Path(flagstone.__file__).parents[1])])
+    done = subprocess.run(program, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=180)
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("method", ["surface", "patchwork"])

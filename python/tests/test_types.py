@@ -32,7 +32,8 @@ assert_type(result.labels, npt.NDArray[np.uint8])
 assert_type(result.ground, npt.NDArray[np.bool_])
 assert_type(result.heights, npt.NDArray[np.float32])
 assert_type(result.counts, dict[str, int])
-assert_type(result.surface.height(1, 2), npt.NDArray[np.float32])
+assert_type(result.surface.height(1, 2), float)
+assert_type(result.surface.height(points[:, 0], 2), npt.NDArray[np.float32])
 assert_type(flagstone.make_segmenter("gpf"), flagstone.Segmenter)
 """
 
