@@ -1,89 +1,81 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# `make help` lists what there is. CMAKE_FLAGS adds options to the first configuration of a build tree,
-# for example CMAKE_FLAGS=-DFLAGSTONE_WARNINGS_AS_ERRORS=OFF.
+# `make help` lists the targets. CMAKE_FLAGS adds options to the first configuration of a build tree,
+# for example CMAKE_FLAGS=-DBUILD_SHARED_LIBS=ON.
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
+MEASUREMENTS := bench-scaling bench-steps bench-edges latency primitives soak-test surface-figures
 
-.PHONY: help build demo test test-python test-ray wheel docs sanitize sanitize-thread format format-check tidy bench-scaling latency primitives bench-steps \
-        bench-edges soak-test bench-compare surface-study surface-figures worlds-study contact-sheet install clean
+.PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
+        bench-compare $(MEASUREMENTS) surface-study worlds-study contact-sheet clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
-	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 16
+	@sed -n 's/^\([a-z-]*\):.* ## /\1\t/p' Makefile | expand -t 16
 
-build: ## install what is missing, build the command: build/flagstone
-	@scripts/setup build && scripts/build
+build: ## install what is missing, build the library and the command: build/flagstone
+	@scripts/setup build
+	@[ -e build/build.ninja ] || cmake --preset release $(CMAKE_FLAGS)
+	@cmake --build build --target flagstone libflagstone
 
 demo: build ## build, then simulate a street, segment it and score the result
 	@build/flagstone demo
 
-test: ## install what is missing, build and run every test, short fuzz runs included
-	@scripts/setup build test python docs && scripts/test
+install: build ## install the library and the command under PREFIX (/usr/local)
+	@cmake --install build --prefix $(PREFIX)
+
+test: ## build and test the library, the command and the Python package
+	@scripts/setup build test python && scripts/test
+
+test-all: ## the same, and all that takes long: fuzzers, sanitizers, a Ray cluster, the documentation's site
+	@scripts/setup build test fuzz python docs && scripts/test all
 
 test-python: ## build and test the Python package alone; PYTHON names another interpreter
-	@scripts/setup build python && scripts/test-python
+	@scripts/setup build python && scripts/test python
 
-wheel: ## build the Python package's wheel into dist/, and use it in an empty environment; PYTHON names another interpreter
-	@scripts/setup build python && wheel=$$(scripts/wheel) && scripts/check-wheel "$$wheel"
-
-sanitize: ## run the tests under AddressSanitizer and UndefinedBehaviorSanitizer
+sanitize: ## run the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@scripts/setup build test && scripts/test sanitize
 
-sanitize-thread: ## run the tests under ThreadSanitizer
+sanitize-thread: ## run the C++ tests under ThreadSanitizer
 	@scripts/setup build test && scripts/test sanitize-thread
-
-test-ray: ## a Ray cluster of three nodes, one of them killed: two minutes; of the environment that test-python makes
-	@scripts/setup build python && scripts/test-python -m slow python/tests/test_ray_cluster.py
-
-docs: ## build all documentation as one site, warnings are errors: build/site/index.html
-	@scripts/setup python docs && scripts/docs
 
 format: ## format the C++ sources
 	@scripts/setup format && scripts/format -i
 
-format-check: ## fail where `make format` would change something
+format-check: ## fail if `make format` would change a file
 	@scripts/setup format && scripts/format --dry-run -Werror
 
-tidy: ## run clang-tidy over our sources
+tidy: ## run clang-tidy over the library and the command
 	@scripts/setup build test tidy && scripts/tidy
 
-bench-scaling: ## time and memory over points, beams, bins and threads; draws docs/images/growth.png
-	@scripts/setup build benchmark plot && scripts/benchmark growth
+docs: ## build the documentation's site, warnings are errors: build/site/index.html
+	@scripts/setup python docs && NO_MKDOCS_2_WARNING=1 "$$(scripts/python environment)" -m mkdocs build --strict
 
-latency: ## time of 10,000 different scans, with those meant to take long
-	@scripts/setup build benchmark && scripts/benchmark latency
-
-primitives: ## time of each step for every instruction set
-	@scripts/setup build benchmark && scripts/benchmark primitives
-
-bench-steps: ## how sharp the surface shows kerbs, ditches and drops of known shape
-	@scripts/setup build benchmark && scripts/benchmark sharpness
-
-bench-edges: ## what methods make of the ground on both sides of kerbs, ditches and drops, and of ghosts below
-	@scripts/setup build benchmark && scripts/benchmark edges
-
-soak-test: ## 100,000 different scans by one segmenter: does it hold its memory? draws docs/images/soak.png
-	@scripts/setup build benchmark plot && scripts/benchmark soak
+wheel: ## build the Python wheel into dist/, and use it in an empty environment; PYTHON names another interpreter
+	@scripts/setup build python && wheel=$$(scripts/wheel) && scripts/check-wheel "$$wheel"
 
 bench-compare: build ## is METHOD in the working tree slower than in REVISION, on SCANS?
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(SCANS)
 
-worlds-study: build ## measures both methods in every simulated world, writes docs/robustness.md; WORK: a folder with 8 GB to spare
-	@scripts/setup plot && "$$(scripts/plotting-python)" bench/worlds_study.py run --work $(or $(WORK),out/worlds)
+bench-scaling: PROGRAM = growth ## time and memory by points, beams, bins and threads
+bench-steps: PROGRAM = sharpness ## errors of the surface at kerbs, ditches and drops of known shape
+bench-edges: PROGRAM = edges ## labels on both sides of kerbs, ditches and drops, and of ghost points
+latency: PROGRAM = latency ## time of 10,000 different scans, adversarial scans included
+primitives: PROGRAM = primitives ## time of each step for every instruction set
+soak-test: PROGRAM = soak ## memory of one segmenter over 100,000 different scans
+surface-figures: PROGRAM = surface_stages ## the figures of docs/surface.md
+$(MEASUREMENTS):
+	@scripts/setup build benchmark plot && scripts/benchmark $(PROGRAM)
 
-surface-study: build ## measures the method surface, writes the tables of docs/surface.md; WORK: a folder with 4 GB to spare
-	@scripts/setup plot && "$$(scripts/plotting-python)" bench/surface_study.py run --work $(or $(WORK),out/study)
+surface-study: build ## measure the method surface, write the tables of docs/surface.md; WORK: a directory with 4 GB free
+	@scripts/setup plot && "$$(scripts/python plotting)" bench/surface_study.py run --work $(or $(WORK),out/study)
 
-surface-figures: ## draws the figures of docs/surface.md
-	@scripts/setup build benchmark plot && scripts/benchmark surface_stages
+worlds-study: build ## measure both methods in every simulated scene, write docs/robustness.md; WORK: a directory with 8 GB free
+	@scripts/setup plot && "$$(scripts/python plotting)" bench/worlds_study.py run --work $(or $(WORK),out/worlds)
 
-contact-sheet: build ## draws every scene as three sensors see it: docs/images/worlds.png; SHEET: options of bench/contact_sheet.py
-	@scripts/setup plot && "$$(scripts/plotting-python)" bench/contact_sheet.py $(SHEET)
-
-install: build ## install the library and the command under PREFIX (/usr/local)
-	@cmake --install build --prefix $(PREFIX)
+contact-sheet: build ## draw every scene as three sensors see it: docs/images/worlds.png; SHEET: options of bench/contact_sheet.py
+	@scripts/setup plot && "$$(scripts/python plotting)" bench/contact_sheet.py $(SHEET)
 
 clean: ## remove the build trees
 	@rm -rf build build-python build-fuzz build-thread build-sanitize build-sanitize-thread build-compare

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """2,000 scans on a cluster of a head and two workers, each a node of its own: a node killed, the driver killed.
 
-Takes a minute or two on two cores: `make test-ray` runs it, the quick suite does not.
+Takes a minute or two on two cores: `make test-all` runs it, `make test` does not.
 """
 
 from __future__ import annotations

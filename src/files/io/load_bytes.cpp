@@ -61,7 +61,7 @@ void resize(std::vector<std::byte>& bytes, std::size_t size) {
 
 // Not mapped: from the page cache a map takes up to a third less time, but a file that shrinks
 // while mapped ends the program with SIGBUS.
-Status load(const std::filesystem::path& path, std::vector<std::byte>& out) {
+Status read_whole(const std::filesystem::path& path, std::vector<std::byte>& out) {
   const FileDescriptor file(::open(path.c_str(), reading));
   if (!file.is_open()) return system_error("cannot be opened", errno);
   struct stat about{};
@@ -79,7 +79,7 @@ Status load(const std::filesystem::path& path, std::vector<std::byte>& out) {
 }  // namespace
 
 Status load_bytes(const std::filesystem::path& path, std::vector<std::byte>& out) {
-  Status status = with_path(path, within_memory([&] { return load(path, out); }));
+  Status status = with_path(path, within_memory([&] { return read_whole(path, out); }));
   if (!status.ok()) out.clear();
   return status;
 }

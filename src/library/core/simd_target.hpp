@@ -9,7 +9,7 @@
 namespace flagstone {
 
 /// The instruction sets that this build has code for and this machine can run, best first; the last
-/// one is "scalar", plain C++ without vectors. On x86: avx3 (AVX-512), avx2, sse4, ssse3, scalar.
+/// one is "scalar", plain C++ without vectors. On x86: avx3 (AVX-512), avx2, sse4, scalar.
 std::vector<std::string> simd_targets();
 
 /// The one in use.

@@ -12,7 +12,7 @@ namespace flagstone::surface {
 namespace {
 
 /// A cell with fewer points is not looked at.
-constexpr std::size_t fewest_points = 3;
+constexpr std::size_t fewest_points_in_cell = 3;
 
 /// A cell whose observations weigh as much keeps its correction, whatever is around.
 constexpr float full_weight = 0.5f;
@@ -93,7 +93,7 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
 void ResidualPyramid::list_cells(const plane_fits::BinGroups& groups) noexcept {
   for (LevelCells& level : cells_) level.small_count = level.large_count = 0;
   for (const Block& block : blocks_) {
-    if (groups.points(block.cells.first, block.cells.last).size() < fewest_points) continue;
+    if (groups.points(block.cells.first, block.cells.last).size() < fewest_points_in_cell) continue;
     groups.list_begins(block.cells.first, block.cells.last, begins_.data());
     for (std::size_t level = 0; level < block.levels; ++level) list_cells_of(block, level);
   }
@@ -116,7 +116,7 @@ void ResidualPyramid::list_cells_of(const Block& block, std::size_t level) noexc
                             .column = first_column + in_z_order[place].column};
     // Without a branch: whether a cell is occupied is hard to foresee.
     *small = *large = cell;
-    small += static_cast<std::ptrdiff_t>(count >= fewest_points && count <= small_cell);
+    small += static_cast<std::ptrdiff_t>(count >= fewest_points_in_cell && count <= small_cell);
     large += static_cast<std::ptrdiff_t>(count > small_cell);
   }
   list.small_count = static_cast<std::size_t>(small - list.small.data());

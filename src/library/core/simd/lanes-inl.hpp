@@ -96,7 +96,7 @@ HWY_INLINE IntVector whole_part(FloatVector v) {
   return IntVector{_mm512_cvttps_epi32(v.raw)};
 #elif HWY_TARGET == HWY_AVX2
   return IntVector{_mm256_cvttps_epi32(v.raw)};
-#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+#elif HWY_TARGET == HWY_SSE4
   return IntVector{_mm_cvttps_epi32(v.raw)};
 #else
   return hn::ConvertTo(IntTag(), v);
@@ -145,7 +145,7 @@ inline constexpr auto picked_lanes = [] {
   }
   return picked;
 }();
-#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+#elif HWY_TARGET == HWY_SSE4
 /// For each mask of four lanes the bytes it picks.
 inline constexpr auto picked_bytes = [] {
   std::array<std::array<std::uint8_t, 16>, 16> picked{};
@@ -168,7 +168,7 @@ HWY_INLINE IntVector compress(IntVector v, hn::Mask<IntTag> mask) {
   const __m256i packed = _mm256_set1_epi32(static_cast<int>(picked_lanes[bits]));
   const __m256i picked = _mm256_srlv_epi32(packed, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28));
   return IntVector{_mm256_permutevar8x32_epi32(v.raw, picked)};
-#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+#elif HWY_TARGET == HWY_SSE4
   const auto bits =
       static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(hn::VecFromMask(IntTag(), mask).raw)));
   const __m128i picked =
