@@ -4,11 +4,43 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 namespace flagstone::doctor {
 namespace {
+
+/// Beams of the last one or two percent may bring nothing back.
+bool beams_match(const Summary& summary, const Sensor& sensor) {
+  const int beams = summary.view.beams;
+  if (beams == 0 || summary.is_voxel_averaged) return true;
+  const auto most = static_cast<int>(sensor.elevations.size());
+  return !sensor.draws_rosette() && beams <= most && 100 * beams >= 95 * most;
+}
+
+bool azimuths_match(const FieldOfView& view, const Sensor& sensor) {
+  constexpr double near = 15;  // degrees; edges are ragged
+  return std::abs(view.azimuth_width - (sensor.azimuth_end - sensor.azimuth_begin)) < near;
+}
+
+/// How far the elevations are from the sensor's, degrees; nothing where they do not fit. The sky
+/// brings nothing back, so that the highest beams may be missing; the ground does.
+std::optional<double> elevation_difference(const FieldOfView& view, const Sensor& sensor) {
+  const double slack = sensor.draws_rosette() ? 8 : 2;  // a rosette is thin at its rim
+  const double open_sky = sensor.draws_rosette() ? 25 : 15;
+  double bottom = std::abs(view.bottom - sensor.elevations.back());
+  if (sensor.name == "hdl-64e") {
+    // Its lower beams leave its head lower: from where the upper ones meet, they are steeper.
+    bottom = std::min(bottom, std::abs(view.bottom - (sensor.elevations.back() - 2)));
+  }
+  const double above_top = view.top - sensor.elevations.front();
+  if (bottom > slack || above_top > slack || above_top < -open_sky) return {};
+  return bottom + std::abs(above_top) / 4;
+}
 
 float rounded(double value, double step) {
   const double result = std::round(value / step) * step;
@@ -27,9 +59,41 @@ std::string numbers(const Vector3f& values, int digits) {
                      number(values[2], digits));
 }
 
+/// Where the sensor's own frame begins: metres in the cloud's frame turned so that the axis is z.
+Vector3f origin_of(const Summary& summary, const CommonOrientation& orientation,
+                   const Expected& expected, std::string_view sensor, double upright) {
+  const double expected_origin = orientation.ground + double{expected.sensor_height} / upright;
+  if (!summary.beam_origin) {
+    return {0, 0, orientation.ground > highest_ground ? static_cast<float>(expected_origin) : 0};
+  }
+  auto [x, y, z] = *summary.beam_origin;
+  constexpr double least_offset = 0.3;  // metres; less is not told from the vehicle's motion
+  if (std::hypot(x, y) < least_offset) x = y = 0;
+  const double lift = double{z} - expected_origin;
+  const bool is_lifted = sensor == "hdl-64e" && lift > 0 && lift < hdl_64e_lift;
+  return {x, y, is_lifted ? static_cast<float>(expected_origin) : z};
+}
+
 bool differs(const Vector3f& a, const Vector3f& b) { return a != b; }
 
 }  // namespace
+
+std::vector<const Sensor*> matching_sensors(const Summary& summary) {
+  std::vector<std::pair<double, const Sensor*>> matches;
+  for (const Sensor& sensor : Sensor::known()) {
+    constexpr double further_than_told = 1.3;
+    const auto difference = elevation_difference(summary.view, sensor);
+    if (difference && beams_match(summary, sensor) && azimuths_match(summary.view, sensor) &&
+        summary.reach < further_than_told * sensor.max_range) {
+      matches.emplace_back(*difference, &sensor);
+    }
+  }
+  std::ranges::sort(matches, {}, &decltype(matches)::value_type::first);
+  std::vector<const Sensor*> sensors;
+  sensors.reserve(matches.size());
+  for (const auto& [difference, sensor] : matches) sensors.push_back(sensor);
+  return sensors;
+}
 
 double height_doubt(const CommonOrientation& orientation) {
   return least_height_difference + (orientation.highest_ground - orientation.lowest_ground) / 4;
@@ -46,20 +110,13 @@ Advice advise(const Summary& summary, const CommonOrientation& orientation,
     mount.up[i] = orientation.is_tilted() ? rounded(orientation.up[i], 1e-4) : orientation.axis[i];
   }
 
-  // Along the axis, metres above the cloud's origin.
-  const bool is_off_sensor = summary.beam_origin || orientation.ground > highest_ground;
-  double origin = 0;
-  if (is_off_sensor) {
-    origin = summary.beam_origin.value_or(orientation.ground + double{expected.sensor_height});
-  }
-  origin = double{rounded(origin, 0.01)};
-  for (std::size_t i = 0; i < 3; ++i) {
-    mount.origin[i] = rounded(origin * double{orientation.axis[i]}, 0.01);
-  }
-
   const double upright =
       orientation.is_tilted() ? double{mount::dot(orientation.up, orientation.axis)} : 1;
-  const double height = (origin - orientation.ground) * upright;
+  const Vector3f origin = origin_of(summary, orientation, expected, advice.sensor, upright);
+  const Vector3f in_cloud = mount::turn_to_z(orientation.axis).undo(origin);
+  for (std::size_t i = 0; i < 3; ++i) mount.origin[i] = rounded(in_cloud[i], 0.01);
+
+  const double height = (double{rounded(origin[2], 0.01)} - orientation.ground) * upright;
   const bool as_expected =
       std::abs(height - double{expected.sensor_height}) < height_doubt(orientation);
   mount.sensor_height = as_expected ? expected.sensor_height : rounded(height, 0.01);

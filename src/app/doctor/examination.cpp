@@ -3,15 +3,131 @@
 #include "app/doctor/examination.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "app/doctor/usable_points.hpp"
+#include "library/core/point_validity.hpp"
+#include "library/core/statistics.hpp"
 
 namespace flagstone::doctor {
 namespace {
 
-/// Around the sensor, metres: as far as the own vehicle is looked for.
+/// The points of a scan that have a place, in their order, and what the others are.
+struct UsablePoints {
+  std::vector<Vector3f> places;  ///< as the file has them: its units, its axes
+  std::vector<int> rings;        ///< of each place, from a field of that name; empty without
+
+  std::size_t given = 0;       ///< points of the scan
+  std::size_t zero = 0;        ///< all three coordinates are zero: no echo
+  std::size_t not_finite = 0;  ///< a coordinate is NaN or infinite
+  std::size_t repeated = 0;    ///< usable, with the coordinates of another usable one before it
+};
+
+std::size_t count_repeated(std::vector<Vector3f> places) {
+  std::ranges::sort(places);
+  const auto repeated = std::ranges::unique(places);
+  return static_cast<std::size_t>(std::ranges::distance(repeated));
+}
+
+bool are_ring_numbers(const std::vector<int>& rings) {
+  constexpr std::size_t most_rings = 1024;
+  std::set<int> different;
+  for (const int ring : rings) {
+    different.insert(ring);
+    if (ring < 0 || different.size() > most_rings) return false;
+  }
+  return different.size() >= 2;
+}
+
+/// Sorts out the points of a scan. A field `ring` is believed if it holds 2 to 1,024 different
+/// whole numbers.
+UsablePoints usable_points(const io::Cloud& cloud) {
+  UsablePoints usable;
+  const CloudView view = cloud.view();
+  const io::Field* const ring = cloud.find("ring");
+  bool has_rings = ring != nullptr && ring->count == 1;
+  usable.given = view.size();
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    const Point p = view[i];
+    if (!is_finite(p)) {
+      ++usable.not_finite;
+    } else if (is_missing_return(p)) {
+      ++usable.zero;
+    } else {
+      usable.places.push_back({p.x, p.y, p.z});
+      if (!has_rings) continue;
+      const double number = cloud.value(i, *ring);
+      has_rings = std::abs(number) < 1e6 && number == std::floor(number);
+      usable.rings.push_back(has_rings ? static_cast<int>(number) : 0);
+    }
+  }
+  if (!has_rings || !are_ring_numbers(usable.rings)) usable.rings.clear();
+  usable.repeated = count_repeated(usable.places);
+  return usable;
+}
+
+/// What a scan reaches, metres: 15 in a room, 150 on a motorway. The unit is the one that brings
+/// the reach nearest to it.
+constexpr double usual_reach = 50;
+
+double metres_per_unit(double reach) {
+  const std::array<double, 3> units{1, 0.01, 0.001};
+  return *std::ranges::min_element(units, {}, [&](double unit) {
+    return std::abs(std::log(std::max(reach, 1e-30) * unit / usual_reach));
+  });
+}
+
+/// The extent of at least one point.
+Extent extent_of(std::span<const Vector3f> places) {
+  Extent extent;
+  std::vector<float> values(places.size());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::ranges::transform(places, values.begin(), [&](const Vector3f& p) { return p[axis]; });
+    extent.middle[axis] = percentile(values, 50);
+    const double span = double{percentile(values, 95)} - double{percentile(values, 5)};
+    extent.spread = std::max(extent.spread, span / 2);
+  }
+  std::ranges::transform(places, values.begin(), [](const Vector3f& p) {
+    return static_cast<float>(std::hypot(double{p[0]}, double{p[1]}, double{p[2]}));
+  });
+  extent.reach = percentile(values, 99);
+  extent.farthest = percentile(values, 100);
+  extent.metres = metres_per_unit(extent.reach);
+  return extent;
+}
+
+/// `places`: metres from the sensor, z up, above a ground at z = `ground`. Around the sensor is
+/// nearer than `radius`, metres, in the bird's-eye view.
+EgoVehicle find_ego_vehicle(std::span<const Vector3f> places, double ground, double radius) {
+  constexpr double over_ground = 0.3;
+  constexpr double step = 0.1;
+  constexpr double roof_share = 0.3;  // of what is around the sensor, in one layer
+  std::array<std::size_t, 60> layers{};
+  std::size_t around = 0;
+  for (const Vector3f& place : places) {
+    if (std::hypot(double{place[0]}, double{place[1]}) >= radius) continue;
+    const double height = double{place[2]} - ground;
+    if (height < over_ground) continue;
+    ++around;
+    const auto layer = static_cast<std::size_t>(height / step);
+    if (layer < layers.size()) ++layers[layer];
+  }
+  EgoVehicle vehicle;
+  if (around == 0) return vehicle;
+  vehicle.share = static_cast<double>(around) / static_cast<double>(places.size());
+  const auto most = std::ranges::max_element(layers);
+  if (static_cast<double>(*most) > roof_share * static_cast<double>(around)) {
+    vehicle.roof = step * (static_cast<double>(most - layers.begin()) + 0.5);
+  }
+  return vehicle;
+}
+
+/// Around the sensor, metres: as far as the ego vehicle is searched for.
 constexpr double own_radius = 2.7;
 
 /// The points in metres, turned so that the axis that is up becomes z; from the place at
@@ -28,39 +144,52 @@ std::vector<Vector3f> turned(std::span<const Vector3f> places, const Vector3f& a
   return result;
 }
 
-void raise(std::vector<Vector3f>& places, double origin) {
-  for (Vector3f& place : places) place[2] -= static_cast<float>(origin);
+void move_origin(std::vector<Vector3f>& places, const Vector3f& to) {
+  for (Vector3f& place : places) {
+    for (std::size_t i = 0; i < 3; ++i) place[i] -= to[i];
+  }
 }
 
-/// What stands around the sensor, which is `origin` metres along the axis from the cloud's origin.
-OwnVehicle ego_vehicle(std::span<const Vector3f> places, double origin, const Examination& seen) {
-  const Mount& mount = seen.orientation.decision.mount;
-  const double upright = mount::dot(mount.up, seen.orientation.axis);
-  std::vector<Vector3f> level = turned(places, mount.up, seen.extent.metres, {});
-  raise(level, origin * upright);
-  const double ground = (double{seen.orientation.ground_of_tilt()} - origin) * upright;
-  return find_own_vehicle(level, ground, own_radius);
+/// What stands around the sensor, which is at `sensor`, metres in the frame turned to the axis.
+EgoVehicle ego_vehicle(std::span<const Vector3f> places, const Vector3f& sensor,
+                       const Examination& seen) {
+  const Vector3f& axis = seen.orientation.axis;
+  const Vector3f& up = seen.orientation.decision.mount.up;
+  const mount::Turn turn = mount::turn_to_z(axis);
+  std::vector<Vector3f> upright = turned(places, up, seen.extent.metres, {});
+  move_origin(upright, mount::turn_to_z(up).apply(turn.undo(sensor)));
+  const float ground = (seen.orientation.ground_of_tilt() - sensor[2]) * mount::dot(up, axis);
+  return find_ego_vehicle(upright, ground, own_radius);
 }
 
 void look_from_sensor(const UsablePoints& usable, Examination& seen) {
   std::vector<Vector3f> places =
       turned(usable.places, seen.orientation.axis, seen.extent.metres, {});
+  const bool has_ground = seen.orientation.is_found();
+  const double ground = seen.orientation.ground_of_axis();
+  Vector3f sensor{};
+  const auto look_from = [&](const std::optional<BeamOrigin>& origin) {
+    seen.origin = origin;
+    if (!origin || !origin->is_elsewhere()) return;
+    sensor = origin->place;
+    move_origin(places, sensor);
+  };
+  if (has_ground) look_from(find_beam_origin(places, ground));
   const BeamRings rings = find_rings(places, usable.rings);
+  if (has_ground && !seen.origin) look_from(find_beam_origin(places, rings, ground));
+  if (has_ground) seen.vehicle = ego_vehicle(usable.places, sensor, seen);
+  const double height = has_ground ? double{sensor[2]} - ground : 0;
   seen.rings = rings.source;
-  double origin = 0;
-  if (rings.count > 0 && seen.orientation.is_found()) {
-    seen.origin = find_beam_origin(places, rings, double{seen.orientation.ground_of_axis()});
-    if (seen.origin->is_elsewhere()) origin = seen.origin->height;
-  }
-  raise(places, origin);
-  const double height =
-      seen.orientation.is_found() ? origin - double{seen.orientation.ground_of_axis()} : 0;
   seen.view = find_field_of_view(places, rings, std::max(1.0, 0.8 * height));
   seen.downsampling = find_downsampling(places);
-  if (seen.orientation.is_found()) seen.vehicle = ego_vehicle(usable.places, origin, seen);
 }
 
 }  // namespace
+
+bool Extent::is_far_away() const noexcept {
+  const double away = std::max(std::abs(double{middle[0]}), std::abs(double{middle[1]}));
+  return away > 3 * std::max(spread, 1e-30);
+}
 
 Examination examine(const io::Cloud& cloud) {
   const UsablePoints usable = usable_points(cloud);

@@ -96,12 +96,19 @@ void look_at_stances(Scans scans, Summary& summary) {
   std::erase_if(scans, [](const auto* scan) { return !scan->orientation.is_found(); });
   if (scans.empty()) return;
   summary.orientation = common_stance(scans);
-  const bool is_elsewhere = most(scans, [](const Examination& scan) {
+  summary.shows_beam_origin =
+      most(scans, [](const Examination& scan) { return scan.origin.has_value(); });
+  const auto is_elsewhere = [](const Examination& scan) {
     return scan.origin.has_value() && scan.origin->is_elsewhere();
-  });
-  if (is_elsewhere) {
-    summary.beam_origin = median(
-        scans, [](const Examination& scan) { return scan.origin ? scan.origin->height : 0; });
+  };
+  if (most(scans, is_elsewhere)) {
+    Scans elsewhere = scans;
+    std::erase_if(elsewhere, [&](const Examination* scan) { return !is_elsewhere(*scan); });
+    summary.beam_origin.emplace();
+    for (std::size_t i = 0; i < 3; ++i) {
+      (*summary.beam_origin)[i] = static_cast<float>(
+          median(elsewhere, [i](const Examination& scan) { return scan.origin->place[i]; }));
+    }
   }
   summary.vehicle.share = median(scans, [](const Examination& s) { return s.vehicle.share; });
   summary.vehicle.roof = median(scans, [](const Examination& s) { return s.vehicle.roof; });

@@ -48,12 +48,14 @@ struct Summary {
 
   std::optional<CommonOrientation> orientation{};  ///< empty: no scan shows its ground
   MountDecision refusal{};                         ///< why, in the first scan
-  std::optional<double> beam_origin{};  ///< along the axis, metres, where it is elsewhere
+  bool shows_beam_origin = false;         ///< Do the points show where the beams come from?
+  std::optional<Vector3f> beam_origin{};  ///< metres in the cloud's frame turned so that the axis
+                                          ///< is z; empty if it is the origin or is not shown
   RingSource rings = RingSource::none;
   FieldOfView view{};
   double growth = 0;  ///< Downsampling::growth
   bool is_voxel_averaged = false;
-  OwnVehicle vehicle{};
+  EgoVehicle vehicle{};
 
   /// Can the points be read as one sensor's scan at all?
   [[nodiscard]] bool is_scan() const noexcept {

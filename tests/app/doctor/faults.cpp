@@ -127,6 +127,14 @@ std::vector<Fault> make_faults() {
        },
        {},
        {"beams"}},
+      {"OriginAtTheAxleAndNoBeams",
+       "origin",
+       note,
+       [](const Points& p) {
+         return changed(without_rings(p), [](Point q) { return Point{q.x, q.y, q.z + 1.4f}; });
+       },
+       {.sensor_height = 0.33f},
+       {"beams"}},
       {"HeightTooLow", "sensor_height", fix, each(std::identity()), {.sensor_height = 1.2f}},
       {"HeightTooHigh", "sensor_height", fix, each(std::identity()), {.sensor_height = 2.2f}},
       {"NoGround", "ground", fix, above_the_sensor},
