@@ -13,6 +13,12 @@ void take(std::size_t size) {
   using namespace flagstone::io;
   if (size > allowed || allocated > allowed - size) throw std::bad_alloc();
   allocated += size;
+  ++blocks;
+}
+
+void give_back(void* memory) noexcept {
+  if (memory != nullptr) --flagstone::io::blocks;
+  std::free(memory);
 }
 
 }  // namespace
@@ -32,6 +38,6 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   return memory;
 }
 
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { give_back(memory); }
+void operator delete(void* memory, std::size_t /*size*/) noexcept { give_back(memory); }
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { give_back(memory); }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "edge_scan.hpp"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -59,6 +61,19 @@ void add_ghosts(std::vector<Point>& scan, std::size_t count) {
     ghost.z -= 0.4f + 2.0f * static_cast<float>(random() >> 8U) / 16777216.0f;
     scan.push_back(ghost);
   }
+}
+
+double share_of(Label label, const std::vector<Point>& cloud, const std::vector<Label>& labels,
+                const std::function<bool(const Point&)>& belongs) {
+  std::size_t chosen = 0;
+  std::size_t labelled = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!belongs(cloud[i])) continue;
+    ++chosen;
+    labelled += static_cast<std::size_t>(labels[i] == label);
+  }
+  EXPECT_GT(chosen, 100U);
+  return static_cast<double>(labelled) / static_cast<double>(chosen);
 }
 
 }  // namespace flagstone::tests

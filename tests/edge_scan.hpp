@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "flagstone/cloud_view.hpp"
+#include "flagstone/label.hpp"
 
 namespace flagstone::tests {
 
@@ -27,5 +28,9 @@ GroundHeight ditch_of(float depth);
 /// Adds `count` lone ghosts, each 0.4 to 2.4 m below a point of the scan that is less than 15 m
 /// away. They are the last points.
 void add_ghosts(std::vector<Point>& scan, std::size_t count);
+
+/// Share of the points chosen by `belongs` that have this label. Fails if it chooses few.
+double share_of(Label label, const std::vector<Point>& cloud, const std::vector<Label>& labels,
+                const std::function<bool(const Point&)>& belongs);
 
 }  // namespace flagstone::tests

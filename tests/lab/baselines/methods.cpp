@@ -24,19 +24,19 @@ std::unique_ptr<Segmenter> make_r_gpf() { return std::make_unique<Patchwork>(r_g
 
 std::vector<Method> methods() {
   return {
-      {"Ransac", make<Ransac>, false, 91.1, 93.7},
-      {"Gpf", make<Gpf>, true, 77.6, 79.8},
-      {"LineFit", make<LineFit>, true, 88.1, 91.9},
-      {"Cascaded", make<Cascaded>, false, 81.2, 85.5},
-      {"RGpf", make_r_gpf, true, 82.7, 87.4},
-      {"Patchwork", make<Patchwork>, true, 93.9, 97.6},
-      {"Surface", make<Surface>, true, 95.5, 98.8, false},
+      {"Ransac", make<Ransac>, {}, 91.1, 93.7},
+      {"Gpf", make<Gpf>, 4, 77.6, 79.8},
+      {"LineFit", make<LineFit>, 4, 88.1, 91.9},
+      {"Cascaded", make<Cascaded>, {}, 81.2, 85.5},
+      {"RGpf", make_r_gpf, 4, 82.7, 87.4},
+      {"Patchwork", make<Patchwork>, 1, 93.9, 97.6},
+      {"Surface", make<Surface>, 0, 95.5, 98.8, false},
   };
 }
 
 std::vector<Method> order_free_methods() {
   std::vector<Method> all = methods();
-  std::erase_if(all, [](const Method& method) { return !method.order_free; });
+  std::erase_if(all, [](const Method& method) { return !method.order_tolerance; });
   return all;
 }
 

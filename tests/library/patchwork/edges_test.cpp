@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "edge_scan.hpp"
-#include "library/patchwork/outcome.hpp"
+#include "outcome.hpp"
 #include "random_cloud.hpp"
 
 namespace flagstone {
@@ -20,22 +20,8 @@ namespace {
 
 using tests::Outcome;
 using tests::segmented;
+using tests::share_of;
 using tests::view_of;
-
-/// Share of the points that `belongs` chooses which are labelled so.
-template <class Belongs>
-double share_of(Label label, const std::vector<Point>& cloud, const Outcome& outcome,
-                const Belongs& belongs) {
-  std::size_t chosen = 0;
-  std::size_t labelled = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!belongs(cloud[i])) continue;
-    ++chosen;
-    labelled += static_cast<std::size_t>(outcome.labels[i] == label);
-  }
-  EXPECT_GT(chosen, 100U);
-  return static_cast<double>(labelled) / static_cast<double>(chosen);
-}
 
 bool is_level(const Point& p) { return p.y < 5; }
 bool is_below(const Point& p) { return p.z < -1.73f - 0.4f; }
@@ -44,16 +30,16 @@ bool is_behind(const Point& p) { return p.y > 5.1f; }
 TEST(PatchworkAtEdges, BothSidesOfAKerbAreGround) {
   const std::vector<Point> cloud = tests::edge_scan(tests::step_of(0.15f));
   const Outcome outcome = segmented(PatchworkConfig{}, view_of(cloud));
-  EXPECT_GT(share_of(Label::ground, cloud, outcome, is_level), 0.99);
-  EXPECT_GT(share_of(Label::ground, cloud, outcome, is_behind), 0.99);
+  EXPECT_GT(share_of(Label::ground, cloud, outcome.labels, is_level), 0.99);
+  EXPECT_GT(share_of(Label::ground, cloud, outcome.labels, is_behind), 0.99);
 }
 
 TEST(PatchworkAtEdges, BothSidesOfADropAreGround) {
   for (const float depth : {0.6f, 1.0f, 1.5f, 2.0f}) {
     const std::vector<Point> cloud = tests::edge_scan(tests::step_of(-depth));
     const Outcome outcome = segmented(PatchworkConfig{}, view_of(cloud));
-    EXPECT_GT(share_of(Label::ground, cloud, outcome, is_level), 0.97) << depth;
-    EXPECT_GT(share_of(Label::ground, cloud, outcome, is_below), 0.97) << depth;
+    EXPECT_GT(share_of(Label::ground, cloud, outcome.labels, is_level), 0.97) << depth;
+    EXPECT_GT(share_of(Label::ground, cloud, outcome.labels, is_below), 0.97) << depth;
   }
 }
 
@@ -61,8 +47,8 @@ TEST(PatchworkAtEdges, TheBottomOfADitchIsNotNoiseAndMostOfItIsGround) {
   const std::vector<Point> cloud = tests::edge_scan(tests::ditch_of(0.6f));
   const Outcome outcome = segmented(PatchworkConfig{}, view_of(cloud));
   const auto is_bottom = [](const Point& p) { return p.z < -1.73f - 0.59f; };
-  EXPECT_GT(share_of(Label::ground, cloud, outcome, is_bottom), 0.75);
-  EXPECT_LT(share_of(Label::noise, cloud, outcome, is_bottom), 0.01);
+  EXPECT_GT(share_of(Label::ground, cloud, outcome.labels, is_bottom), 0.75);
+  EXPECT_LT(share_of(Label::noise, cloud, outcome.labels, is_bottom), 0.01);
 }
 
 TEST(PatchworkAtEdges, LoneGhostsAreNeverGround) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What the data contract says of `surface` alone; what it says of every method:
-// tests/lab/baselines.
+//
+// Clauses of the data contract for `surface` alone; for every method: tests/lab/baselines.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,12 +12,10 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "flagstone/flagstone.hpp"
-#include "library/surface/outcome.hpp"
+#include "outcome.hpp"
 #include "random_cloud.hpp"
 
 namespace flagstone {
@@ -43,12 +41,6 @@ TEST(SurfaceContract, PointsFartherThanTheRangeAreOutOfRange) {
             (std::vector{Label::out_of_range, Label::nonground}));
 }
 
-TEST(SurfaceContract, PointsMoreThanTenKilometresAboveOrBelowTheSensorAreOutOfRange) {
-  for (const float z : {10001.0f, -10001.0f, -3e38f}) {
-    EXPECT_EQ(labels_of({{5, 5, z}}), std::vector{Label::out_of_range}) << z;
-  }
-}
-
 TEST(SurfaceContract, NoPointIsTooNear) {
   std::vector<Point> cloud = random_cloud(64000, 3);
   cloud.push_back({0.4f, 0.3f, -1.73f});
@@ -63,7 +55,7 @@ TEST(SurfaceContract, NoPointIsTooNear) {
 TEST(SurfaceContract, EveryPointHasAHeightOrNan) {
   const std::vector<Point> cloud = corrupted_cloud(30000, 3);
 
-  const tests::SurfaceOutcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
+  const tests::Outcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
 
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Label label = outcome.labels[i];
@@ -82,7 +74,7 @@ TEST(SurfaceContract, GroundIsWhatLiesLowerThanTheMarginAndNoDeeperThanNoise) {
   const std::vector<Point> cloud = random_cloud(64000, 5);
   const PointRule rule;
 
-  const tests::SurfaceOutcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
+  const tests::Outcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
 
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const float height = outcome.heights[i];
@@ -108,8 +100,7 @@ TEST(SurfaceContract, GroundIsWhatLiesLowerThanTheMarginAndNoDeeperThanNoise) {
 TEST(SurfaceContract, APatchIsASquareThatHoldsItsGround) {
   const SurfaceConfig config;
 
-  const tests::SurfaceOutcome outcome =
-      tests::segmented(config, view_of(corrupted_cloud(50000, 14)));
+  const tests::Outcome outcome = tests::segmented(config, view_of(corrupted_cloud(50000, 14)));
 
   std::size_t ground_patches = 0;
   for (const Patch& patch : outcome.patches) {
@@ -134,7 +125,7 @@ TEST(SurfaceContract, APatchIsASquareThatHoldsItsGround) {
 TEST(SurfaceContract, EveryVerdictHasItsReason) {
   const SurfaceConfig config;
 
-  const tests::SurfaceOutcome outcome = tests::segmented(config, view_of(random_cloud(64000, 9)));
+  const tests::Outcome outcome = tests::segmented(config, view_of(random_cloud(64000, 9)));
 
   for (const Patch& patch : outcome.patches) {
     if (patch.verdict == Verdict::too_few_points) {
@@ -150,7 +141,7 @@ TEST(SurfaceContract, EveryVerdictHasItsReason) {
 }
 
 TEST(SurfaceContract, ACloudWithoutASinglePlaceHasNoPatches) {
-  const tests::SurfaceOutcome outcome =
+  const tests::Outcome outcome =
       tests::segmented(SurfaceConfig{}, view_of(std::vector<Point>(1000, Point{nan, 0, 0})));
 
   EXPECT_TRUE(outcome.patches.empty());
@@ -174,7 +165,7 @@ TEST(SurfaceContract, FarFromEveryGroundTheSurfaceIsNotKnown) {
 }
 
 TEST(SurfaceContract, ConfidenceIsZeroWhereHeightsAreNotKnownAndAtMostOne) {
-  const tests::SurfaceOutcome outcome =
+  const tests::Outcome outcome =
       tests::segmented(SurfaceConfig{}, view_of(corrupted_cloud(30000, 4)));
 
   for (const GroundSurface::Grid& grid : outcome.grids) {
@@ -195,7 +186,7 @@ TEST(SurfaceContract, AWallAloneLeavesTheSurfaceANumberEvenIfAnyAngleIsUpright) 
     for (float y = 0; y < 2; y += 0.004f) wall.push_back({10, y, -1.7f + up});
   }
 
-  const tests::SurfaceOutcome outcome = tests::segmented(config, view_of(wall));
+  const tests::Outcome outcome = tests::segmented(config, view_of(wall));
 
   for (const GroundSurface::Grid& grid : outcome.grids) {
     for (std::size_t i = 0; i < grid.heights.size(); ++i) {
@@ -211,8 +202,7 @@ TEST(SurfaceContract, GridsAreFinerTowardsTheSensorAndReachAsFarAsTheRange) {
       config.refinement.levels = levels;
       config.max_range = range;
 
-      const tests::SurfaceOutcome outcome =
-          tests::segmented(config, view_of(random_cloud(3000, 1)));
+      const tests::Outcome outcome = tests::segmented(config, view_of(random_cloud(3000, 1)));
 
       ASSERT_EQ(outcome.grids.size(), static_cast<std::size_t>(std::max(levels, 1)));
       EXPECT_GE(outcome.grids.front().extent(), range);
@@ -257,74 +247,11 @@ TEST(SurfaceContract, TheSurfaceHasNoStepWhereTheRangeEndsWithAFineGrid) {
   }
 }
 
-TEST(SurfaceContract, MillionsOfPointsAreSegmented) {
-  constexpr std::size_t points = 3'000'000;
-  const std::vector<Point> cloud = random_cloud(points, 13);
-
-  const std::vector<Label> labels = labels_of(cloud);
-
-  EXPECT_GT(std::ranges::count(labels, Label::ground), static_cast<std::ptrdiff_t>(points / 2));
-}
-
-TEST(SurfaceContract, ThreadsOutsideOf1To1024AreRefusedWithTheirNumber) {
-  for (const unsigned threads : {0U, 1025U, 4294967295U}) {
-    try {
-      const Surface segmenter({}, threads);
-      ADD_FAILURE() << threads << " threads were accepted";
-    } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("threads is " + std::to_string(threads)));
-      EXPECT_THAT(error.what(), testing::HasSubstr("1 to 1024"));
-    }
-  }
-}
-
 TEST(SurfaceContract, ASettingOutOfRangeIsRefused) {
   SurfaceConfig config;
   config.max_range = 7.9f;
 
   EXPECT_THROW(Surface{config}, std::invalid_argument);
-}
-
-TEST(SurfaceContract, ManyMoreThreadsThanCoresSegment) {
-  const std::vector<Point> cloud = random_cloud(20000, 16);
-  Surface segmenter({}, 64);
-
-  EXPECT_TRUE(tests::is_same(tests::segmented(SurfaceConfig{}, view_of(cloud)),
-                             tests::segmented(segmenter, view_of(cloud))));
-}
-
-TEST(SurfaceContract, AMovedSegmenterStillSegments) {
-  const std::vector<Point> cloud = random_cloud(3000, 15);
-  SurfaceConfig config;
-  config.max_range = 50;
-  Surface original(config, 2);
-  Surface moved = std::move(original);
-
-  EXPECT_EQ(moved.config().max_range, 50);
-  EXPECT_TRUE(tests::is_same(tests::segmented(config, view_of(cloud)),
-                             tests::segmented(moved, view_of(cloud))));
-}
-
-TEST(SurfaceContract, NoScanLeavesATraceInTheNext) {
-  // Full, odd, and with too little for a patch, a cell or anything.
-  const std::vector<std::vector<Point>> clouds = {random_cloud(20000, 1),
-                                                  corrupted_cloud(9000, 2),
-                                                  {},
-                                                  {{6, 2, -1.5f}},
-                                                  random_cloud(64, 3),
-                                                  std::vector<Point>(40, Point{6, 2, -1.2f}),
-                                                  std::vector<Point>(100, Point{nan, 0, 0}),
-                                                  std::vector<Point>(500, Point{10, 0, -900})};
-  Surface segmenter;
-  for (const std::vector<Point>& first : clouds) {
-    for (const std::vector<Point>& second : clouds) {
-      tests::segmented(segmenter, view_of(first));
-
-      EXPECT_TRUE(tests::is_same(tests::segmented(SurfaceConfig{}, view_of(second)),
-                                 tests::segmented(segmenter, view_of(second))))
-          << second.size() << " points after " << first.size();
-    }
-  }
 }
 
 TEST(SurfaceContract, AResultThatAnotherMethodFilledIsReplaced) {

@@ -13,29 +13,16 @@
 #include "flagstone/surface.hpp"
 #include "library/plane_fits/scan_points.hpp"
 #include "library/surface/lower_ground.hpp"
-#include "library/surface/outcome.hpp"
 #include "library/surface/square_scan.hpp"
+#include "outcome.hpp"
 #include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
 
-using tests::SurfaceOutcome;
+using tests::Outcome;
+using tests::share_of;
 using tests::view_of;
-
-template <class Belongs>
-double ground_share(const std::vector<Point>& cloud, const SurfaceOutcome& outcome,
-                    const Belongs& belongs) {
-  std::size_t chosen = 0;
-  std::size_t ground = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!belongs(cloud[i])) continue;
-    ++chosen;
-    ground += static_cast<std::size_t>(outcome.labels[i] == Label::ground);
-  }
-  EXPECT_GT(chosen, 100U);
-  return static_cast<double>(ground) / static_cast<double>(chosen);
-}
 
 bool is_level(const Point& p) { return p.y < 5; }
 bool is_behind(const Point& p) { return p.y > 5.1f; }
@@ -43,19 +30,19 @@ bool is_behind(const Point& p) { return p.y > 5.1f; }
 TEST(SurfaceAtEdges, BothSidesOfKerbsAndDropsAreGround) {
   for (const float rise : {0.15f, -0.6f, -1.0f, -1.5f, -2.0f, -3.0f}) {
     const std::vector<Point> cloud = tests::edge_scan(tests::step_of(rise));
-    const SurfaceOutcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
-    EXPECT_GT(ground_share(cloud, outcome, is_level), 0.97) << rise;
-    EXPECT_GT(ground_share(cloud, outcome, is_behind), 0.97) << rise;
+    const Outcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
+    EXPECT_GT(share_of(Label::ground, cloud, outcome.labels, is_level), 0.97) << rise;
+    EXPECT_GT(share_of(Label::ground, cloud, outcome.labels, is_behind), 0.97) << rise;
   }
 }
 
 TEST(SurfaceAtEdges, TheBottomOfADitchIsGround) {
   for (const auto& [depth, share] : {std::pair(0.6f, 0.99), std::pair(1.0f, 0.8)}) {
     const std::vector<Point> cloud = tests::edge_scan(tests::ditch_of(depth));
-    const SurfaceOutcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
+    const Outcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
     const float above_bottom = -1.72f - depth;
     const auto is_bottom = [=](const Point& p) { return p.z < above_bottom; };
-    EXPECT_GT(ground_share(cloud, outcome, is_bottom), share) << depth;
+    EXPECT_GT(share_of(Label::ground, cloud, outcome.labels, is_bottom), share) << depth;
   }
 }
 
@@ -63,7 +50,7 @@ TEST(SurfaceAtEdges, LoneGhostsAreNoise) {
   std::vector<Point> cloud = tests::edge_scan(tests::step_of(0));
   const std::size_t first_ghost = cloud.size();
   tests::add_ghosts(cloud, 150);
-  const SurfaceOutcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
+  const Outcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
   std::size_t noise = 0;
   for (std::size_t i = first_ghost; i < cloud.size(); ++i) {
     noise += static_cast<std::size_t>(outcome.labels[i] == Label::noise);

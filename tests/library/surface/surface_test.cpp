@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "lab/sim/drive.hpp"
-#include "library/surface/outcome.hpp"
+#include "outcome.hpp"
 #include "random_cloud.hpp"
 #include "random_surface.hpp"
 
@@ -27,7 +27,7 @@ namespace flagstone {
 namespace {
 
 using tests::Ground;
-using tests::SurfaceOutcome;
+using tests::Outcome;
 using tests::view_of;
 
 constexpr float height_of_sensor = 1.73f;
@@ -62,7 +62,7 @@ Ground tilted(float tilt, float direction) {
   };
 }
 
-SurfaceOutcome segmented(const std::vector<Point>& cloud, const SurfaceConfig& config = {}) {
+Outcome segmented(const std::vector<Point>& cloud, const SurfaceConfig& config = {}) {
   return tests::segmented(config, view_of(cloud));
 }
 
@@ -73,7 +73,7 @@ double share_of_different(const std::vector<Label>& a, const std::vector<Label>&
   return static_cast<double>(different) / static_cast<double>(a.size());
 }
 
-std::size_t ground_count(const SurfaceOutcome& outcome) {
+std::size_t ground_count(const Outcome& outcome) {
   return static_cast<std::size_t>(std::ranges::count(outcome.labels, Label::ground));
 }
 
@@ -108,7 +108,7 @@ std::vector<Point> every(std::size_t step, const std::vector<Point>& cloud) {
 TEST(SurfaceMethod, LevelGroundIsGroundAtHeightZero) {
   const std::vector<Point> cloud = scan_of(level);
 
-  const SurfaceOutcome outcome = segmented(cloud);
+  const Outcome outcome = segmented(cloud);
 
   EXPECT_EQ(ground_count(outcome), cloud.size());
   EXPECT_THAT(outcome.heights, testing::Each(testing::FloatNear(0, 1e-6f)));
@@ -144,7 +144,7 @@ TEST(SurfaceMethod, HeightsAboveATiltedPlaneAreZeroToFiveMillimetres) {
     for (const float direction : directions) {
       const std::vector<Point> cloud = scan_of(tilted(tilt, direction));
 
-      const SurfaceOutcome outcome = segmented(cloud);
+      const Outcome outcome = segmented(cloud);
 
       for (std::size_t i = 0; i < cloud.size(); ++i) {
         const float range = std::hypot(cloud[i].x, cloud[i].y);
@@ -164,7 +164,7 @@ TEST(SurfaceMethod, ABoxOnAPlaneIsNotGroundAndAsHighAsItIs) {
     for (float y = 1; y < 5; y += 0.02f) cloud.push_back({9, y, ground(9, y) + up});
   }
 
-  const SurfaceOutcome outcome = segmented(cloud);
+  const Outcome outcome = segmented(cloud);
 
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point& p = cloud[i];
@@ -186,7 +186,7 @@ TEST(SurfaceMethod, PointsFarBelowGroundAreNoiseAndChangeNothingElse) {
     ghosts.push_back(i);
   }
 
-  const SurfaceOutcome outcome = segmented(cloud);
+  const Outcome outcome = segmented(cloud);
 
   for (const std::size_t i : ghosts) ASSERT_EQ(outcome.labels[i], Label::noise) << i;
   EXPECT_EQ(ground_count(outcome), cloud.size() - ghosts.size());
@@ -210,12 +210,12 @@ TEST(SurfaceMethod, AKerbStaysSharp) {
 
 TEST(SurfaceMethod, ASensorHeightOffByThirtyCentimetresChangesNoLabelButOneInTenThousand) {
   for (const std::vector<Point>& cloud : streets()) {
-    const SurfaceOutcome right = segmented(cloud);
+    const Outcome right = segmented(cloud);
     for (const float error : {-0.3f, -0.1f, 0.1f, 0.3f}) {
       SurfaceConfig config;
       config.sensor_height += error;
 
-      const SurfaceOutcome wrong = segmented(cloud, config);
+      const Outcome wrong = segmented(cloud, config);
 
       EXPECT_LE(share_of_different(right.labels, wrong.labels), 1e-4) << error;
       for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -283,12 +283,12 @@ TEST(SurfaceMethod, WithoutSamplesTheOrderOfTheCloudMattersOnlyInTheLastDigits) 
     ++in_cell[{static_cast<int>(std::floor(p.x / 2)), static_cast<int>(std::floor(p.y / 2))}];
   }
   for (const auto& [cell, points] : in_cell) ASSERT_LE(points, 32) << "a sample would be taken";
-  const SurfaceOutcome ordered = segmented(cloud);
+  const Outcome ordered = segmented(cloud);
   for (const Patch& patch : ordered.patches) ASSERT_LE(patch.point_count, 128U);
   for (std::uint32_t seed = 1; seed <= 10; ++seed) {
     const std::vector<std::size_t> order = shuffled_order(cloud.size(), seed);
 
-    const SurfaceOutcome shuffled = segmented(in_order(cloud, order));
+    const Outcome shuffled = segmented(in_order(cloud, order));
 
     for (std::size_t i = 0; i < order.size(); ++i) {
       ASSERT_EQ(shuffled.labels[i], ordered.labels[order[i]]);

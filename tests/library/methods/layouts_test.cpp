@@ -1,21 +1,15 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Clouds in every memory layout: the labels are those of packed points, and nothing outside of the
+// Clouds in every memory layout: the outcome is that of packed points, and nothing outside of the
 // points is read.
-#include <gtest/gtest.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <span>
-#include <string>
-#include <vector>
+#include <memory>
 
-#include "flagstone/patchwork.hpp"
 #include "forced_target.hpp"
 #include "guarded_memory.hpp"
-#include "library/core/simd_target.hpp"
-#include "library/patchwork/outcome.hpp"
+#include "library/methods/methods.hpp"
 #include "random_cloud.hpp"
 
 namespace flagstone {
@@ -34,34 +28,46 @@ void write(const std::vector<Point>& points, std::byte* first, const CloudLayout
   }
 }
 
-/// The parameter is the instruction set. Sizes make whole vectors, rests, and more than one chunk.
-class Layouts : public testing::TestWithParam<std::string> {
+/// Sizes make whole vectors, rests, and more than one chunk.
+class Layouts : public testing::TestWithParam<tests::MethodOnTarget> {
  protected:
-  /// `first` is where point 0 begins in `bytes` bytes; what is not a coordinate is 0xA5.
-  static void expect_same_as_packed(std::size_t bytes, std::size_t first, const CloudLayout& layout,
-                                    const std::vector<Point>& points) {
+  /// Writes the points from `first` on; expects the outcome of the packed points.
+  void expect_same_as_packed(const std::vector<Point>& points, std::byte* first,
+                             const CloudLayout& layout) {
+    write(points, first, layout);
+    const tests::Outcome expected = tests::segmented(*packed_, view_of(points));
+    EXPECT_TRUE(tests::is_same(expected,
+                               tests::segmented(*other_, CloudView(first, points.size(), layout))))
+        << points.size() << " points, stride " << layout.stride << ", x at " << layout.x;
+  }
+
+  /// Point 0 begins at `first` of `bytes` bytes; all bytes but the coordinates are 0xA5.
+  void expect_same_as_packed(std::size_t bytes, std::size_t first, const CloudLayout& layout,
+                             const std::vector<Point>& points) {
     std::vector<std::byte> memory(bytes, std::byte{0xA5});
-    write(points, memory.data() + first, layout);
-    Patchwork patchwork;
-    EXPECT_TRUE(tests::is_same(
-        tests::segmented(PatchworkConfig{}, view_of(points)),
-        tests::segmented(patchwork, CloudView(memory.data() + first, points.size(), layout))))
-        << points.size() << " points";
+    expect_same_as_packed(points, memory.data() + first, layout);
   }
 
   /// The layout, at several sizes, in records one after another.
-  static void expect_same_as_packed(const CloudLayout& layout, std::size_t first = 0) {
-    const tests::ForcedTarget forced(GetParam());
+  void expect_same_as_packed(const CloudLayout& layout, std::size_t first = 0) {
     for (const std::size_t size : {1U, 15U, 16U, 17U, 33U, 1000U, 8192U, 8193U, 20000U}) {
-      const std::vector<Point> points = corrupted_cloud(size, 3);
       expect_same_as_packed(first + size * static_cast<std::size_t>(layout.stride) + 16, first,
-                            layout, points);
+                            layout, corrupted_cloud(size, 3));
     }
   }
+
+ private:
+  static std::unique_ptr<Segmenter> make() {
+    if (std::get<0>(GetParam()) == "Surface") return std::make_unique<Surface>();
+    return std::make_unique<Patchwork>();
+  }
+
+  tests::ForcedTarget forced_{std::get<1>(GetParam())};
+  std::unique_ptr<Segmenter> packed_ = make();
+  std::unique_ptr<Segmenter> other_ = make();
 };
 
-INSTANTIATE_TEST_SUITE_P(On, Layouts, testing::ValuesIn(simd_targets()),
-                         [](const auto& target) { return target.param; });
+INSTANTIATE_TEST_SUITE_P(On, Layouts, tests::methods_on_targets(), tests::name_of);
 
 TEST_P(Layouts, PackedXyz) { expect_same_as_packed({.stride = 12, .x = 0, .y = 4, .z = 8}); }
 
@@ -95,7 +101,6 @@ TEST_P(Layouts, CoordinatesApartInARecordOf16Bytes) {
 }
 
 TEST_P(Layouts, Planar) {
-  const tests::ForcedTarget forced(GetParam());
   for (const std::size_t size : {1U, 16U, 33U, 8193U, 20000U}) {
     const auto plane = static_cast<std::ptrdiff_t>(4 * size);
     expect_same_as_packed(12 * size, 0, {.stride = 4, .x = 0, .y = plane, .z = 2 * plane},
@@ -104,7 +109,6 @@ TEST_P(Layouts, Planar) {
 }
 
 TEST_P(Layouts, BackwardsThroughMemory) {
-  const tests::ForcedTarget forced(GetParam());
   for (const std::ptrdiff_t stride : {12, 16, 20}) {
     for (const std::size_t size : {1U, 16U, 33U, 8193U, 20000U}) {
       const std::size_t bytes = size * static_cast<std::size_t>(stride);
@@ -115,13 +119,11 @@ TEST_P(Layouts, BackwardsThroughMemory) {
 }
 
 TEST_P(Layouts, AllPointsInOneRecord) {
-  const tests::ForcedTarget forced(GetParam());
   const std::vector<Point> points(500, Point{6.1f, 2.3f, -1.7f});
   expect_same_as_packed(12, 0, {.stride = 0, .x = 0, .y = 4, .z = 8}, points);
 }
 
 TEST_P(Layouts, OffsetsBeforeTheRecord) {
-  const tests::ForcedTarget forced(GetParam());
   for (const std::ptrdiff_t stride : {12, 16}) {
     expect_same_as_packed(static_cast<std::size_t>(1000 * stride) + 16, 16,
                           {.stride = stride, .x = -12, .y = -8, .z = -4}, corrupted_cloud(1000, 3));
@@ -129,25 +131,18 @@ TEST_P(Layouts, OffsetsBeforeTheRecord) {
 }
 
 TEST_P(Layouts, NothingIsReadBehindTheLastCoordinate) {
-  const tests::ForcedTarget forced(GetParam());
   const tests::GuardedMemory memory(std::size_t{16448} * 20);
   const std::vector<Point> points = corrupted_cloud(16448, 6);
-  Patchwork patchwork;
   for (const CloudLayout& layout : {CloudLayout{.stride = 12, .x = 0, .y = 4, .z = 8},
                                     CloudLayout{.stride = 16, .x = 0, .y = 4, .z = 8},
                                     CloudLayout{.stride = 16, .x = 4, .y = 8, .z = 12},
                                     CloudLayout{.stride = 20, .x = 0, .y = 4, .z = 8}}) {
     const auto expect_same_at_the_end = [&](std::size_t size) {
-      const std::vector<Point> some(points.begin(),
-                                    points.begin() + static_cast<std::ptrdiff_t>(size));
       // Ends with the last z, though the record of 16 or 20 bytes would go on.
       const std::size_t bytes = (size - 1) * static_cast<std::size_t>(layout.stride) +
                                 static_cast<std::size_t>(layout.z) + sizeof(float);
-      std::byte* const first = memory.last(bytes).data();
-      write(some, first, layout);
-      EXPECT_TRUE(tests::is_same(tests::segmented(PatchworkConfig{}, view_of(some)),
-                                 tests::segmented(patchwork, CloudView(first, size, layout))))
-          << size << " points, stride " << layout.stride << ", x at " << layout.x;
+      expect_same_as_packed({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(size)},
+                            memory.last(bytes).data(), layout);
     };
     for (std::size_t size = 1; size <= 80; ++size) expect_same_at_the_end(size);
     for (std::size_t size = 8190; size <= 8210; ++size) expect_same_at_the_end(size);
@@ -156,19 +151,14 @@ TEST_P(Layouts, NothingIsReadBehindTheLastCoordinate) {
 }
 
 TEST_P(Layouts, NothingIsReadBeforeTheFirstCoordinate) {
-  const tests::ForcedTarget forced(GetParam());
   const tests::GuardedMemory memory(std::size_t{20} * 100);
-  Patchwork patchwork;
   for (const std::ptrdiff_t stride : {12, 16, 20}) {
     for (std::size_t size = 1; size <= 80; ++size) {
-      const std::vector<Point> points = corrupted_cloud(size, 6);
       // Point 0 is the last in memory, and x the first number of its record.
-      const CloudLayout layout{.stride = -stride, .x = 0, .y = 4, .z = 8};
       std::byte* const first =
           memory.first(1).data() + (size - 1) * static_cast<std::size_t>(stride);
-      write(points, first, layout);
-      EXPECT_TRUE(tests::is_same(tests::segmented(PatchworkConfig{}, view_of(points)),
-                                 tests::segmented(patchwork, CloudView(first, size, layout))));
+      expect_same_as_packed(corrupted_cloud(size, 6), first,
+                            {.stride = -stride, .x = 0, .y = 4, .z = 8});
     }
   }
 }

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "flagstone/segmenter.hpp"
+#include "lab/eval/protocol.hpp"
+#include "real_scans.hpp"
+
+namespace flagstone::tests {
+
+/// Makes the segmenter for a sensor at this height, metres.
+using MakeSegmenter = std::function<std::unique_ptr<Segmenter>(float sensor_height)>;
+
+/// Mean F1 over the full-density scans, percent. Prints it under `name`, with the protocol and the
+/// number of scans.
+double mean_f1(const std::string& name, const MakeSegmenter& make,
+               const std::vector<RealScan>& scans, const eval::Protocol& protocol);
+
+}  // namespace flagstone::tests
