@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "cloud_properties.hpp"
-#include "lab/eval/protocol_file.hpp"
+#include "lab/eval/protocol.hpp"
 #include "text_properties.hpp"
 
 // The first byte says whether the rest is TOML or JSON.

@@ -11,7 +11,7 @@
 #include "files/io/cloud.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/read_cloud.hpp"
-#include "lab/eval/confusion.hpp"
+#include "lab/eval/score.hpp"
 
 namespace flagstone::tests {
 

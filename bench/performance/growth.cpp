@@ -30,7 +30,7 @@
 #include "clouds.hpp"
 #include "lab/bench/allocation_count.hpp"
 #include "lab/bench/timed_method.hpp"
-#include "lab/eval/machine.hpp"
+#include "lab/eval/results_export.hpp"
 #include "library/core/simd_target.hpp"
 #include "terminal.hpp"
 #include "timing.hpp"

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "clouds.hpp"
-#include "lab/eval/machine.hpp"
+#include "lab/eval/results_export.hpp"
 #include "latency_scans.hpp"
 #include "library/core/simd_target.hpp"
 #include "library/core/stopwatch.hpp"

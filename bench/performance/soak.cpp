@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "clouds.hpp"
-#include "lab/eval/machine.hpp"
+#include "lab/eval/results_export.hpp"
 
 namespace flagstone::performance {
 namespace {

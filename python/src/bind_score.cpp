@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "lab/eval/confusion.hpp"
 #include "lab/eval/protocol.hpp"
+#include "lab/eval/score.hpp"
 #include "points.hpp"
 
 namespace nb = nanobind;

@@ -25,9 +25,8 @@
 #include "files/render/rendering_available.hpp"
 #include "files/render/surface_picture.hpp"
 #include "flagstone/surface.hpp"
-#include "lab/eval/confusion.hpp"
-#include "lab/eval/height_score.hpp"
 #include "lab/eval/protocol.hpp"
+#include "lab/eval/score.hpp"
 #include "lab/sim/drive.hpp"
 #include "library/core/statistics.hpp"
 #include "library/core/stopwatch.hpp"
@@ -122,9 +121,7 @@ void run_demo(const DemoOptions& options) {
                           result.heights())
           .ground.by_range[0];
   const auto ground_patches = std::ranges::count_if(result.patches(), &Patch::is_ground);
-  const std::string scores =
-      fmt::format("precision {:.2f} %, recall {:.2f} %, F1 {:.2f} %", 100 * score.precision(),
-                  100 * score.recall(), 100 * score.f1());
+  const std::string scores = eval::scores_text(score);
 
   const DemoFiles files(options.output);
   write_files(files, scan, cloud, result);

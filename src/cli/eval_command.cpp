@@ -26,9 +26,7 @@
 #include "cli/scan_pictures.hpp"
 #include "files/io/message.hpp"
 #include "files/render/rendering_available.hpp"
-#include "lab/eval/machine.hpp"
-#include "lab/eval/results_csv.hpp"
-#include "lab/eval/results_json.hpp"
+#include "lab/eval/results_export.hpp"
 #include "lab/eval/results_text.hpp"
 
 namespace flagstone::cli {

@@ -24,7 +24,7 @@
 #include "files/io/message.hpp"
 #include "flagstone/version.hpp"
 #include "lab/eval/checkpoint.hpp"
-#include "lab/eval/protocol_file.hpp"
+#include "lab/eval/protocol.hpp"
 #include "lab/eval/scan_evaluator.hpp"
 
 namespace flagstone::cli {

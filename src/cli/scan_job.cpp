@@ -59,9 +59,7 @@ std::string subtitle(const ScanReport& report) {
                        report.patches, report.segment_ms);
   }
   const auto& [protocol, confusion] = report.scores.front();
-  return fmt::format("precision {:.2f} %, recall {:.2f} %, F1 {:.2f} % (protocol {})",
-                     100 * confusion.precision(), 100 * confusion.recall(), 100 * confusion.f1(),
-                     protocol);
+  return fmt::format("{} (protocol {})", eval::scores_text(confusion), protocol);
 }
 
 }  // namespace

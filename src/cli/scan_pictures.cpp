@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double percent = 100;
-
 void throw_if_bad(const Status& status) {
   if (!status.ok()) throw std::runtime_error(status.message());
 }
@@ -35,7 +33,7 @@ std::vector<std::size_t> worst_first(const Evaluation& evaluation, const eval::R
   std::map<std::string, std::vector<double>> values;
   for (const eval::MethodResult& method : results.methods) {
     for (const eval::ScanScore& scan : method.scans) {
-      values[scan.scan].push_back(scan.score.points.f1());
+      if (scan.score.points.has_ground()) values[scan.scan].push_back(scan.score.points.f1());
     }
   }
   std::vector<std::size_t> order;
@@ -48,12 +46,6 @@ std::vector<std::size_t> worst_first(const Evaluation& evaluation, const eval::R
   return order;
 }
 
-std::string scores_text(const eval::Confusion& points) {
-  return fmt::format("precision {:.2f} %, recall {:.2f} %, F1 {:.2f} %",
-                     percent * points.precision(), percent * points.recall(),
-                     percent * points.f1());
-}
-
 std::vector<std::byte> draw(eval::ScanEvaluator& evaluator, const Evaluation& evaluation,
                             const eval::LabelledScan& scan) {
   std::vector<std::vector<Label>> labels;
@@ -62,7 +54,7 @@ std::vector<std::byte> draw(eval::ScanEvaluator& evaluator, const Evaluation& ev
   for (std::size_t m = 0; m < labels.size(); ++m) {
     if (labels[m].size() != evaluator.cloud().size()) continue;  // said when it was evaluated
     panels.push_back({evaluation.methods()[m].title,
-                      scores_text(evaluator.truth().score(labels[m]).points), labels[m]});
+                      eval::scores_text(evaluator.truth().score(labels[m]).points), labels[m]});
   }
   std::vector<std::byte> png;
   throw_if_bad(render::render_side_by_side(

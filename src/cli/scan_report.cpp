@@ -6,7 +6,9 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <vector>
 
+#include "lab/eval/statistics.hpp"
 #include "library/core/statistics.hpp"
 
 namespace flagstone::cli {
@@ -42,26 +44,31 @@ Json mount_json(const MountReport& report) {
 }
 
 std::string scores_text(std::span<const ScanReport> reports) {
-  struct Sum {
-    double precision = 0, recall = 0, f1 = 0;
-    std::size_t scans = 0;
+  struct Scores {
+    std::vector<double> precision, recall, f1;
   };
-  std::map<std::string, Sum> sums;
+  std::map<std::string, Scores> all;
   for (const ScanReport& report : reports) {
     for (const auto& [protocol, confusion] : report.scores) {
-      Sum& sum = sums[protocol];
-      sum.precision += confusion.precision();
-      sum.recall += confusion.recall();
-      sum.f1 += confusion.f1();
-      ++sum.scans;
+      Scores& scores = all[protocol];
+      scores.precision.push_back(confusion.precision());
+      scores.recall.push_back(confusion.recall());
+      scores.f1.push_back(confusion.f1());
     }
   }
+  const auto mean = [](const std::vector<double>& values) {
+    return eval::percent_text(eval::spread_of(values).mean);
+  };
   std::string text;
-  for (const auto& [protocol, sum] : sums) {
-    const double percent = 100 / static_cast<double>(sum.scans);
+  for (const auto& [protocol, scores] : all) {
+    const std::size_t with_ground = eval::spread_of(scores.f1).count;
     text += fmt::format(
-        "protocol {:<12} precision {:6.2f}  recall {:6.2f}  F1 {:6.2f}  (mean of {} scans, %)\n",
-        protocol, sum.precision * percent, sum.recall * percent, sum.f1 * percent, sum.scans);
+        "protocol {:<12} precision {:>6}  recall {:>6}  F1 {:>6}  (mean of {} scans", protocol,
+        mean(scores.precision), mean(scores.recall), mean(scores.f1), with_ground);
+    if (const std::size_t others = scores.f1.size() - with_ground; others > 0) {
+      text += fmt::format(", {} without ground in the ground truth left out", others);
+    }
+    text += ", %)\n";
   }
   return text;
 }
@@ -80,7 +87,7 @@ std::string text_line(const ScanReport& report) {
       report.file.string(), report.points, 100 * report.ground_share(), report.patches,
       report.read_ms, report.segment_ms, report.write_ms);
   for (const auto& [protocol, confusion] : report.scores) {
-    line += fmt::format("; F1 {:.2f} % ({})", 100 * confusion.f1(), protocol);
+    line += fmt::format("; F1 {} % ({})", eval::percent_text(confusion.f1()), protocol);
   }
   if (report.mount && report.mount_is_own) {
     line += fmt::format("; sensor taken for {:.2f} m high: {}", report.mount->mount.sensor_height,

@@ -12,7 +12,7 @@
 
 #include "flagstone/label.hpp"
 #include "flagstone/mount.hpp"
-#include "lab/eval/confusion.hpp"
+#include "lab/eval/score.hpp"
 
 namespace flagstone::cli {
 

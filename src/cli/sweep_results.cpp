@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,8 +14,7 @@
 #include <optional>
 #include <utility>
 
-#include "lab/eval/results_csv.hpp"
-#include "lab/eval/results_json.hpp"
+#include "lab/eval/results_export.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -39,11 +39,11 @@ std::size_t width_of(const SweepAxis& axis) {
 
 /// A dash where one scan allows no figure.
 std::string percent_text(const std::optional<double>& share) {
-  return share ? fmt::format("{:>6.2f}", percent * *share) : fmt::format("{:>6}", "-");
+  return share ? fmt::format("{:>6}", eval::percent_text(*share)) : fmt::format("{:>6}", "-");
 }
 
 std::string spread_text(const eval::Spread& spread) {
-  return fmt::format("{:>8.2f} {}", percent * spread.mean, percent_text(spread.std));
+  return fmt::format("{:>8} {}", eval::percent_text(spread.mean), percent_text(spread.std));
 }
 
 /// F1 of `a` less that of `b` on the scans that both have.
@@ -96,7 +96,7 @@ std::string to_csv(const Sweep& sweep) {
   }
   text += "\r\n";
   const auto cell = [](const std::optional<double>& value) {
-    return value ? fmt::format(",{:.6f}", *value) : std::string(",");
+    return value && !std::isnan(*value) ? fmt::format(",{:.6f}", *value) : std::string(",");
   };
   for (std::size_t p = 0; p < sweep.results.methods.size(); ++p) {
     const eval::MethodResult& result = sweep.results.methods[p];
@@ -134,10 +134,15 @@ std::string winner_text(const Sweep& sweep) {
   const std::vector<eval::MethodResult>& points = sweep.results.methods;
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
+  if (sweep.results.scans == sweep.results.without_ground) {
+    return "No scan has ground in its ground truth: there is no F1.";
+  }
+  std::erase_if(order, [&](std::size_t p) { return points[p].f1.count == 0; });  // it failed
+  if (order.empty()) return "No setting has an F1.";
   std::ranges::sort(order, {}, [&](std::size_t p) { return std::pair(-points[p].f1.mean, p); });
   std::string text = fmt::format("Best F1: {:.2f} % at {}", percent * points[order[0]].f1.mean,
                                  name_of(sweep, order[0]));
-  if (points.size() < 2) return text + ".";
+  if (order.size() < 2) return text + ".";
   const eval::Spread ahead = difference(points[order[0]], points[order[1]]);
   text +=
       fmt::format("; {:.2f} points ahead of {}", percent * ahead.mean, name_of(sweep, order[1]));

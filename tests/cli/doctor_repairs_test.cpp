@@ -18,7 +18,7 @@
 #include "flagstone/gravity_aligned_segmenter.hpp"
 #include "flagstone/make_segmenter.hpp"
 #include "lab/baselines/settings.hpp"
-#include "lab/eval/confusion.hpp"
+#include "lab/eval/score.hpp"
 
 namespace flagstone::cli {
 namespace {

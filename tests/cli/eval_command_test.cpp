@@ -719,5 +719,22 @@ TEST_F(EvalCommand, WrongUsageIsOneLine) {
   }
 }
 
+TEST_F(EvalCommand, AScanWithoutGroundInTheGroundTruthCountsInTheAccuracyAlone) {
+  const json before = results("kitti", {"--methods", "surface"});
+  put_scan(folder_ / "kitti/velodyne/d.bin", scan("d"));
+  const Status status = io::write_class_file(folder_ / "kitti/labels/d.label",
+                                             std::vector<std::uint32_t>(scan("d").size(), 50));
+  ASSERT_TRUE(status.ok()) << status.message();
+
+  const json after = results("kitti", {"--methods", "surface", "--csv", path("results.csv")});
+
+  EXPECT_EQ(after["scans"], 4);
+  EXPECT_EQ(after["without_ground"], 1);
+  EXPECT_EQ(after["methods"][0]["recall"], before["methods"][0]["recall"]);
+  EXPECT_EQ(after["methods"][0]["f1"], before["methods"][0]["f1"]);
+  EXPECT_TRUE(after["methods"][0]["per_scan"][3]["f1"].is_null());
+  EXPECT_THAT(io::contents_of(folder_ / "results.csv"), HasSubstr("surface,d,,,,"));
+}
+
 }  // namespace
 }  // namespace flagstone::cli

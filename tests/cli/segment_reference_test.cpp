@@ -15,8 +15,8 @@
 #include "files/io/file_contents.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/temporary_folder.hpp"
-#include "lab/eval/confusion.hpp"
 #include "lab/eval/protocol.hpp"
+#include "lab/eval/score.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -92,6 +92,19 @@ TEST_F(WithReference, ScoresAreThoseOfTheEvaluationLibrary) {
     EXPECT_EQ(printed[protocol->name]["f1"], expected.f1());
     EXPECT_EQ(printed[protocol->name]["accuracy"], expected.accuracy());
   }
+}
+
+TEST_F(WithReference, AScanWithoutGroundInTheReferenceHasNoF1AndIsLeftOutOfTheMeans) {
+  const std::vector<std::uint32_t> buildings(small_scan().size(), 50);
+  const Status status = io::write_class_file(folder_ / "labels/b.label", buildings);
+  ASSERT_TRUE(status.ok()) << status.message();
+
+  const Outcome outcome = segment("scans", "labels", "out");
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("; F1 n/a % (patchwork)"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("(mean of 1 scans, 1 without ground in the ground truth left out, %)"));
 }
 
 TEST_F(WithReference, LidarsegLabelsAreScoredUnderTheirOwnProtocol) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "lab/eval/machine.hpp"
+#include "lab/eval/results_export.hpp"
 
 namespace flagstone::bench {
 namespace {

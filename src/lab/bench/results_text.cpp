@@ -10,8 +10,8 @@
 #include <numeric>
 #include <string_view>
 
-#include "lab/eval/machine.hpp"
 #include "lab/eval/method.hpp"
+#include "lab/eval/results_export.hpp"
 
 namespace flagstone::bench {
 namespace {

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::json;
 constexpr auto replace = Json::error_handler_t::replace;  // file names may not be UTF-8
 
-Json to_json(const Confusion& c) {
+Json checkpoint_json(const Confusion& c) {
   return {c.true_positives, c.false_positives, c.false_negatives, c.true_negatives};
 }
 
@@ -30,7 +30,7 @@ Confusion confusion_of(const Json& json) {
   return {json.at(0), json.at(1), json.at(2), json.at(3)};
 }
 
-Json to_json(const HeightErrors& e) {
+Json checkpoint_json(const HeightErrors& e) {
   return {e.points, e.given, e.median, e.percentile95, e.bias};
 }
 
@@ -42,10 +42,10 @@ HeightErrors height_errors_of(const Json& json) {
           .bias = json.at(4)};
 }
 
-Json to_json(const HeightErrorsByRange& errors) {
+Json checkpoint_json(const HeightErrorsByRange& errors) {
   Json json = Json::array();
-  json.push_back(to_json(errors.all));
-  for (const HeightErrors& band : errors.by_range) json.push_back(to_json(band));
+  json.push_back(checkpoint_json(errors.all));
+  for (const HeightErrors& band : errors.by_range) json.push_back(checkpoint_json(band));
   return json;
 }
 
@@ -57,13 +57,15 @@ HeightErrorsByRange height_errors_by_range_of(const Json& json) {
   return errors;
 }
 
-Json to_json(const MethodOutcome& outcome) {
-  Json json = {{"points", to_json(outcome.score.points)}, {"area", to_json(outcome.score.by_area)}};
-  for (const Confusion& band : outcome.score.by_range) json["range"].push_back(to_json(band));
+Json checkpoint_json(const MethodOutcome& outcome) {
+  Json json = {{"points", checkpoint_json(outcome.score.points)},
+               {"area", checkpoint_json(outcome.score.by_area)}};
+  for (const Confusion& band : outcome.score.by_range)
+    json["range"].push_back(checkpoint_json(band));
   if (outcome.segment_ms) json["ms"] = *outcome.segment_ms;
   if (outcome.heights) {
-    json["heights"] =
-        Json::array({to_json(outcome.heights->ground), to_json(outcome.heights->everywhere)});
+    json["heights"] = Json::array(
+        {checkpoint_json(outcome.heights->ground), checkpoint_json(outcome.heights->everywhere)});
   }
   return json;
 }
@@ -84,10 +86,11 @@ MethodOutcome method_outcome_of(const Json& json) {
   return outcome;
 }
 
-Json to_json(const std::string& scan, const ScanOutcome& outcome) {
+Json checkpoint_json(const std::string& scan, const ScanOutcome& outcome) {
   Json json = {{"scan", scan}, {"read", outcome.read_ms}, {"score", outcome.score_ms}};
   json["methods"] = Json::array();
-  for (const MethodOutcome& method : outcome.methods) json["methods"].push_back(to_json(method));
+  for (const MethodOutcome& method : outcome.methods)
+    json["methods"].push_back(checkpoint_json(method));
   return json;
 }
 
@@ -176,7 +179,7 @@ Status Checkpoint::resume(const std::filesystem::path& path, const std::string& 
 
 void Checkpoint::add(const std::string& scan, const ScanOutcome& outcome) {
   if (!file_ || has_failed(outcome)) return;
-  const std::string line = to_json(scan, outcome).dump(-1, ' ', false, replace) + "\n";
+  const std::string line = checkpoint_json(scan, outcome).dump(-1, ' ', false, replace) + "\n";
   std::fwrite(line.data(), 1, line.size(), file_.get());
   std::fflush(file_.get());
 }

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "flagstone/status.hpp"
-#include "lab/eval/outcome.hpp"
+#include "lab/eval/scan_evaluator.hpp"
 
 namespace flagstone::eval {
 

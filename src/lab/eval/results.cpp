@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace flagstone::eval {
@@ -48,7 +47,6 @@ HeightFigures height_figures(const std::vector<ScanScore>& scans, ErrorsOf error
   }
   return {.points = pooled.points,
           .share = pooled.share(),
-          .scans = medians.size(),
           .median = spread_of(medians),
           .percentile95 = spread_of(percentiles),
           .bias = spread_of(biases)};
@@ -98,6 +96,13 @@ bool is_scored(const ScanOutcome& outcome) {
   });
 }
 
+/// Is there a score, and no ground in the ground truth?
+bool has_no_ground(const ScanOutcome& outcome) {
+  const auto scored = std::ranges::find_if_not(
+      outcome.methods, [](const MethodOutcome& made) { return made.error.has_value(); });
+  return scored != outcome.methods.end() && !scored->score.points.has_ground();
+}
+
 void add(const LabelledScan& scan, const ScanOutcome& outcome, Results& results) {
   if (outcome.error) {
     results.failures.push_back({scan.name, *outcome.error});
@@ -108,6 +113,7 @@ void add(const LabelledScan& scan, const ScanOutcome& outcome, Results& results)
     return;
   }
   ++results.scans;
+  if (has_no_ground(outcome)) ++results.without_ground;
   results.time.read += outcome.read_ms;
   results.time.score += outcome.score_ms;
   for (std::size_t m = 0; m < results.methods.size(); ++m) {
@@ -145,8 +151,10 @@ Results gather(std::span<const Method> methods, std::span<const LabelledScan> sc
 }
 
 std::vector<std::size_t> worst_scans(const MethodResult& result, std::size_t count) {
-  std::vector<std::size_t> order(result.scans.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < result.scans.size(); ++i) {
+    if (result.scans[i].score.points.has_ground()) order.push_back(i);
+  }
   std::ranges::sort(order, {},
                     [&](std::size_t i) { return std::pair(result.scans[i].score.points.f1(), i); });
   order.resize(std::min(count, order.size()));

@@ -10,7 +10,7 @@
 
 #include "lab/eval/dataset.hpp"
 #include "lab/eval/method.hpp"
-#include "lab/eval/outcome.hpp"
+#include "lab/eval/scan_evaluator.hpp"
 #include "lab/eval/statistics.hpp"
 
 namespace flagstone::eval {
@@ -27,8 +27,7 @@ struct ScanScore {
 struct HeightFigures {
   std::size_t points = 0;             ///< of all scans
   std::optional<double> share;        ///< of them, those with a height; none of no points
-  std::size_t scans = 0;              ///< that have a height there
-  Spread median, percentile95, bias;  ///< over those scans, metres
+  Spread median, percentile95, bias;  ///< over the scans that have a height there, metres
 };
 
 struct HeightFiguresByRange {
@@ -75,6 +74,8 @@ struct Results {
   std::vector<std::string> datasets;
   std::size_t scans = 0;              ///< that could be read and have a point to score
   std::vector<std::string> unscored;  ///< scans without one, which no figure counts
+  /// Of `scans`, those without ground in the ground truth: they count in accuracies alone.
+  std::size_t without_ground = 0;
   unsigned threads = 1;
   std::vector<MethodResult> methods;
   std::vector<Failure> failures;
@@ -89,7 +90,8 @@ Results gather(std::span<const Method> methods, std::span<const LabelledScan> sc
 /// Does a method have heights that could be scored?
 bool has_heights(const Results& results);
 
-/// Indices into `result.scans` of the `count` scans with the lowest F1, lowest first.
+/// Indices into `result.scans` of the `count` scans with the lowest F1, lowest first; scans without
+/// an F1 are left out.
 std::vector<std::size_t> worst_scans(const MethodResult& result, std::size_t count);
 
 }  // namespace flagstone::eval

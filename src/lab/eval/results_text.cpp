@@ -29,6 +29,7 @@ std::string cell(double value, int width, int digits, bool is_best, const TextSt
 std::string optional_cell(const std::optional<double>& value, int width, int digits,
                           bool is_best = false, const TextStyle& style = {}) {
   if (!value) return fmt::format("{:>{}} ", "-", width);
+  if (std::isnan(*value)) return fmt::format("{:>{}} ", "n/a", width);
   return cell(*value, width, digits, is_best, style);
 }
 
@@ -60,7 +61,7 @@ std::optional<double> best_of(const Results& results, const Column& column) {
   if (!column.has_best || results.methods.size() < 2) return best;
   for (const MethodResult& result : results.methods) {
     const std::optional<double> own = column.value(result);
-    if (!own || !is_complete(results, result)) continue;
+    if (!own || std::isnan(*own) || !is_complete(results, result)) continue;
     const double value = printed(*own, column.digits);
     if (!best || (column.small_is_good ? value < *best : value > *best)) best = value;
   }
@@ -99,8 +100,8 @@ std::string table(const Results& results, const std::vector<Column>& columns,
       const Column& column = columns[c];
       const std::optional<double> value =
           result.scans.empty() ? std::nullopt : column.value(result);
-      const std::optional<double> top = is_complete(results, result) ? best[c] : std::nullopt;
-      const bool is_best = value && top && printed(*value, column.digits) == *top;
+      const bool is_best = value && best[c] && is_complete(results, result) &&
+                           printed(*value, column.digits) == best[c].value_or(0);
       text += optional_cell(value, column.width, column.digits, is_best, style);
     }
     text += '\n';
@@ -134,7 +135,13 @@ std::string accuracy_table(const Results& results, const TextStyle& style) {
       {"F1/area", 9, 2, [](const auto& r) { return in_percent(r.by_area.f1()); }},
       {"Hz", 9, 1, [](const auto& r) { return r.hz; }},
   };
-  return table(results, columns, style);
+  std::string text = table(results, columns, style);
+  if (results.without_ground > 0) {
+    text += fmt::format(
+        "{} of {} scans have no ground in the ground truth: only accuracy and Hz include them\n",
+        results.without_ground, results.scans);
+  }
+  return text;
 }
 
 std::string range_table(const Results& results, const TextStyle& style) {
@@ -144,9 +151,7 @@ std::string range_table(const Results& results, const TextStyle& style) {
     headings.push_back(fmt::format("{}-{} m", from, to));
     from = to;
   }
-  const auto f1 = [](const Confusion& points) {
-    return points.total() == 0 ? std::nullopt : in_percent(points.f1());
-  };
+  const auto f1 = [](const Confusion& points) { return in_percent(points.f1()); };
   std::vector<Column> columns = {
       {"all", 10, 2, [f1](const MethodResult& r) { return f1(r.pooled); }}};
   columns.reserve(headings.size() + 1);
@@ -179,8 +184,8 @@ std::string height_table(const Results& results, HeightFiguresByRange HeightResu
     };
     const auto mean_of = [](Spread HeightFigures::* figure) {
       return [figure](const HeightFigures& figures) -> std::optional<double> {
-        if (figures.scans == 0) return std::nullopt;
-        return centimetres * (figures.*figure).mean;
+        const Spread& spread = figures.*figure;
+        return spread.count == 0 ? std::nullopt : std::optional(centimetres * spread.mean);
       };
     };
     add(headings[band], 11, mean_of(&HeightFigures::median), true, true);
@@ -198,7 +203,7 @@ std::string worst_table(const Results& results, std::size_t count) {
     for (const std::size_t i : worst_scans(result, count)) {
       const ScanScore& scan = result.scans[i];
       text +=
-          fmt::format("  {} ({:.2f})", io::printable(scan.scan), percent * scan.score.points.f1());
+          fmt::format("  {} ({})", io::printable(scan.scan), percent_text(scan.score.points.f1()));
     }
     text += '\n';
   }

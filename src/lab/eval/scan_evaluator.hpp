@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "files/io/cloud.hpp"
@@ -12,10 +13,25 @@
 #include "flagstone/segmentation.hpp"
 #include "lab/eval/dataset.hpp"
 #include "lab/eval/method.hpp"
-#include "lab/eval/outcome.hpp"
 #include "lab/eval/protocol.hpp"
+#include "lab/eval/score.hpp"
 
 namespace flagstone::eval {
+/// What one method made of one scan.
+struct MethodOutcome {
+  std::optional<std::string> error;  ///< one line; nothing else is filled then
+  Score score;
+  std::optional<HeightScore> heights;  ///< of methods that give heights where the truth is known
+  std::optional<double> segment_ms;    ///< none for labels made elsewhere
+};
+
+/// What became of one scan.
+struct ScanOutcome {
+  std::optional<std::string> error;  ///< the scan or its truth could not be read: one line
+  std::vector<MethodOutcome> methods;
+  double read_ms = 0;   ///< points and classes
+  double score_ms = 0;  ///< truth and all scores
+};
 
 /// Runs methods over one scan after another and scores them, reusing its memory. One per thread.
 class ScanEvaluator {

@@ -2,7 +2,51 @@
 // SPDX-License-Identifier: MIT
 #include "lab/eval/score.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "library/core/statistics.hpp"
+
 namespace flagstone::eval {
+Confusion& Confusion::operator+=(const Confusion& other) noexcept {
+  true_positives += other.true_positives;
+  false_positives += other.false_positives;
+  false_negatives += other.false_negatives;
+  true_negatives += other.true_negatives;
+  return *this;
+}
+
+std::string percent_text(double ratio) {
+  return std::isnan(ratio) ? "n/a" : fmt::format("{:.2f}", 100 * ratio);
+}
+
+std::string scores_text(const Confusion& confusion) {
+  if (!confusion.has_ground()) {
+    return fmt::format("no ground in the ground truth, accuracy {} %",
+                       percent_text(confusion.accuracy()));
+  }
+  return fmt::format("precision {} %, recall {} %, F1 {} %", percent_text(confusion.precision()),
+                     percent_text(confusion.recall()), percent_text(confusion.f1()));
+}
+
+Confusion compare(std::span<const Label> labels, std::span<const Truth> truth) {
+  Confusion confusion;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (truth[i] == Truth::ignored) continue;
+    const bool found = labels[i] == Label::ground;
+    const bool is = truth[i] == Truth::ground;
+    confusion.true_positives += found && is;
+    confusion.false_positives += found && !is;
+    confusion.false_negatives += !found && is;
+    confusion.true_negatives += !found && !is;
+  }
+  return confusion;
+}
+
 namespace {
 
 constexpr auto row_cells = static_cast<std::uint32_t>(2 * range_bands.back() / cell_size);
@@ -22,11 +66,13 @@ std::uint32_t cell_of(Point p) {
          static_cast<std::uint32_t>(y / cell_size);
 }
 
-/// Branches would often be mispredicted. What is not finite lies beyond all bands.
-std::uint32_t band_of(Point p) {
+/// The number of bands whose upper ends lie at or below the point's horizontal range: the index of
+/// its band; beyond the last, and not finite, bands.size(). Branches would often be mispredicted.
+template <std::size_t Count>
+std::uint32_t band_of(Point p, const std::array<float, Count>& bands) {
   const float squared_range = p.x * p.x + p.y * p.y;
   std::uint32_t band = 0;
-  for (const float end : range_bands) band += squared_range < end * end ? 0 : 1;
+  for (const float end : bands) band += squared_range < end * end ? 0 : 1;
   return band;
 }
 
@@ -41,7 +87,7 @@ void ScanTruth::set(const Protocol& protocol, CloudView cloud,
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point p = cloud[i];
     const bool is_scored = truth_[i] != Truth::ignored;
-    const std::uint32_t group = 2 * band_of(p) + (truth_[i] == Truth::ground ? 1 : 0);
+    const std::uint32_t group = 2 * band_of(p, range_bands) + (truth_[i] == Truth::ground ? 1 : 0);
     groups_[i] = static_cast<std::uint8_t>(is_scored ? group : not_scored);
     cells_[i] = is_scored ? cell_of(p) : no_cell;
     ++cell_points_[cells_[i]];
@@ -74,6 +120,71 @@ Score ScanTruth::score(std::span<const Label> labels) const noexcept {
   }
   score.by_area = confusion(area[0], area[1]);
   return score;
+}
+
+namespace {
+
+/// Gathers the errors of some points.
+class Errors {
+ public:
+  /// Of a point without a height, NaN.
+  void add(double error) {
+    ++points_;
+    if (!std::isnan(error)) errors_.push_back(error);
+  }
+  [[nodiscard]] HeightErrors summary() const {
+    HeightErrors summary{.points = points_, .given = errors_.size()};
+    if (errors_.empty()) return summary;
+    std::vector<double> absolute;
+    absolute.reserve(errors_.size());
+    double sum = 0;
+    for (const double error : errors_) {
+      sum += error;
+      absolute.push_back(std::abs(error));
+    }
+    summary.bias = sum / static_cast<double>(errors_.size());
+    summary.median = percentile(absolute, 50);
+    summary.percentile95 = percentile(absolute, 95);
+    return summary;
+  }
+
+ private:
+  std::size_t points_ = 0;
+  std::vector<double> errors_;
+};
+
+struct ErrorsByRange {
+  Errors all;
+  std::array<Errors, height_bands.size()> by_range;
+
+  /// `band` is height_bands.size() beyond all bands.
+  void add(std::size_t band, double error) {
+    all.add(error);
+    if (band < by_range.size()) by_range[band].add(error);
+  }
+  [[nodiscard]] HeightErrorsByRange summary() const {
+    HeightErrorsByRange summary{.all = all.summary()};
+    std::ranges::transform(by_range, summary.by_range.begin(), &Errors::summary);
+    return summary;
+  }
+};
+
+}  // namespace
+
+HeightScore score_heights(CloudView cloud, std::span<const Truth> truth,
+                          std::span<const float> true_ground, std::span<const float> heights) {
+  ErrorsByRange ground;
+  ErrorsByRange everywhere;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Point p = cloud[i];
+    const double true_height = static_cast<double>(p.z) - static_cast<double>(true_ground[i]);
+    if (!std::isfinite(true_height)) continue;
+    const double error = static_cast<double>(heights[i]) - true_height;
+    const std::size_t band = band_of(p, height_bands);
+    everywhere.add(band, error);
+    if (truth[i] == Truth::ground) ground.add(band, error);
+  }
+  return {.ground = ground.summary(), .everywhere = everywhere.summary()};
 }
 
 }  // namespace flagstone::eval

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <vector>
 
 #include "library/core/statistics.hpp"
@@ -28,8 +29,11 @@ double student_t_975(std::size_t degrees) {
   return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n);
 }
 
-Spread spread_of(std::span<const double> values) {
+Spread spread_of(std::span<const double> all) {
+  std::vector<double> values;
+  std::ranges::copy_if(all, std::back_inserter(values), [](double v) { return !std::isnan(v); });
   Spread spread;
+  spread.count = values.size();
   if (values.empty()) return spread;
   const auto n = static_cast<double>(values.size());
   spread.mean = mean(values);

@@ -3,14 +3,16 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 
 namespace flagstone::eval {
 
-/// Mean and scatter of a figure over scans.
+/// Mean and scatter of a figure over the scans for which it is defined.
 struct Spread {
-  double mean = 0;            ///< 0 of nothing
+  std::size_t count = 0;                                   ///< scans
+  double mean = std::numeric_limits<double>::quiet_NaN();  ///< NaN of none
   std::optional<double> std;  ///< sample standard deviation (n - 1); none for fewer than two
   /// Half width of the 95 % confidence interval of the mean, t * std / sqrt(n), by Student's t
   /// distribution with n - 1 degrees of freedom; none for fewer than two. It takes scans for
@@ -18,6 +20,7 @@ struct Spread {
   std::optional<double> ci95;
 };
 
+/// Of the values that are not NaN.
 Spread spread_of(std::span<const double> values);
 
 /// Quantile 0.975 of Student's t distribution, `degrees` of freedom at least 1.

@@ -6,19 +6,89 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <string_view>
+#include <unordered_map>
 
-#include "lab/report/base64.hpp"
 #include "lab/report/embedded_files.hpp"
 #include "lab/report/html.hpp"
 #include "lab/report/page.hpp"
-#include "lab/report/plot_data.hpp"
-#include "lab/report/table.hpp"
 
 namespace flagstone::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// A band of range as text: "0–10 m".
+std::string band_text(const Json& band) {
+  return fmt::format("{:g}–{:g} m", band.at("from").get<double>(), band.at("to").get<double>());
+}
+
+/// The range bands of the first method that has some.
+std::vector<std::string> range_bands(const Json& results) {
+  std::vector<std::string> bands;
+  for (const Json& method : results.at("methods")) {
+    if (!bands.empty()) break;
+    for (const Json& band : method.at("by_range")) bands.push_back(band_text(band));
+  }
+  return bands;
+}
+
+// Where each scan stands in the list of all, in the order of its first appearance.
+class ScanList {
+ public:
+  explicit ScanList(const Json& methods) {
+    for (const Json& method : methods)
+      for (const Json& scan : method.at("per_scan")) add(scan.at("scan").get<std::string>());
+  }
+
+  [[nodiscard]] const Json& names() const noexcept { return names_; }
+  [[nodiscard]] std::size_t place(const Json& scan) const {
+    return place_.at(scan.at("scan").get<std::string>());
+  }
+
+ private:
+  void add(const std::string& name) {
+    if (place_.try_emplace(name, names_.size()).second) names_.push_back(name);
+  }
+
+  Json names_ = Json::array();
+  std::unordered_map<std::string, std::size_t> place_;
+};
+
+// A plot shows no more than five decimals of a share, and a report may hold 200,000 of them.
+Json rounded(const Json& share) {
+  if (!share.is_number()) return nullptr;
+  return std::round(share.get<double>() * 1e5) / 1e5;
+}
+
+Json method_data(const Json& method, const ScanList& scans) {
+  Json by_range = Json::array();
+  for (const Json& band : method.at("by_range")) by_range.push_back(band.at("f1"));
+  std::vector<Json> f1_of_scan(scans.names().size());
+  for (const Json& scan : method.at("per_scan"))
+    f1_of_scan[scans.place(scan)] = rounded(scan.at("f1"));
+  return {{"title", method.at("title")},
+          {"precision", method.at("precision").at("mean")},
+          {"recall", method.at("recall").at("mean")},
+          {"f1", method.at("f1").at("mean")},
+          {"ci95", method.at("f1").at("ci95")},
+          {"hz", method.at("hz")},
+          {"hz_slowest", method.at("hz_slowest_1_percent")},
+          {"by_range", by_range},
+          {"scans", f1_of_scan}};
+}
+
+/// What the plots draw, a small part of the results: all scans' names once, and per method title,
+/// precision, recall, f1, ci95, hz, hz_slowest, by_range (F1 per band) and scans (F1 per scan; null
+/// where the method has none).
+Json plot_data(const Json& results) {
+  const ScanList scans(results.at("methods"));
+  Json methods = Json::array();
+  for (const Json& method : results.at("methods")) methods.push_back(method_data(method, scans));
+  return {{"scans", scans.names()}, {"bands", range_bands(results)}, {"methods", methods}};
+}
 
 // Table I of the paper, and what else there is one number of per method.
 std::string method_table(const Json& methods) {
@@ -175,7 +245,7 @@ std::string eval_report(const Json& results, std::span<const ReportPicture> pict
       Slot{"pictures", pictures_html},
       Slot{"rows", rows},
   };
-  return page(title, fill(embedded::eval_html, slots), eval_plot_data(results), embedded::eval_js);
+  return page(title, fill(embedded::eval_html, slots), plot_data(results), embedded::eval_js);
 }
 
 }  // namespace flagstone::report

@@ -6,19 +6,109 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstddef>
+#include <map>
+#include <stdexcept>
+#include <string>
 #include <string_view>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "lab/report/embedded_files.hpp"
 #include "lab/report/html.hpp"
 #include "lab/report/page.hpp"
-#include "lab/report/sweep_grid.hpp"
-#include "lab/report/table.hpp"
 
 namespace flagstone::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+bool is_number(const std::string& text) noexcept {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stopped == end;
+}
+
+/// The cells of a sweep by their place on a grid of one or two keys' values.
+class SweepGrid {
+ public:
+  /// `results` as sweep_report() takes them, and must outlive this. Throws std::invalid_argument
+  /// where there are not one or two keys, or a cell has another number of values.
+  explicit SweepGrid(const Json& results);
+
+  [[nodiscard]] const std::vector<std::string>& keys() const noexcept { return keys_; }
+
+  /// A key's values in the order they first appear in.
+  [[nodiscard]] const std::vector<std::string>& values(std::size_t key) const {
+    return values_.at(key);
+  }
+
+  /// Whether all values of a key are numbers.
+  [[nodiscard]] bool is_numeric(std::size_t key) const;
+
+  /// Mean and standard deviation of a metric for the first key's value `first` and the second's
+  /// `second` (0 where there is one key); null where the sweep has no such cell.
+  [[nodiscard]] Json mean(std::size_t first, std::size_t second, const char* metric) const;
+  [[nodiscard]] Json deviation(std::size_t first, std::size_t second, const char* metric) const;
+
+  /// Lowest and highest mean of a metric; 0 and 0 where there is none.
+  [[nodiscard]] std::pair<double, double> bounds(const char* metric) const;
+
+ private:
+  [[nodiscard]] Json number(std::size_t first, std::size_t second, const char* metric,
+                            const char* of) const;
+
+  std::vector<std::string> keys_;
+  std::vector<std::vector<std::string>> values_;  // per key
+  std::map<std::vector<std::string>, const Json*> cells_;
+};
+
+SweepGrid::SweepGrid(const Json& results)
+    : keys_(results.at("keys").get<std::vector<std::string>>()), values_(keys_.size()) {
+  if (keys_.empty() || keys_.size() > 2) throw std::invalid_argument("a sweep has one or two keys");
+  for (const Json& cell : results.at("cells")) {
+    auto place = cell.at("values").get<std::vector<std::string>>();
+    if (place.size() != keys_.size())
+      throw std::invalid_argument("a cell of a sweep has a value per key");
+    for (std::size_t key = 0; key < place.size(); ++key)
+      if (std::ranges::find(values_[key], place[key]) == values_[key].end())
+        values_[key].push_back(place[key]);
+    cells_.emplace(std::move(place), &cell);
+  }
+}
+
+bool SweepGrid::is_numeric(std::size_t key) const {
+  return std::ranges::all_of(values_.at(key), is_number);
+}
+
+Json SweepGrid::mean(std::size_t first, std::size_t second, const char* metric) const {
+  return number(first, second, metric, "mean");
+}
+
+Json SweepGrid::deviation(std::size_t first, std::size_t second, const char* metric) const {
+  return number(first, second, metric, "std");
+}
+
+std::pair<double, double> SweepGrid::bounds(const char* metric) const {
+  std::vector<double> means;
+  for (const auto& [place, cell] : cells_)
+    if (const Json& mean = cell->at(metric).at("mean"); mean.is_number())
+      means.push_back(mean.get<double>());
+  if (means.empty()) return {0, 0};
+  const auto [low, high] = std::ranges::minmax(means);
+  return {low, high};
+}
+
+Json SweepGrid::number(std::size_t first, std::size_t second, const char* metric,
+                       const char* of) const {
+  std::vector<std::string> place = {values_[0].at(first)};
+  if (keys_.size() > 1) place.push_back(values_[1].at(second));
+  const auto cell = cells_.find(place);
+  return cell == cells_.end() ? Json() : cell->second->at(metric).at(of);
+}
 
 struct Metric {
   const char* name;

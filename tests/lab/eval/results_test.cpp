@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lab/eval/results_csv.hpp"
-#include "lab/eval/results_json.hpp"
+#include "lab/eval/results_export.hpp"
 #include "lab/eval/results_text.hpp"
 
 namespace flagstone::eval {
@@ -155,6 +154,44 @@ TEST_F(ThreeScans, AScanWithoutAScoredPointCountsNowhere) {
   EXPECT_DOUBLE_EQ(results.methods[0].f1.mean, made(90, 10, 1).score.points.f1());
 }
 
+MethodOutcome without_ground(double alarms, double rest) {
+  MethodOutcome outcome;
+  outcome.score.points = {.false_positives = alarms, .true_negatives = rest};
+  return outcome;
+}
+
+TEST_F(ThreeScans, AScanWithoutGroundInTheGroundTruthCountsInTheAccuracyAlone) {
+  outcomes_[1] = outcome_of({without_ground(25, 75), without_ground(0, 100)});
+
+  const Results results = gather(methods_, scans_, outcomes_);
+  const nlohmann::ordered_json json = to_json(results);
+
+  EXPECT_EQ(results.scans, 3u);
+  EXPECT_EQ(results.without_ground, 1u);
+  EXPECT_DOUBLE_EQ(results.methods[0].recall.mean, 0.8) << "as without that scan";
+  EXPECT_DOUBLE_EQ(results.methods[0].f1.mean, results_.methods[0].f1.mean);
+  EXPECT_EQ(results.methods[0].f1.count, 2u);
+  EXPECT_DOUBLE_EQ(results.methods[0].accuracy.mean, (0.9 + 0.7 + 0.75) / 3);
+  EXPECT_EQ(json["without_ground"], 1);
+  EXPECT_EQ(json["methods"][0]["f1"]["scans"], 2);
+  EXPECT_TRUE(json["methods"][0]["per_scan"][1]["f1"].is_null());
+  EXPECT_EQ(json["methods"][0]["per_scan"][1]["accuracy"], 0.75);
+  EXPECT_THAT(to_csv(results), HasSubstr("\r\nfirst,b,,,,0.750000,,0,25,0,75,"));
+  EXPECT_THAT(accuracy_table(results, {}), HasSubstr("1 of 3 scans have no ground"));
+  EXPECT_THAT(worst_scans(results.methods[0], 5), ElementsAre(2, 0));
+}
+
+TEST_F(ThreeScans, WithoutGroundAnywhereThereIsNoF1) {
+  for (auto& outcome : outcomes_)
+    outcome = outcome_of({without_ground(1, 9), without_ground(0, 9)});
+
+  const Results results = gather(methods_, scans_, outcomes_);
+
+  EXPECT_THAT(accuracy_table(results, {}), HasSubstr(" n/a "));
+  EXPECT_TRUE(to_json(results)["methods"][0]["f1"]["mean"].is_null());
+  EXPECT_THAT(worst_table(results, 3), Not(HasSubstr("(")));
+}
+
 HeightErrors errors(std::size_t given, double median, double bias) {
   return {.points = 4, .given = given, .median = median, .percentile95 = 2 * median, .bias = bias};
 }
@@ -182,10 +219,10 @@ TEST_F(ScansWithHeights, FiguresAreMeansOverTheScansThatHaveAny) {
   EXPECT_DOUBLE_EQ(ground.by_range[0].median.mean, 0.02);
   EXPECT_DOUBLE_EQ(ground.by_range[0].percentile95.mean, 0.04);
   EXPECT_DOUBLE_EQ(ground.by_range[0].bias.mean, -0.001);
-  EXPECT_EQ(ground.by_range[0].scans, 2U);
+  EXPECT_EQ(ground.by_range[0].median.count, 2U);
   EXPECT_DOUBLE_EQ(ground.by_range[1].median.mean, 0.05);
-  EXPECT_EQ(ground.by_range[1].scans, 1U);
-  EXPECT_EQ(ground.by_range[2].scans, 0U);
+  EXPECT_EQ(ground.by_range[1].median.count, 1U);
+  EXPECT_EQ(ground.by_range[2].median.count, 0U);
 }
 
 TEST_F(ScansWithHeights, SharesAreOverThePointsOfAllScans) {

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string_view>
+
 namespace flagstone::report {
 namespace {
 
@@ -47,6 +50,24 @@ TEST(Html, ShowsRatesWithADecimalWhereItMatters) {
 TEST(Html, ShowsADashForNoNumber) {
   EXPECT_EQ(percent_text(nullptr), no_number);
   EXPECT_EQ(number_text(nullptr), no_number);
+}
+
+std::string encoded(std::string_view text) { return base64(std::as_bytes(std::span(text))); }
+
+// RFC 4648, section 10.
+TEST(Base64, GivesTheTestVectorsOfItsStandard) {
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foob"), "Zm9vYg==");
+  EXPECT_EQ(encoded("fooba"), "Zm9vYmE=");
+  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+}
+
+TEST(Base64, KeepsBytesWithTheirHighestBitSet) {
+  constexpr std::array bytes = {std::byte{0xFB}, std::byte{0xFF}, std::byte{0xFE}};
+  EXPECT_EQ(base64(bytes), "+//+");
 }
 
 }  // namespace

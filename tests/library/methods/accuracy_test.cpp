@@ -11,7 +11,7 @@
 
 #include "flagstone/patchwork.hpp"
 #include "flagstone/surface.hpp"
-#include "lab/eval/protocol_file.hpp"
+#include "lab/eval/protocol.hpp"
 #include "mean_f1.hpp"
 
 namespace flagstone {
