@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""LAS and LAZ files as structured arrays, through laspy."""
+"""LAS and LAZ files as structured arrays, through laspy, and the classes that labels stand for in them."""
 
 from __future__ import annotations
 
+import operator
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -13,11 +14,9 @@ from typing import Any, BinaryIO
 import numpy as np
 import numpy.typing as npt
 
-from flagstone._las_classes import classes_from_labels
-from flagstone._laz import BadFileError, check_chunks
+from flagstone._atomic_file import atomic_write
 from flagstone._optional import needs
 from flagstone._progress import Progress
-from flagstone._whole_file import written_whole
 
 Points = npt.NDArray[Any]
 
@@ -118,7 +117,7 @@ def write(
         else:
             header.add_extra_dim(_extra_bytes(name, values))
 
-    with written_whole(path) as file:
+    with atomic_write(path) as file:
         compressed = os.fspath(path).lower().endswith(".laz")
         with (
             laspy.open(file, mode="w", header=header, do_compress=compressed, closefd=False) as writer,
@@ -263,3 +262,129 @@ def _extra_bytes(name: str, values: Points) -> Any:
         raise ValueError(f"points: field {name}: LAS holds names of 32 bytes and fields of 3 numbers at most")
     kind = values.dtype.newbyteorder("<").str[1:]
     return _laspy().ExtraBytesParams(name=name, type=f"{shape[0]}{kind}" if shape else kind)
+
+
+_without_chunks = 1  # LASzip before 2011
+_largest_chunk = 10_000_000  # points; of files that have fewer. Writers take 50,000
+
+
+class BadFileError(Exception):
+    """What is wrong with a file, without its name."""
+
+
+def check_chunks(file: BinaryIO, size: int, begin: int, count: int, row: int, parameters: bytes) -> None:
+    """Compares chunk table, parameters and file size.
+
+    Args:
+        file: The file.
+        size: Its bytes.
+        begin: Where the points begin.
+        count: How many there are.
+        row: Bytes of a point.
+        parameters: Those of LASzip, from its record.
+
+    Raises:
+        BadFileError: They contradict each other.
+    """
+    lazrs = needs("lazrs", "las")
+    kind = lazrs.LazVlr(parameters)
+    if kind.item_size() != row:
+        raise BadFileError(f"has points of {row} bytes, but was compressed with {kind.item_size()}: it is damaged")
+    if count == 0 or int.from_bytes(parameters[:2], "little") == _without_chunks:
+        return
+    is_free = kind.uses_variable_size_chunks()
+    if not is_free and kind.chunk_size() > max(count, _largest_chunk):
+        raise BadFileError(f"says that a chunk has {kind.chunk_size():,} points, of {count:,}: it is damaged")
+
+    table = _begin_of_table(file, size, begin)
+    compressed = table - begin - 8  # bytes of all chunks
+    if not 0 <= compressed <= size - begin - 16:
+        raise BadFileError(f"says that its chunk table is at byte {table:,} of {size:,}: it is cut off or damaged")
+    file.seek(table + 4)
+    chunks = int.from_bytes(file.read(4), "little")
+    if chunks > compressed:
+        raise BadFileError(f"says that it has {chunks:,} chunks in {compressed:,} bytes: it is damaged")
+    file.seek(begin)
+    entries = lazrs.read_chunk_table(file, kind)
+    points = sum(points for points, _ in entries) if is_free else chunks * kind.chunk_size()
+    if sum(used for _, used in entries) > compressed or points < count or (is_free and points > count):
+        raise BadFileError("has a chunk table that does not fit its points: it is damaged")
+
+
+# Writers that could not seek put it at the end of the file.
+def _begin_of_table(file: BinaryIO, size: int, begin: int) -> int:
+    file.seek(begin)
+    table = int.from_bytes(file.read(8), "little", signed=True)
+    if table == -1:
+        file.seek(size - 8)
+        table = int.from_bytes(file.read(8), "little", signed=True)
+    return table
+
+
+NEVER_CLASSIFIED = 0
+UNCLASSIFIED = 1
+GROUND = 2
+LOW_POINT = 7
+
+DEFAULT_OVERWRITE_CLASSES = (NEVER_CLASSIFIED, UNCLASSIFIED, GROUND, LOW_POINT)
+"""All that says nothing but ground, noise or neither: what others found (plants, buildings, water) stays."""
+
+_nonground, _ground, _noise = 0, 1, 2  # codes of flagstone.Label that judge a point
+_label_count = 5
+
+
+def class_table(overwrite_classes: Iterable[int]) -> npt.NDArray[np.uint8]:
+    """Which class a point gets by its label and the class it has: a table of shape (5, 256).
+
+    Raises:
+        ValueError: A class is not 0 to 255.
+    """
+    table = np.tile(np.arange(256, dtype=np.uint8), (_label_count, 1))
+    for changeable in overwrite_classes:
+        code = _class_code(changeable)
+        table[_ground, code] = GROUND
+        table[_noise, code] = LOW_POINT
+        if code in (NEVER_CLASSIFIED, GROUND, LOW_POINT):
+            table[_nonground, code] = UNCLASSIFIED
+    return table
+
+
+def classes_from_labels(
+    classes: npt.NDArray[Any], labels: npt.NDArray[Any], overwrite_classes: Iterable[int] = DEFAULT_OVERWRITE_CLASSES
+) -> npt.NDArray[np.uint8]:
+    """The classes of points after a segmentation; both arrays of shape (N,)."""
+    wrong = (classes < 0) | (classes > 255) | (classes != np.rint(classes))
+    if wrong.any():
+        first = int(np.argmax(wrong))
+        raise ValueError(f"classification of point {first} is {classes[first]}; LAS holds whole numbers of 0 to 255")
+    after: npt.NDArray[np.uint8] = class_table(overwrite_classes)[checked_labels(labels), classes.astype(np.uint8)]
+    return after
+
+
+def checked_labels(labels: npt.ArrayLike) -> npt.NDArray[np.uint8]:
+    """Codes of `flagstone.Label` as uint8.
+
+    Raises:
+        TypeError: They are no integers.
+        ValueError: One is not 0 to 4, or they are not in one row.
+    """
+    array = np.asarray(labels)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"labels: an array of {array.dtype} came; wanted codes of flagstone.Label, integers of 0 to 4")
+    if array.ndim != 1:
+        raise ValueError(f"labels: an array of shape {array.shape} came; wanted (N,), one code a point")
+    wrong = (array < 0) | (array >= _label_count)
+    if wrong.any():
+        first = int(np.argmax(wrong))
+        raise ValueError(f"labels: that of point {first} is {array[first]}; wanted codes of flagstone.Label, 0 to 4")
+    return array.astype(np.uint8, copy=False)
+
+
+def _class_code(value: int) -> int:
+    try:
+        code = operator.index(value)
+    except TypeError:
+        code = -1
+    if not 0 <= code <= 255:
+        raise ValueError(f"overwrite_classes: {value!r} is no class of LAS; wanted whole numbers of 0 to 255")
+    return code

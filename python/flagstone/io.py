@@ -143,14 +143,14 @@ def read_labels(path: Path, points: int) -> npt.NDArray[np.uint32]:
 
 
 def write_labels(
-    path: Path, labels: npt.ArrayLike, *, label_map: Literal["flagstone", "semantic_kitti"] = "flagstone"
+    path: Path, labels: npt.ArrayLike, *, label_map: Literal["flagstone", "semantic-kitti"] = "flagstone"
 ) -> None:
     """Writes one label a point; the file is there whole or not at all.
 
     Args:
         path: .label (SemanticKITTI's layout: uint32) or .npy (uint8); the name says the format.
         labels: (N,) codes, 0 to 4.
-        label_map: What number stands for a label: "flagstone", its own code; "semantic_kitti", 40 (road) for ground
+        label_map: What number stands for a label: "flagstone", its own code; "semantic-kitti", 40 (road) for ground
             and 0 (unlabelled) for all else.
 
     Raises:
@@ -160,13 +160,13 @@ def write_labels(
     name = os.fspath(path)
     if not name.lower().endswith((".label", ".npy")):
         raise ValueError(f"{name}: labels are written as .label or .npy")
-    if label_map not in ("flagstone", "semantic_kitti"):
-        raise ValueError(f"label_map = {label_map!r} is not known; there are flagstone and semantic_kitti")
+    if label_map not in ("flagstone", "semantic-kitti"):
+        raise ValueError(f"label_map = {label_map!r} is not known; there are flagstone and semantic-kitti")
     codes = np.asarray(labels)
     if codes.ndim != 1 or codes.dtype.kind not in "ui" or (codes.size and not 0 <= codes.min() <= codes.max() <= 4):
         raise ValueError(f"{name}: labels are whole numbers from 0 to 4 in one row; came {codes.dtype} {codes.shape}")
     compact = np.ascontiguousarray(codes, np.uint8)
-    _core.write_labels(name, compact, label_map == "semantic_kitti", name.lower().endswith(".npy"))
+    _core.write_labels(name, compact, label_map == "semantic-kitti", name.lower().endswith(".npy"))
 
 
 def format_of(path: Path) -> str | None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import numpy as np
 import pytest
 from las_files import laspy, point_formats, set_classes, write_copc, write_random_las
 
-from flagstone import _las_copy
+from flagstone import _las_classify
 from flagstone.io import classify_las
 
 GROUND, NONGROUND, NOISE, OUT_OF_RANGE, INVALID = 1, 0, 2, 3, 4
@@ -24,9 +25,9 @@ def random_labels(count: int, seed: int = 2) -> np.ndarray[Any, Any]:
     return np.random.default_rng(seed).integers(0, 5, count, np.uint8)
 
 
-def class_of(before: int, label: int, may_change: set[int]) -> int:
+def class_of(before: int, label: int, overwrite_classes: set[int]) -> int:
     """The rule, a point at a time."""
-    if before not in may_change or label in (OUT_OF_RANGE, INVALID):
+    if before not in overwrite_classes or label in (OUT_OF_RANGE, INVALID):
         return before
     if label == GROUND:
         return 2
@@ -43,11 +44,11 @@ def test_points_get_the_class_that_the_rule_says(tmp_path: Path, point_format: i
     before = np.asarray(laspy.read(source).classification)
     labels = random_labels(len(before))
     random = np.random.default_rng(point_format)
-    for may_change in ({0, 1, 2, 7}, set(), set(range(256)), set(random.integers(0, 32, 9).tolist())):
-        counts = classify_las(source, copy, labels, may_change=may_change)
+    for overwrite_classes in ({0, 1, 2, 7}, set(), set(range(256)), set(random.integers(0, 32, 9).tolist())):
+        counts = classify_las(source, copy, labels, overwrite_classes=overwrite_classes)
         after = np.asarray(laspy.read(copy).classification)
         assert after.tolist() == [
-            class_of(*each, may_change) for each in zip(before.tolist(), labels.tolist(), strict=True)
+            class_of(*each, overwrite_classes) for each in zip(before.tolist(), labels.tolist(), strict=True)
         ]
         assert counts == dict(zip(*(each.tolist() for each in np.unique(after, return_counts=True)), strict=True))
 
@@ -57,7 +58,7 @@ def test_a_las_file_differs_in_the_bits_of_classes_only(tmp_path: Path, point_fo
     source, copy = tmp_path / "a.las", tmp_path / "b.las"
     write_random_las(source, point_format)
     labels = random_labels(1000)
-    classify_las(source, copy, labels, may_change=range(256))
+    classify_las(source, copy, labels, overwrite_classes=range(256))
     before, after = (np.frombuffer(file.read_bytes(), np.uint8) for file in (source, copy))
     with laspy.open(source) as reader:
         begin, row = reader.header.offset_to_point_data, reader.header.point_format.size
@@ -73,7 +74,7 @@ def test_a_las_file_differs_in_the_bits_of_classes_only(tmp_path: Path, point_fo
 def test_a_laz_file_keeps_everything_else(tmp_path: Path, point_format: int) -> None:
     source, copy = tmp_path / "a.laz", tmp_path / "b.laz"
     write_random_las(source, point_format)
-    classify_las(source, copy, random_labels(1000), may_change=range(256))
+    classify_las(source, copy, random_labels(1000), overwrite_classes=range(256))
     with laspy.open(source) as before, laspy.open(copy) as after:
         begin = before.header.offset_to_point_data
         moved = slice(227, 243) if str(before.header.version) == "1.4" else slice(0, 0)
@@ -94,11 +95,11 @@ def test_a_laz_file_keeps_everything_else(tmp_path: Path, point_format: int) -> 
 
 @pytest.mark.parametrize("ending", endings)
 def test_flags_beside_a_class_of_five_bits_stay(tmp_path: Path, ending: str) -> None:
-    file = tmp_path / f"a.{ending}"
+    file, copy = (tmp_path / f"{name}.{ending}" for name in "ab")
     write_random_las(file, 1)
     before = laspy.read(file)
-    classify_las(file, file, np.full(1000, GROUND), may_change=range(32))
-    after = laspy.read(file)
+    classify_las(file, copy, np.full(1000, GROUND), overwrite_classes=range(32))
+    after = laspy.read(copy)
     assert (after.classification == 2).all()
     for flag in ("synthetic", "key_point", "withheld"):
         assert np.asarray(before[flag]).any()
@@ -106,16 +107,16 @@ def test_flags_beside_a_class_of_five_bits_stay(tmp_path: Path, ending: str) -> 
 
 
 def test_what_others_classified_stays_unless_it_may_change(tmp_path: Path) -> None:
-    file = tmp_path / "a.las"
+    file, copy = tmp_path / "a.las", tmp_path / "b.las"
     write_random_las(file, 6)
     others = np.setdiff1d(np.arange(256, dtype=np.uint8), [0, 1, 2, 7])
     set_classes(file, np.resize(others, 1000))
     before = file.read_bytes()
     for label in (GROUND, NONGROUND, NOISE):
-        classify_las(file, file, np.full(1000, label))
-        assert file.read_bytes() == before
-    classify_las(file, file, np.full(1000, GROUND), may_change=range(256))
-    assert (laspy.read(file).classification == 2).all()
+        classify_las(file, copy, np.full(1000, label))
+        assert copy.read_bytes() == before
+    classify_las(file, copy, np.full(1000, GROUND), overwrite_classes=range(256))
+    assert (laspy.read(copy).classification == 2).all()
 
 
 @pytest.mark.parametrize("ending", endings)
@@ -134,7 +135,7 @@ def test_many_points_go_through_in_parts(tmp_path: Path, ending: str, monkeypatc
     write_random_las(source, 6, count=1003)
     labels = random_labels(1003)
     classify_las(source, whole, labels)
-    monkeypatch.setattr(_las_copy, "points_at_once", 100)
+    monkeypatch.setattr(_las_classify, "points_at_once", 100)
     classify_las(source, parts, labels)
     assert whole.read_bytes() == parts.read_bytes()
 
@@ -193,13 +194,13 @@ def test_a_loss_in_compression_is_noticed_and_the_destination_left(
             self.compressor.done()
 
     careful = lazrs.ParLasZipCompressor
-    file = tmp_path / "a.laz"
+    file, copy = tmp_path / "a.laz", tmp_path / "b.laz"
     write_random_las(file, 6)
-    before = file.read_bytes()
+    copy.write_bytes(b"before")
     monkeypatch.setattr(lazrs, "ParLasZipCompressor", Careless)
     with pytest.raises(ValueError, match=r"a\.laz: cannot be compressed by lazrs without loss; uncompress it to LAS"):
-        classify_las(file, file, np.full(1000, GROUND))
-    assert file.read_bytes() == before
+        classify_las(file, copy, np.full(1000, GROUND))
+    assert copy.read_bytes() == b"before"
 
 
 def test_labels_that_do_not_fit_are_one_line(tmp_path: Path) -> None:
@@ -213,8 +214,10 @@ def test_labels_that_do_not_fit_are_one_line(tmp_path: Path) -> None:
         classify_las(source, copy, np.zeros(1000))
     with pytest.raises(ValueError, match=r"labels: an array of shape \(10, 100\) came; wanted \(N,\)"):
         classify_las(source, copy, np.zeros((10, 100), np.uint8))
-    with pytest.raises(ValueError, match=r"may_change: 256 is no class of LAS; wanted whole numbers of 0 to 255"):
-        classify_las(source, copy, np.zeros(1000, np.uint8), may_change=[256])
+    with pytest.raises(
+        ValueError, match=r"overwrite_classes: 256 is no class of LAS; wanted whole numbers of 0 to 255"
+    ):
+        classify_las(source, copy, np.zeros(1000, np.uint8), overwrite_classes=[256])
     assert not copy.exists()
 
 
@@ -227,7 +230,7 @@ def test_endings_that_differ_are_refused(tmp_path: Path) -> None:
 def test_the_index_of_a_copc_file_leads_to_the_same_points_with_their_new_classes(tmp_path: Path) -> None:
     source, copy = tmp_path / "a.copc.laz", tmp_path / "b.copc.laz"
     write_copc(source)
-    classify_las(source, copy, np.full(len(laspy.read(source)), GROUND), may_change=range(256))
+    classify_las(source, copy, np.full(len(laspy.read(source)), GROUND), overwrite_classes=range(256))
     assert (laspy.read(copy).classification == 2).all()
     places = []
     for file in (source, copy):
@@ -249,8 +252,20 @@ def test_a_copc_file_whose_index_is_damaged_is_refused(tmp_path: Path) -> None:
     damaged[-16] ^= 1  # where the chunk of the last node begins
     source.write_bytes(damaged)
     with pytest.raises(ValueError, match=r"a\.copc\.laz: is COPC with an index that does not fit its chunks"):
-        classify_las(source, source, random_labels(laspy.open(source).header.point_count))
-    assert source.read_bytes() == damaged
+        classify_las(source, tmp_path / "b.copc.laz", random_labels(laspy.open(source).header.point_count))
+    assert [path.name for path in tmp_path.iterdir()] == ["a.copc.laz"]
+
+
+@pytest.mark.parametrize("link", [None, Path.hardlink_to, Path.symlink_to])
+def test_the_source_is_not_overwritten(tmp_path: Path, link: Callable[[Path, Path], None] | None) -> None:
+    source, other = tmp_path / "a.copc.laz", tmp_path / "b.laz"
+    write_copc(source)
+    before = source.read_bytes()
+    if link is not None:
+        link(other, source)
+    with pytest.raises(ValueError, match=r"destination: .*\.laz is the source; choose another file"):
+        classify_las(source, source if link is None else other, random_labels(laspy.open(source).header.point_count))
+    assert source.read_bytes() == before
 
 
 def test_a_chunk_table_that_lies_is_refused_before_memory_is_taken_for_it(tmp_path: Path) -> None:
@@ -312,12 +327,13 @@ def test_folders_and_missing_files_are_told(tmp_path: Path) -> None:
 
 
 def test_a_symbolic_link_is_followed(tmp_path: Path) -> None:
-    file, link = tmp_path / "a.las", tmp_path / "link.las"
+    file, copy, link = (tmp_path / f"{name}.las" for name in ("a", "b", "link"))
     write_random_las(file, 6)
-    link.symlink_to(file)
-    classify_las(link, link, np.full(1000, GROUND), may_change=range(256))
+    copy.touch()
+    link.symlink_to(copy)
+    classify_las(file, link, np.full(1000, GROUND), overwrite_classes=range(256))
     assert link.is_symlink()
-    assert (laspy.read(file).classification == 2).all()
+    assert (laspy.read(copy).classification == 2).all()
 
 
 @pytest.mark.parametrize("ending", endings)

@@ -99,7 +99,7 @@ def test_labels_come_back(name: str, scan: Scan, tmp_path: Path) -> None:
 
 
 def test_labels_can_be_written_as_semantickitti_numbers(tmp_path: Path) -> None:
-    io.write_labels(tmp_path / "scan.label", [0, 1, 2, 3, 4], label_map="semantic_kitti")
+    io.write_labels(tmp_path / "scan.label", [0, 1, 2, 3, 4], label_map="semantic-kitti")
     assert list(io.read_labels(tmp_path / "scan.label", 5)) == [0, 40, 0, 0, 0]
 
 

@@ -13,7 +13,6 @@ import pytest
 import flagstone
 
 ray = pytest.importorskip("ray", reason="needs flagstone[ray]")
-pytest.importorskip("ray.data", reason="needs flagstone[ray]")
 
 from ray_scans import DeadlyFiles, files, label_with_command, write_scans  # noqa: E402
 
@@ -70,13 +69,13 @@ def test_labels_are_those_of_the_command_byte_for_byte(scans: Path, tmp_path: Pa
 
 def test_settings_formats_and_places_are_those_asked_for(scans: Path, tmp_path: Path) -> None:
     segmenter = flagstone.Patchwork(sensor="hdl-32e", sensor_height=1.6, uprightness={"angle": 50})
-    asked = {"segmenter": segmenter, "format": "u8", "label_map": "semantic_kitti", "workers": 1}
+    asked = {"segmenter": segmenter, "format": "u8", "label_map": "semantic-kitti", "workers": 1}
     before = files(scans)
     flagstone.ray.segment(scans, None, **asked)  # beside the scans
     options = "--method patchwork --sensor hdl-32e --sensor-height 1.6 --set uprightness.angle=50 --format u8"
     label_with_command(scans, tmp_path / "expected", *options.split(), "--label-map", "semantic-kitti")
     assert files(scans) == before | files(tmp_path / "expected")
-    assert flagstone.ray.segment(scans, None, **asked).finished_before == len(SCANS)  # no label is taken for a scan
+    assert flagstone.ray.segment(scans, None, **asked).already_labelled == len(SCANS)  # no label is taken for a scan
 
 
 def test_what_fails_costs_itself_alone_and_only_what_is_left_is_done(
@@ -116,9 +115,45 @@ def test_other_filesystems_get_the_same_bytes_and_a_deadly_scan_costs_itself_alo
     where = {"source": str(scans), "destination": str(tmp_path / "labels"), "filesystem": DeadlyFiles()}
     summary = flagstone.ray.segment(**where, workers=1)
     deadly, torn = summary.failures
-    assert deadly.error.startswith(f"{scans}/00/deadly.bin: 2 workers died while they had it under work")
+    assert deadly.error.startswith(f"{scans}/00/deadly.bin: 2 workers died while they worked on it")
     assert torn.error.startswith(f"{scans}/02/torn.bin: byte 0: ")
     assert files(tmp_path / "labels") == files(tmp_path / "expected")
     for path in (scans / "00" / "deadly.bin", scans / "02" / "torn.bin"):
         path.unlink()
-    assert flagstone.ray.segment(**where).finished_before == len(SCANS)
+    assert flagstone.ray.segment(**where).already_labelled == len(SCANS)
+
+
+def test_labels_are_not_written_through_a_link_to_a_scan(scans: Path, tmp_path: Path) -> None:
+    before = files(scans)
+    (tmp_path / "labels").mkdir()
+    (tmp_path / "labels" / "a.label").symlink_to(scans / "02" / "g.bin")
+    summary = flagstone.ray.segment(scans, tmp_path / "labels", workers=1)
+    assert [failure.error for failure in summary.failures] == [
+        f"{scans}/a.bin: {tmp_path}/labels/a.label: links to a scan; remove the link or choose another destination"
+    ]
+    assert files(scans) == before
+
+
+def test_what_is_not_a_terminal_gets_a_line_now_and_then(
+    scans: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    flagstone.ray.segment(scans, tmp_path / "labels", workers=1)
+    assert capsys.readouterr().err.startswith(f"listing scans\nstarting Ray for {len(SCANS)} scans\nstarting workers\n")
+    flagstone.ray.segment(scans, tmp_path / "labels", overwrite=True, workers=1, progress=False)
+    assert capsys.readouterr().err == ""
+
+
+def test_scans_whose_rows_were_lost_are_not_labelled_again(scans: Path, tmp_path: Path) -> None:
+    labels = tmp_path / "labels"
+    flagstone.ray.segment(scans, labels, workers=1)
+    _, *rows = sorted((labels / "flagstone-statistics").iterdir())
+    for part in rows:  # as where the driver was killed before it wrote them
+        part.unlink()
+    (labels / "a.label").unlink()
+    kept = {path: path.stat().st_ino for path in labels.rglob("*.label")}
+    summary = flagstone.ray.segment(scans, labels, workers=1)
+    assert (summary.labelled, summary.already_labelled) == (1, len(SCANS) - 1)
+    assert all(path.stat().st_ino == number for path, number in kept.items())
+    frame = flagstone.ray.statistics(labels)
+    assert len(frame) == len(SCANS) and frame["points"].notna().all() and frame["ground"].notna().sum() == 1
+    assert flagstone.ray.segment(scans, labels).already_labelled == len(SCANS)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -14,21 +15,19 @@ import pytest
 
 import flagstone
 
-pytest.importorskip("ray.data", reason="needs flagstone[ray]")
+pytest.importorskip("ray", reason="needs flagstone[ray]")
 pa = pytest.importorskip("pyarrow")
 
 import pyarrow.fs  # noqa: E402
 
 import flagstone.ray  # noqa: E402
 from flagstone.ray import command, plan  # noqa: E402
-from flagstone.ray.job import as_table, in_batches  # noqa: E402
-from flagstone.ray.place import Place, is_object_store, place  # noqa: E402
-from flagstone.ray.progress import progress_text  # noqa: E402
-from flagstone.ray.scan_names import label_bytes, label_name  # noqa: E402
+from flagstone.ray.job import in_batches  # noqa: E402
+from flagstone.ray.location import File, Location, is_object_store, location_of  # noqa: E402
+from flagstone.ray.plan import label_bytes, label_name  # noqa: E402
 from flagstone.ray.statistics import StatisticsWriter, read_rows, schema  # noqa: E402
 from flagstone.ray.summary import Failure, Summary  # noqa: E402
-from flagstone.ray.under_work import UnderWork  # noqa: E402
-from flagstone.ray.worker import Task, label_file, one_line  # noqa: E402
+from flagstone.ray.worker import InProgressLog, Task, label_file, one_line  # noqa: E402
 
 HERE = pyarrow.fs.LocalFileSystem()
 
@@ -52,7 +51,7 @@ def test_labels_are_named_after_their_scan(scan: str, label: str) -> None:
 
 
 @pytest.mark.parametrize("format", ["label", "u8"])
-@pytest.mark.parametrize("label_map", ["flagstone", "semantic_kitti"])
+@pytest.mark.parametrize("label_map", ["flagstone", "semantic-kitti"])
 @pytest.mark.parametrize("points", [0, 1, 9, 123_456])
 def test_label_files_in_memory_are_those_that_io_writes(
     tmp_path: Path, format: str, label_map: str, points: int
@@ -67,23 +66,23 @@ def test_label_files_in_memory_are_those_that_io_writes(
 @pytest.mark.parametrize("method", flagstone.method_names())
 def test_workers_segment_as_the_segmenter_that_was_given(method: str) -> None:
     given = flagstone.make_segmenter(method, sensor="os0-128", sensor_height=1.5)
-    task = Task(given.method, given.settings, Place("/a"), Place("/b"), "label", "flagstone", None)
+    task = Task(given.method, given.settings, Location("/a"), Location("/b"), "label", "flagstone", None)
     assert task.segmenter().settings == given.settings
 
 
-class TestPlace:
+class TestLocation:
     def test_of_a_path_is_local_and_absolute(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.chdir(tmp_path)
         assert (
-            place("scans/")
-            == place(tmp_path / "scans")
-            == place(f"file://{tmp_path}/scans")
-            == Place(str(tmp_path / "scans"))
+            location_of("scans/")
+            == location_of(tmp_path / "scans")
+            == location_of(f"file://{tmp_path}/scans")
+            == Location(str(tmp_path / "scans"))
         )
 
     def test_of_an_unknown_url_is_refused_in_one_line(self) -> None:
         with pytest.raises(ValueError, match=r"^nowhere://a/b: no filesystem for this URL") as caught:
-            place("nowhere://a/b")
+            location_of("nowhere://a/b")
         assert "\n" not in str(caught.value)
 
     @pytest.mark.parametrize("filesystem", [None, HERE])
@@ -91,19 +90,20 @@ class TestPlace:
         (tmp_path / "a" / "b").mkdir(parents=True)
         (tmp_path / "a" / "b" / "c.bin").write_bytes(bytes(7))
         (tmp_path / "d.bin").write_bytes(b"")
-        here = Place(str(tmp_path), filesystem)
-        assert sorted(here.files()) == [("a/b/c.bin", 7), ("d.bin", 0)]
+        here = Location(str(tmp_path), filesystem)
+        assert sorted(file[:2] for file in here.files()) == [("a/b/c.bin", 7), ("d.bin", 0)]
+        assert all(file.modified == (tmp_path / file.name).stat().st_mtime_ns / 1e9 for file in here.files())
         assert list(here.below("none").files()) == []
 
     def test_does_not_follow_links_to_folders(self, tmp_path: Path) -> None:
         (tmp_path / "loop").symlink_to(tmp_path)
         (tmp_path / "a.bin").write_bytes(b"")
         (tmp_path / "b.bin").symlink_to(tmp_path / "a.bin")
-        assert sorted(name for name, _ in Place(str(tmp_path)).files()) == ["a.bin", "b.bin"]
+        assert sorted(file.name for file in Location(str(tmp_path)).files()) == ["a.bin", "b.bin"]
 
     @pytest.mark.parametrize("filesystem", [None, HERE])
     def test_writes_files_whole(self, tmp_path: Path, filesystem: pyarrow.fs.FileSystem | None) -> None:
-        here = Place(str(tmp_path), filesystem)
+        here = Location(str(tmp_path), filesystem)
         for data in (b"first", b"second, longer"):
             here.write("a/b/c.label", data)
             assert here.read("a/b/c.label") == data
@@ -116,7 +116,7 @@ class TestPlace:
         (tmp_path / "c.label").mkdir()
         (tmp_path / "c.label" / "full").touch()
         with pytest.raises(OSError, match=r"c\.label"):
-            Place(str(tmp_path), filesystem).write("c.label", b"data")
+            Location(str(tmp_path), filesystem).write("c.label", b"data")
         assert [path.name for path in tmp_path.iterdir()] == ["c.label"]
 
     def test_knows_object_stores_whose_puts_are_whole(self) -> None:
@@ -129,26 +129,26 @@ class TestPlace:
         assert is_object_store(pyarrow.fs.PyFileSystem(pyarrow.fs.FSSpecHandler(local)))
 
 
-class TestUnderWork:
+class TestInProgressLog:
     def test_knows_what_predecessors_died_of(self, tmp_path: Path) -> None:
         held = []
         for _ in range(2):  # two predecessors, each killed in the midst of scan b
-            killed = UnderWork(tmp_path / "notes")
+            killed = InProgressLog(tmp_path / "notes")
             with killed.on("a"):
                 pass
             held.append(killed.on("b\nc"))
             held[-1].__enter__()
-        successor = UnderWork(tmp_path / "notes")
+        successor = InProgressLog(tmp_path / "notes")
         assert [successor.deaths(scan) for scan in ("a", "b\nc", "c")] == [0, 2, 0]
 
     def test_begins_without_deaths(self, tmp_path: Path) -> None:
-        assert UnderWork(tmp_path / "notes").deaths("a") == 0
+        assert InProgressLog(tmp_path / "notes").deaths("a") == 0
 
 
 class TestStatistics:
     def test_are_read_in_the_order_they_were_written(self, tmp_path: Path) -> None:
         for error in ("torn", None):
-            writer = StatisticsWriter(Place(str(tmp_path / "flagstone-statistics")), {"version": "1"})
+            writer = StatisticsWriter(Location(str(tmp_path / "flagstone-statistics")), {"version": "1"})
             writer.add(rows_of({"path": "a.bin", "error": error}))
             writer.add(rows_of({"path": "b.bin"}))
             writer.flush()
@@ -163,8 +163,8 @@ class TestStatistics:
 
     def test_say_which_file_is_none_of_theirs(self, tmp_path: Path) -> None:
         (tmp_path / "x.parquet").write_bytes(b"torn")
-        with pytest.raises(ValueError, match=r"x\.parquet: no statistics of flagstone"):
-            read_rows(Place(str(tmp_path)))
+        with pytest.raises(ValueError, match=r"x\.parquet: not statistics of flagstone"):
+            read_rows(Location(str(tmp_path)))
 
 
 class TestFindScans:
@@ -172,21 +172,28 @@ class TestFindScans:
         for name in ("b.bin", "a/c.npy", "a/c.label.npy", ".hidden.bin", "note.txt"):
             (tmp_path / name).parent.mkdir(exist_ok=True)
             (tmp_path / name).write_bytes(b"123")
-        source, scans = plan.find_scans(Place(str(tmp_path)))
-        assert source == Place(str(tmp_path))
-        assert list(scans.items()) == [("a/c.npy", 3), ("b.bin", 3)]
+        source, scans = plan.find_scans(Location(str(tmp_path)))
+        assert source == Location(str(tmp_path))
+        assert [(name, file.size) for name, file in scans.items()] == [("a/c.npy", 3), ("b.bin", 3)]
 
     def test_takes_a_single_one(self, tmp_path: Path) -> None:
         (tmp_path / "b.bin").write_bytes(b"123")
-        assert plan.find_scans(Place(str(tmp_path / "b.bin"))) == (Place(str(tmp_path)), {"b.bin": 3})
+        source, scans = plan.find_scans(Location(str(tmp_path / "b.bin")))
+        assert source == Location(str(tmp_path)) and scans["b.bin"].size == 3
 
 
 class TestFinishedScans:
-    def finished(self, tmp_path: Path, scans: plan.Scans, **row: object) -> set[str]:
-        writer = StatisticsWriter(Place(str(tmp_path / "flagstone-statistics")), {})
+    """Of a destination with a row of a.bin, 160 bytes and 10 points, in the statistics."""
+
+    def finished(self, tmp_path: Path, scans: dict[str, int], **row: object) -> set[str]:
+        writer = StatisticsWriter(Location(str(tmp_path / "flagstone-statistics")), {})
         writer.add(rows_of({"path": "a.bin", "bytes": 160, "points": 10, **row}))
         writer.flush()
-        return plan.finished_scans(scans, Place(str(tmp_path)), "label", {})
+        return self.found(tmp_path, scans).scans
+
+    def found(self, tmp_path: Path, scans: dict[str, int], modified: float = 0) -> plan.Finished:
+        files = {name: File(name, size, modified) for name, size in scans.items()}
+        return plan.finished_scans(files, Location(str(tmp_path)), "label", {})
 
     def test_have_a_row_and_labels_of_the_right_size(self, tmp_path: Path) -> None:
         (tmp_path / "a.label").write_bytes(bytes(40))
@@ -199,20 +206,38 @@ class TestFinishedScans:
             (tmp_path / "a.label").write_bytes(bytes(size))
         assert self.finished(tmp_path, {"a.bin": 160}) == set()
 
-    def test_are_not_those_that_have_changed(self, tmp_path: Path) -> None:
+    def test_are_not_those_that_have_changed_or_failed(self, tmp_path: Path) -> None:
         (tmp_path / "a.label").write_bytes(bytes(40))
         assert self.finished(tmp_path, {"a.bin": 176}) == set()
+        assert self.finished(tmp_path, {"a.bin": 160}, error="torn", points=None) == set()
 
     def test_are_none_once_the_statistics_are_forgotten(self, tmp_path: Path) -> None:
         (tmp_path / "a.label").write_bytes(bytes(40))
         assert self.finished(tmp_path, {"a.bin": 160}) == {"a.bin"}
-        plan.forget(Place(str(tmp_path)))
-        assert plan.finished_scans({"a.bin": 160}, Place(str(tmp_path)), "label", {}) == set()
+        plan.forget(Location(str(tmp_path)))
+        assert self.found(tmp_path, {"a.bin": 160}).scans == set()
         assert (tmp_path / "a.label").exists()
 
-    def test_are_not_those_that_failed(self, tmp_path: Path) -> None:
+    def test_are_those_whose_rows_a_killed_run_has_lost(self, tmp_path: Path) -> None:
+        for name in ("before", "other"):
+            (tmp_path / f"{name}.label").write_bytes(bytes(40))
+        os.utime(tmp_path / "before.label", (1, 1))
+        StatisticsWriter(Location(str(tmp_path / "flagstone-statistics")), {}).begin()
         (tmp_path / "a.label").write_bytes(bytes(40))
-        assert self.finished(tmp_path, {"a.bin": 160}, error="torn", points=None) == set()
+        (tmp_path / "torn.label").write_bytes(bytes(41))
+        scans = {"a.bin": 160, "before.bin": 160, "torn.bin": 160, "missing.bin": 160}
+        assert self.found(tmp_path, scans) == ({"a.bin"}, {"a.bin": 10})
+        assert self.found(tmp_path, scans, modified=(tmp_path / "a.label").stat().st_mtime + 1) == (set(), {})
+
+    def test_are_found_where_a_killed_run_has_left_files_half_written(self, tmp_path: Path) -> None:
+        self.finished(tmp_path, {})
+        dead = subprocess.Popen(["true"])
+        dead.wait()
+        kept = [f".flagstone-{os.getpid()}-0.tmp", ".flagstone-mine.tmp", "a.tmp"]
+        for name in [f".flagstone-{dead.pid}-12.tmp", f".flagstone-{dead.pid}-py3.tmp", *kept]:
+            (tmp_path / name).touch()
+        self.found(tmp_path, {})
+        assert sorted(path.name for path in tmp_path.iterdir() if path.is_file()) == sorted(kept)
 
 
 def test_errors_are_one_line_that_names_the_scan_once() -> None:
@@ -223,16 +248,10 @@ def test_errors_are_one_line_that_names_the_scan_once() -> None:
     assert one_line(MemoryError(), "a.bin") == "a.bin: MemoryError"
 
 
-def test_progress_says_how_long_the_rest_takes() -> None:
-    assert progress_text(0, 100, None) == f"[{' ' * 30}] 0 of 100 scans"
-    assert progress_text(50, 100, 1.8) == f"[{'#' * 15}{' ' * 15}] 50 of 100 scans, 1 min 30 s left"
-    assert progress_text(100, 100, 1.8) == f"[{'#' * 30}] 100 of 100 scans"
-
-
 def test_a_summary_lists_what_failed_and_why() -> None:
     failures = tuple(Failure(f"{i:02}.bin", f"/s/{i:02}.bin: torn") for i in range(25))
     text = str(Summary(30, 2, 3, failures, 30, 480, 0.5, 2, 3.0, 6.0, 1.5, "/d/flagstone-statistics"))
-    assert text.startswith("3 of 30 scans labelled, 30 points; 2 were finished before\n6.0 scans a second")
+    assert text.startswith("3 of 30 scans labelled, 30 points; 2 were already labelled\n6.0 scans a second")
     assert "25 failed:\n  /s/00.bin: torn\n" in text
     assert "/s/19.bin" in text
     assert "/s/20.bin" not in text
@@ -251,7 +270,7 @@ class TestUsage:
         ("options", "message"),
         [
             (["--format", "pcd"], "format='pcd': allowed are label, u8"),
-            (["--label-map", "x"], "label_map='x': allowed are flagstone, semantic_kitti"),
+            (["--label-map", "x"], "label_map='x': allowed are flagstone, semantic-kitti"),
             (["--columns", "2"], "columns=2: not a whole number within 3 to 1024"),
             (["--workers", "0"], "workers=0: not a whole number within 1 to 100000"),
             (["--method", "magic"], "magic"),
@@ -285,6 +304,11 @@ class TestUsage:
         with pytest.raises(ValueError, match=r"a\.bin and .*a\.npy would both write to a\.label"):
             flagstone.ray.segment(scan)
 
+    def test_a_scan_named_as_its_labels_is_refused(self, scan: Path) -> None:
+        (scan / "a.bin").rename(scan / "a.label")
+        with pytest.raises(ValueError, match=r"a\.label: is named as its own labels would be"):
+            flagstone.ray.segment(scan / "a.label")
+
     def test_names_that_are_not_utf8_are_refused(self, scan: Path) -> None:
         Path(os.fsdecode(bytes(scan) + b"/\xe9.bin")).write_bytes(b"")
         with pytest.raises(ValueError, match=r"the name '\\udce9\.bin' is not UTF-8; rename it"):
@@ -293,25 +317,23 @@ class TestUsage:
     def test_a_destination_of_other_settings_is_refused(self, scan: Path) -> None:
         settings = json.loads(json.dumps(flagstone.Surface(sensor_height=2.5).settings))
         made_with = {"version": flagstone.__version__, "method": "surface", "settings": settings}
-        writer = StatisticsWriter(Place(str(scan / "flagstone-statistics")), made_with)
+        writer = StatisticsWriter(Location(str(scan / "flagstone-statistics")), made_with)
         writer.add(rows_of({"path": "a.bin"}))
         writer.flush()
         with pytest.raises(ValueError, match=r"another settings\.sensor_height, 2\.5 instead of 1\.73"):
             flagstone.ray.segment(scan)
 
     def test_a_cluster_that_is_not_there_is_one_line(self, scan: Path, capsys: pytest.CaptureFixture[str]) -> None:
-        assert command.main([str(scan), "--beside", "--address", "127.0.0.1:1"]) == 2
-        error = capsys.readouterr().err
+        assert command.main([str(scan), "--in-place", "--address", "127.0.0.1:1"]) == 2
+        error = capsys.readouterr().err.splitlines()[-1]
         assert error.startswith("flagstone-ray: Ray at 127.0.0.1:1: cannot be had: ")
-        assert error.count("\n") == 1
 
 
 @pytest.mark.parametrize(("scans", "workers"), [(1, 8), (17, 2), (2000, 2), (50_000, 3)])
 def test_batches_hold_every_scan_once_and_grow_smaller(scans: int, workers: int) -> None:
-    names = {f"{i}.bin": 16 for i in range(scans)}
-    batches = in_batches(as_table(names), workers)
-    assert [name for batch in batches for name in batch["path"].to_pylist()] == list(names)
-    sizes = [batch.num_rows for batch in batches]
+    todo = [(f"{i}.bin", 16) for i in range(scans)]
+    batches = list(in_batches(todo, workers))
+    assert [scan for batch in batches for scan in batch] == todo
+    sizes = [len(batch) for batch in batches]
     assert sizes == sorted(sizes, reverse=True)
-    assert sizes[0] <= 1024
-    assert sizes[-1] <= 16
+    assert sizes[0] <= 256 and sizes[-1] <= 16

@@ -103,7 +103,7 @@ def test_every_patch_with_a_plane_is_a_quad_in_the_colour_of_its_verdict(
 
 def test_quads_fill_their_bins(scan: Scan) -> None:
     result = flagstone.Patchwork().segment(scan)
-    from flagstone._patch_quads import patch_quads
+    from flagstone._geometry import patch_quads
 
     for patch, quad in zip(result.patches, patch_quads(result), strict=True):
         if patch["zone"] == 1 and abs(patch["normal"][2]) > 0.999:
@@ -149,7 +149,7 @@ def test_surface_is_a_mesh_on_the_surface(result: flagstone.Segmentation, record
 
 
 def test_surface_mesh_has_no_gaps_where_grids_meet(scan: Scan) -> None:
-    from flagstone._surface_mesh import surface_mesh
+    from flagstone._geometry import surface_mesh
 
     mesh = surface_mesh(flagstone.Surface().segment(scan))
     edges = np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
@@ -165,8 +165,7 @@ def test_a_leaning_sensors_quads_and_surface_lie_among_its_points() -> None:
     level = made_up_scan()[:, :3]
     leaning = (level @ axes).astype(np.float32)
     result = flagstone.Surface(tilt=tuple(axes[2])).segment(leaning)
-    from flagstone._patch_quads import patch_quads
-    from flagstone._surface_mesh import surface_mesh
+    from flagstone._geometry import patch_quads, surface_mesh
 
     on_ground = result.patches["verdict"] == flagstone.Verdict.GROUND
     quads = np.concatenate([q for q, ground in zip(patch_quads(result), on_ground, strict=True) if ground])

@@ -4,19 +4,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from flagstone._level_frame import level_frame
+from flagstone._geometry import level_frame, outline, patch_bins
 from flagstone._optional import needs
-from flagstone._palette import PANEL, TINT, VERDICTS, ZONE_LINE, Color, in_words, shares
-from flagstone._patch_bins import outline, patch_bins
+from flagstone._palette import LABELS, PANEL, TINT, VERDICTS, ZONE_LINE, Color, in_words, shares
 from flagstone._points import Column, PointsLike, columns_of
 from flagstone.codes import Label, Verdict
 from flagstone.plot._axes import add_color_bar, color_map, draw_rings, draw_sensor, view_from_above, width_in_points
-from flagstone.plot._kinds import Kind, by_label, by_truth, labels_of
 from flagstone.segmentation import Segmentation
 
 if TYPE_CHECKING:
@@ -247,3 +245,62 @@ def _percent(part: int, whole: int) -> str:
     if 0 < part < 0.0005 * whole:
         return "<0.1 %"
     return f"{100 * part / max(whole, 1):.1f} %"
+
+
+class Kind(NamedTuple):
+    """Which points look so."""
+
+    name: str
+    color: Color
+    mask: npt.NDArray[np.bool_]
+    """(N,): true for its points."""
+    size: float = 1
+    """Diameter relative to that of ordinary points."""
+
+
+def labels_of(result: Segmentation | npt.ArrayLike, points: int) -> npt.NDArray[np.uint8]:
+    """(N,): codes of labels, from a result or from what another program says.
+
+    Raises:
+        ValueError: They are not as many as the points, or other codes.
+    """
+    labels = result.labels if isinstance(result, Segmentation) else np.asarray(result)
+    if labels.shape != (points,):
+        raise ValueError(
+            f"result: labels of shape {labels.shape} for {points} points; pass what segmenting these points gave"
+        )
+    if labels.dtype.kind not in "bui" or not np.isin(labels, list(Label)).all():
+        raise ValueError(f"result: {labels.dtype} that are no labels; wanted are codes of 0 to 4, or a mask of ground")
+    return labels.astype(np.uint8)
+
+
+def by_label(labels: npt.NDArray[np.uint8]) -> list[Kind]:
+    """Kinds by label, in the order of drawing: what comes later lies on top."""
+    order = (Label.OUT_OF_RANGE, Label.GROUND, Label.NONGROUND, Label.NOISE)
+    sizes = {Label.NOISE: 1.3}
+    return [Kind(in_words(label), LABELS[label], labels == label, sizes.get(label, 1)) for label in order]
+
+
+def by_truth(labels: npt.NDArray[np.uint8], reference: npt.ArrayLike) -> list[Kind]:
+    """Kinds by comparing labels and reference, in the order of drawing.
+
+    Errors are larger, so that they show among many right points and without telling red from green.
+
+    Raises:
+        ValueError: The reference is no mask of as many points.
+    """
+    truth: np.ma.MaskedArray[Any, np.dtype[Any]] = np.ma.asarray(reference)
+    if truth.shape != labels.shape or truth.dtype.kind != "b":
+        raise ValueError(
+            f"reference: {truth.dtype} of shape {truth.shape} for {len(labels)} points; wanted is a mask (N,), "
+            "true for ground"
+        )
+    scored = ~np.ma.getmaskarray(truth)
+    is_ground, said = np.ma.getdata(truth), labels == Label.GROUND
+    return [
+        Kind("not scored", (70, 77, 87), ~scored),
+        Kind("true positive", (44, 166, 96), scored & is_ground & said),
+        Kind("true negative", (140, 148, 158), scored & ~is_ground & ~said),
+        Kind("false negative", (66, 140, 255), scored & is_ground & ~said, 1.5),
+        Kind("false positive", (255, 72, 56), scored & ~is_ground & said, 1.5),
+    ]

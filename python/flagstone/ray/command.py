@@ -20,7 +20,7 @@ EXAMPLES = """\
 examples:
   flagstone-ray scans/ --output labels/
   flagstone-ray s3://bucket/scans --output s3://bucket/labels --address auto
-  flagstone-ray scans/ --beside --method patchwork --sensor hdl-32e --set distance_margin=0.1
+  flagstone-ray scans/ --in-place --method patchwork --sensor hdl-32e --set distance_margin=0.1
 
 Run again, it does what is left. Exit codes: 0 all done, 1 some scans failed, 2 wrong usage.
 """
@@ -37,7 +37,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("source", help="folder of scans, or one scan: a path, or a URL such as s3://bucket/scans")
     where = parser.add_mutually_exclusive_group(required=True)
     where.add_argument("-o", "--output", metavar="DIR", help="folder or URL for the labels, mirrors the source")
-    where.add_argument("--beside", action="store_true", help="write the labels beside the scans")
+    where.add_argument("--in-place", action="store_true", help="write the labels next to the scans")
     parser.add_argument("--method", default="surface", metavar="NAME", help="how to segment; default: surface")
     parser.add_argument("--preset", default="default", metavar="NAME", help="settings patchwork starts from")
     parser.add_argument("--sensor", metavar="NAME|FILE", help="derive settings from this sensor")
@@ -54,7 +54,7 @@ def make_parser() -> argparse.ArgumentParser:
         "--label-map", default="flagstone", metavar="flagstone|semantic-kitti", help="codes in the label files"
     )
     parser.add_argument("--columns", type=int, metavar="N", help="floats a point in .bin files")
-    parser.add_argument("--again", action="store_true", help="do all scans anew, finished ones too")
+    parser.add_argument("--overwrite", action="store_true", help="label all scans again, finished ones too")
     parser.add_argument("--address", help="Ray cluster to join; default: RAY_ADDRESS, or Ray started for this run")
     parser.add_argument("--workers", type=int, metavar="N", help="cores to use; default: all")
     parser.add_argument("--version", action="version", version=flagstone.__version__)
@@ -87,9 +87,9 @@ def main(arguments: list[str] | None = None) -> int:
             options.output,
             segmenter=segmenter,
             format=options.format,
-            label_map=options.label_map.replace("-", "_"),
+            label_map=options.label_map,
             columns=options.columns,
-            again=options.again,
+            overwrite=options.overwrite,
             address=options.address,
             workers=options.workers,
         )

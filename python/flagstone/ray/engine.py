@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Ray started or joined, quietly, and batches of scans sent through Ray Data."""
+"""Ray started or joined, quietly, and batches of scans sent to its workers."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import os
 import signal
 import socket
 import threading
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Generator, Iterator
+from typing import TYPE_CHECKING, Any
 
 from flagstone._optional import needs
-from flagstone.ray.worker import ScanWorker, Task
+from flagstone.ray.worker import Scan, ScanWorker, Task
 
 if TYPE_CHECKING:
     import pyarrow
@@ -24,7 +24,6 @@ ENVIRONMENT = {
     "RAY_BACKEND_LOG_LEVEL": "fatal",
     "RAY_enable_output_error_log_if_still_retry": "0",
     "RAY_USAGE_STATS_ENABLED": "0",
-    "RAY_DATA_USAGE_DISABLED": "1",
 }
 WAITING_BATCHES = 2  # at each worker: one under work, one next
 
@@ -78,12 +77,7 @@ def check_answers(address: str) -> None:
 
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
-    """Ray's messages and progress bars turned off, and its reports to its makers."""
-    context = needs("ray.data", "ray").DataContext.get_current()
-    logger = logging.getLogger("ray.data")
-    bars, level = context.enable_progress_bars, logger.level
-    context.enable_progress_bars = False
-    logger.setLevel(logging.CRITICAL)
+    """Ray's messages turned off, and its reports to its makers."""
     added = {name: value for name, value in ENVIRONMENT.items() if name not in os.environ}
     os.environ.update(added)
     try:
@@ -91,8 +85,6 @@ def quiet() -> Iterator[None]:
     finally:
         for name in added:
             del os.environ[name]
-        context.enable_progress_bars = bars
-        logger.setLevel(level)
 
 
 @contextlib.contextmanager
@@ -118,32 +110,42 @@ def core_count() -> int:
     return max(1, int(needs("ray", "ray").cluster_resources().get("CPU", 1)))
 
 
-def send(task: Task, batches: list[pyarrow.Table], workers: int) -> Iterator[pyarrow.Table]:
+def send(task: Task, batches: Iterator[list[Scan]], workers: int) -> Generator[pyarrow.Table, None, None]:
     """The rows of the batches as they are done, in any order.
 
-    Ray Data restarts a worker that died, on another node where its own is lost, and gives it its batches again.
+    Workers are actors. Ray restarts one that died, on another node if its own is lost, and gives it its batches again.
 
     Args:
         task: What to do.
-        batches: Tables with the columns `path` and `bytes`; each goes to a worker whole.
-        workers: Actors, a core each. Where there are fewer cores, at least one starts.
+        batches: Scans; each batch goes to a worker whole.
+        workers: Actors, a core each. If there are fewer cores, those that start do all the work.
 
     Raises:
         RuntimeError: Ray gave up.
     """
     ray = needs("ray", "ray")
-    data = ray.data.from_arrow(batches).map_batches(
-        ScanWorker,
-        fn_constructor_args=(task,),
-        batch_size=None,
-        batch_format="pyarrow",
-        compute=ray.data.ActorPoolStrategy(
-            min_size=1, max_size=workers, initial_size=workers, max_tasks_in_flight_per_actor=WAITING_BATCHES
-        ),
-        num_cpus=1,
-    )
+    actor = ray.remote(num_cpus=1, max_restarts=-1, max_task_retries=-1)(ScanWorker)
+    pool = [actor.remote(task) for _ in range(workers)]
+    starting = {worker.ready.remote(): worker for worker in pool}
+    at_work: dict[Any, Any] = {}  # the worker of each batch that is not done yet
+    batch: list[Scan] | None = next(batches, None)
     try:
-        yield from data.iter_batches(batch_size=None, batch_format="pyarrow")
+        while batch or at_work:
+            done = ray.wait([*at_work, *starting], num_returns=1)[0][0]
+            rows = ray.get(done)
+            is_new = done in starting
+            worker = (starting if is_new else at_work).pop(done)
+            for _ in range(WAITING_BATCHES if is_new else 1):
+                if batch:
+                    at_work[worker.label.remote(batch)] = worker
+                    batch = next(batches, None)
+            if not any(other is worker for other in at_work.values()):
+                ray.kill(worker)  # its core may be what a worker of a lost node waits for
+            if rows is not None:
+                yield rows
     except ray.exceptions.RayError as error:
         reason = str(error).strip().splitlines()[-1]  # above it stands where in Ray that was
         raise RuntimeError(f"Ray gave up: {reason}; what is done stays done, run it again for the rest") from error
+    finally:
+        for worker in pool:
+            ray.kill(worker)

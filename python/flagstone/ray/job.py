@@ -4,28 +4,27 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
-from dataclasses import dataclass, field
-from datetime import datetime
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import flagstone
 from flagstone._optional import needs
+from flagstone._progress import Progress
 from flagstone.ray.engine import connected, core_count, send
-from flagstone.ray.place import place
-from flagstone.ray.plan import Scans, check_names, find_scans, finished_scans, forget
-from flagstone.ray.progress import Progress
-from flagstone.ray.scan_names import LABEL_ENDINGS
-from flagstone.ray.statistics import FOLDER, StatisticsWriter
-from flagstone.ray.summary import Failure, Interrupted, Summary
-from flagstone.ray.worker import LabelMap, Task
+from flagstone.ray.location import location_of
+from flagstone.ray.plan import LABEL_ENDINGS, Scans, check_names, find_scans, finished_scans, forget
+from flagstone.ray.statistics import FOLDER, StatisticsWriter, schema
+from flagstone.ray.summary import Interrupted, Summary, Tally
+from flagstone.ray.worker import LabelMap, Scan, Task
 
 if TYPE_CHECKING:
     import pyarrow
 
-LABEL_MAPS = ("flagstone", "semantic_kitti")
-LARGEST_BATCH = 1024  # scans: three seconds of work, against 15 milliseconds of the driver's and of the worker's time
+LABEL_MAPS = ("flagstone", "semantic-kitti")
+LARGEST_BATCH = 256  # scans: about a second of work, against milliseconds of the time of driver and worker
 SMALLEST_BATCH = 16
 
 
@@ -38,7 +37,7 @@ def segment(
     label_map: LabelMap = "flagstone",
     columns: int | None = None,
     filesystem: Any = None,
-    again: bool = False,
+    overwrite: bool = False,
     address: str | None = None,
     workers: int | None = None,
     progress: bool = True,
@@ -46,8 +45,9 @@ def segment(
     """Labels every scan of a folder or bucket, on the cores of this machine or of a Ray cluster.
 
     Names and bytes of the label files are those that `flagstone segment SOURCE --output DESTINATION` writes. Run again,
-    it does what is left: a scan is finished where its row stands in the statistics and its labels have the size they
-    must have. Labels appear whole or not at all. A scan that cannot be read, a worker that dies and a node that is
+    it does what is left: a scan is finished if the statistics have its row and its labels have the right size, or if
+    a killed run lost the row of labels it had written. Labels appear whole or not at all. One run at a time may write
+    to a destination. A scan that cannot be read, a worker that dies and a node that is
     lost cost nothing but themselves; what failed, and why, is in the summary and in the statistics.
 
     Args:
@@ -59,14 +59,15 @@ def segment(
             own. None: `flagstone.Surface()`. One that estimates or tracks its height or tilt is refused, since
             workers see scans in any order.
         format: `label`, a uint32 a point in `NAME.label`; or `u8`, a uint8 a point in `NAME.label.npy`.
-        label_map: Codes in the label files: `flagstone` (0 to 4), or `semantic_kitti` (40 ground, 0 else).
+        label_map: Codes in the label files: `flagstone` (0 to 4), or `semantic-kitti` (40 ground, 0 else).
         columns: Floats a point in `.bin` files, 3 to 1024; None: 5 for `.pcd.bin`, else 4.
         filesystem: A PyArrow or fsspec filesystem that source and destination are paths of; None: those that they name.
-        again: Label all scans, finished or not, and begin the statistics anew.
+        overwrite: Label all scans, finished or not, and start new statistics.
         address: The Ray cluster to join, `auto` on one of its nodes or `HOST:PORT` of its head; None: the
             environment's RAY_ADDRESS, or Ray started here for this run.
         workers: Actors, a core each; None: as many as there are cores.
-        progress: Whether to show progress and time left where standard error is a terminal.
+        progress: Whether to show progress and time left on standard error: a bar on a terminal, elsewhere a line every
+            few seconds.
 
     Returns:
         How many scans were labelled, what failed and why, and what the time went into.
@@ -85,7 +86,7 @@ def segment(
     check_number("workers", workers, 1, 100_000)
     segmenter = segmenter if segmenter is not None else flagstone.Surface()
     check_mount(segmenter)
-    needs("ray.data", "ray")
+    needs("ray", "ray")
     made_with = json.loads(  # as it is read again
         json.dumps(
             {
@@ -98,108 +99,63 @@ def segment(
             }
         )
     )
-    bar = Progress(progress)
-    try:
+    with Progress(0, "scans", shown=progress, log=True) as bar:
         bar.note("listing scans")
-        folder, scans = find_scans(place(source, filesystem))
+        folder, scans = find_scans(location_of(source, filesystem))
         check_names(folder, scans, format)
-        target = folder if destination is None else place(destination, filesystem)
-        if again:
+        target = folder if destination is None else location_of(destination, filesystem)
+        if overwrite:
             forget(target)
         finished = finished_scans(scans, target, format, made_with)
-        tally = Tally(len(scans), len(finished), target.at(FOLDER))
-        todo = as_table({name: size for name, size in scans.items() if name not in finished})
-        if todo.num_rows:
+        tally = Tally(len(scans), len(finished.scans), target.at(FOLDER))
+        todo = [(name, file.size) for name, file in scans.items() if name not in finished.scans]
+        writer = StatisticsWriter(target.below(FOLDER), made_with)
+        if todo or finished.without_row:
+            writer.begin()
+        if finished.without_row:
+            writer.add(rows_of_lost(finished.without_row, scans))
+            writer.flush()
+        if todo:
             task = Task(segmenter.method, segmenter.settings, folder, target, format, label_map, columns)
-            writer = StatisticsWriter(target.below(FOLDER), made_with)
-            bar.note("starting Ray")
+            bar.note(f"starting Ray for {len(todo):,} scans")
             with connected(address):
                 run(task, todo, workers or core_count(), writer, tally, bar)
         return tally.summary()
-    finally:
-        bar.clear()
 
 
-@dataclass
-class Tally:
-    """Adds up the rows of a run."""
-
-    scans: int
-    finished_before: int
-    statistics: str
-    failures: list[Failure] = field(default_factory=list)
-    labelled: int = 0
-    points: int = 0
-    bytes: int = 0
-    begun: datetime | None = None  # when the first scan was begun, by the clocks of the workers' nodes
-    ended: datetime | None = None  # when the last one was done
-    workers: int = 0
-    read_ms: float = 0
-    segment_ms: float = 0
-    write_ms: float = 0
-
-    def add(self, rows: pyarrow.Table) -> None:
-        import pyarrow.compute as pc
-
-        good = rows.filter(pc.is_null(rows["error"]))
-        self.labelled += good.num_rows
-        for name in ("points", "bytes", "read_ms", "segment_ms", "write_ms"):
-            setattr(self, name, getattr(self, name) + (pc.sum(good[name]).as_py() or 0))
-        first, last = pc.min(rows["begun"]).as_py(), pc.max(rows["ended"]).as_py()
-        self.begun = min(first, self.begun or first)
-        self.ended = max(last, self.ended or last)
-        for row in rows.filter(pc.is_valid(rows["error"])).select(["path", "error"]).to_pylist():
-            self.failures.append(Failure(row["path"], row["error"]))
-
-    def summary(self) -> Summary:
-        return Summary(
-            scans=self.scans,
-            finished_before=self.finished_before,
-            labelled=self.labelled,
-            failures=tuple(sorted(self.failures)),
-            points=self.points,
-            bytes=self.bytes,
-            seconds=(self.ended - self.begun).total_seconds() if self.begun and self.ended else 0,
-            workers=self.workers,
-            read_ms=self.read_ms,
-            segment_ms=self.segment_ms,
-            write_ms=self.write_ms,
-            statistics=self.statistics,
-        )
-
-
-def run(task: Task, scans: pyarrow.Table, workers: int, writer: StatisticsWriter, tally: Tally, bar: Progress) -> None:
+def run(task: Task, scans: list[Scan], workers: int, writer: StatisticsWriter, tally: Tally, bar: Progress) -> None:
     """Sends the scans and takes their rows; what came until an interrupt or error is kept."""
-    batches = in_batches(scans, workers)
-    tally.workers = min(workers, len(batches))
+    bar.total = len(scans)
     bar.note("starting workers")
+    tally.workers = min(workers, -(-len(scans) // SMALLEST_BATCH))
     try:
-        for rows in send(task, batches, tally.workers):
-            writer.add(rows)
-            tally.add(rows)
-            bar.show(tally.labelled + len(tally.failures), scans.num_rows)
+        with contextlib.closing(send(task, in_batches(scans, workers), tally.workers)) as done:
+            for rows in done:
+                writer.add(rows)
+                tally.add(rows)
+                bar.add(rows.num_rows)
     except (KeyboardInterrupt, SystemExit):  # the latter is how Ray answers SIGTERM
         raise Interrupted(tally.summary()) from None
     finally:
         writer.flush()
 
 
-def in_batches(scans: pyarrow.Table, workers: int) -> list[pyarrow.Table]:
+def in_batches(scans: list[Scan], workers: int) -> Iterator[list[Scan]]:
     """Large ones first, smaller ones towards the end, so that all workers finish together."""
-    batches = []
     first = 0
-    while first < scans.num_rows:
-        size = (scans.num_rows - first) // (2 * workers)
-        batches.append(scans.slice(first, min(max(size, SMALLEST_BATCH), LARGEST_BATCH)))
-        first += batches[-1].num_rows
-    return batches
+    while first < len(scans):
+        size = (len(scans) - first) // (2 * workers)
+        batch = scans[first : first + min(max(size, SMALLEST_BATCH), LARGEST_BATCH)]
+        yield batch
+        first += len(batch)
 
 
-def as_table(scans: Scans) -> pyarrow.Table:
-    """What workers are sent."""
+def rows_of_lost(points: dict[str, int], scans: Scans) -> pyarrow.Table:
+    """Rows of the scans that have labels and lost theirs: with path, bytes and points alone."""
     import pyarrow as pa
 
-    return pa.table({"path": pa.array(scans.keys(), pa.string()), "bytes": pa.array(scans.values(), pa.int64())})
+    rows = [{"path": path, "bytes": scans[path].size, "points": count} for path, count in points.items()]
+    return pa.Table.from_pylist(rows, schema=schema())
 
 
 def check_mount(segmenter: flagstone.Segmenter) -> None:
@@ -208,8 +164,8 @@ def check_mount(segmenter: flagstone.Segmenter) -> None:
     for name, setting in (("sensor_height", "height"), ("tilt", "tilt")):
         if mount[setting] in ("estimate", "track"):
             raise ValueError(
-                f"{name}={mount[setting]!r}: workers see scans in any order, and each would find something "
-                "else; find it with `flagstone doctor` and name it"
+                f"{name}={mount[setting]!r}: workers see scans in any order, and each would get a "
+                "different estimate; find the value with `flagstone doctor` and pass it"
             )
 
 

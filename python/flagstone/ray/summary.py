@@ -4,8 +4,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, field
+from datetime import datetime
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import pyarrow
 
 FAILURES_LISTED = 20
 
@@ -28,7 +32,7 @@ class Summary:
 
     Attributes:
         scans: Scans in the source.
-        finished_before: Those that an earlier run had labelled.
+        already_labelled: Those that an earlier run had labelled.
         labelled: Those that this run labelled.
         failures: Those that it could not label, and why.
         points: Points labelled in this run.
@@ -42,7 +46,7 @@ class Summary:
     """
 
     scans: int
-    finished_before: int
+    already_labelled: int
     labelled: int
     failures: tuple[Failure, ...]
     points: int
@@ -56,8 +60,8 @@ class Summary:
 
     def __str__(self) -> str:
         lines = [f"{self.labelled} of {self.scans} scans labelled, {self.points} points"]
-        if self.finished_before:
-            lines[0] += f"; {self.finished_before} were finished before"
+        if self.already_labelled:
+            lines[0] += f"; {self.already_labelled} were already labelled"
         if self.labelled and self.seconds > 0:
             lines.append(self._throughput())
         if self.failures:
@@ -77,6 +81,54 @@ class Summary:
         )
 
 
+@dataclass
+class Tally:
+    """Adds up the rows of a run."""
+
+    scans: int
+    already_labelled: int
+    statistics: str
+    failures: list[Failure] = field(default_factory=list)
+    labelled: int = 0
+    points: int = 0
+    bytes: int = 0
+    started_at: datetime | None = None  # the first scan, by the clocks of the workers' nodes
+    finished_at: datetime | None = None  # the last one
+    workers: int = 0
+    read_ms: float = 0
+    segment_ms: float = 0
+    write_ms: float = 0
+
+    def add(self, rows: pyarrow.Table) -> None:
+        import pyarrow.compute as pc
+
+        good = rows.filter(pc.is_null(rows["error"]))
+        self.labelled += good.num_rows
+        for name in ("points", "bytes", "read_ms", "segment_ms", "write_ms"):
+            setattr(self, name, getattr(self, name) + (pc.sum(good[name]).as_py() or 0))
+        first, last = pc.min(rows["started_at"]).as_py(), pc.max(rows["finished_at"]).as_py()
+        self.started_at = min(first, self.started_at or first)
+        self.finished_at = max(last, self.finished_at or last)
+        for row in rows.filter(pc.is_valid(rows["error"])).select(["path", "error"]).to_pylist():
+            self.failures.append(Failure(row["path"], row["error"]))
+
+    def summary(self) -> Summary:
+        return Summary(
+            scans=self.scans,
+            already_labelled=self.already_labelled,
+            labelled=self.labelled,
+            failures=tuple(sorted(self.failures)),
+            points=self.points,
+            bytes=self.bytes,
+            seconds=(self.finished_at - self.started_at).total_seconds() if self.started_at and self.finished_at else 0,
+            workers=self.workers,
+            read_ms=self.read_ms,
+            segment_ms=self.segment_ms,
+            write_ms=self.write_ms,
+            statistics=self.statistics,
+        )
+
+
 class Interrupted(KeyboardInterrupt):
     """A run was interrupted. What is done stays done; run it again for the rest.
 
@@ -85,6 +137,6 @@ class Interrupted(KeyboardInterrupt):
     """
 
     def __init__(self, summary: Summary) -> None:
-        done = summary.labelled + summary.finished_before
+        done = summary.labelled + summary.already_labelled
         super().__init__(f"interrupted, {done} of {summary.scans} scans are done; run it again for the rest")
         self.summary = summary

@@ -6,9 +6,11 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 import socket
 import threading
 import time
+from collections import Counter
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -21,15 +23,15 @@ import numpy.typing as npt
 
 import flagstone
 from flagstone._optional import needs
-from flagstone.ray.place import Place
-from flagstone.ray.scan_names import label_name
+from flagstone.ray.location import Location
+from flagstone.ray.plan import is_scan, label_name
 from flagstone.ray.statistics import LABELS, schema
-from flagstone.ray.under_work import UnderWork
 
 if TYPE_CHECKING:
     import pyarrow
 
-LabelMap = Literal["flagstone", "semantic_kitti"]
+LabelMap = Literal["flagstone", "semantic-kitti"]
+Scan = tuple[str, int]  # name below the source, bytes
 
 # A remote filesystem answers late, not slowly: so many scans are on their way at once.
 REMOTE_SCANS_AT_ONCE = 32
@@ -43,8 +45,8 @@ class Task:
 
     method: str
     settings: dict[str, Any]  # all of them, so that no file of settings is needed on the worker's node
-    source: Place
-    destination: Place
+    source: Location
+    destination: Location
     format: str  # label, u8
     label_map: LabelMap
     columns: int | None
@@ -62,42 +64,37 @@ class ScanWorker:
         self._turn = threading.Lock()
         self._folders: set[str] = set()  # made already
         self._node, notes = identity()
-        self._under_work = UnderWork(notes)
+        self._in_progress = InProgressLog(notes)
         is_local = task.source.is_local and task.destination.is_local
         self._threads = None if is_local else ThreadPoolExecutor(REMOTE_SCANS_AT_ONCE)
 
-    def __call__(self, batch: pyarrow.Table) -> pyarrow.Table:
-        """Labels scans.
+    def ready(self) -> None:
+        """Answers once the worker has started."""
 
-        Args:
-            batch: Columns `path` and `bytes` of the scans.
-
-        Returns:
-            Their rows of the statistics.
-        """
-        scans = batch.to_pylist()
-        suspects = [scan for scan in scans if self._under_work.deaths(scan["path"])]
-        others = [scan for scan in scans if not self._under_work.deaths(scan["path"])]
+    def label(self, batch: list[Scan]) -> pyarrow.Table:
+        """Labels scans; returns their rows of the statistics."""
+        suspects = [scan for scan in batch if self._in_progress.deaths(scan[0])]
+        others = [scan for scan in batch if not self._in_progress.deaths(scan[0])]
         rows = list(self._threads.map(self._work, others) if self._threads else map(self._work, others))
         rows += map(self._work, suspects)  # alone, so that it is plain who did it
         return needs("pyarrow", "ray").Table.from_pylist(rows, schema=schema())
 
-    def _work(self, scan: dict[str, Any]) -> dict[str, Any]:
-        name = scan["path"]
-        row = {**scan, "begun": now(), "node": self._node}
+    def _work(self, scan: Scan) -> dict[str, Any]:
+        name, size = scan
+        row = {"path": name, "bytes": size, "started_at": now(), "node": self._node}
         try:
             self._check_survivable(name)
-            with self._under_work.on(name):
+            with self._in_progress.on(name):
                 self._label(name, row)
         except Exception as error:  # whatever is wrong with one scan, the others are done
             row["error"] = one_line(error, self._task.source.at(name))
-        row["ended"] = now()
+        row["finished_at"] = now()
         return row
 
     def _check_survivable(self, name: str) -> None:
-        deaths = self._under_work.deaths(name)
+        deaths = self._in_progress.deaths(name)
         if deaths > DEATHS_ALLOWED:
-            raise RuntimeError(f"{deaths} workers died while they had it under work (out of memory?)")
+            raise RuntimeError(f"{deaths} workers died while they worked on it (out of memory?)")
 
     def _label(self, name: str, row: dict[str, Any]) -> None:
         with took(row, "read_ms"):
@@ -124,6 +121,8 @@ class ScanWorker:
             destination.write(name, label_file(labels, self._task.format, label_map))
             return
         path = destination.at(name)
+        if Path(path).is_symlink() and is_scan(os.path.realpath(path)):
+            raise ValueError(f"{path}: links to a scan; remove the link or choose another destination")
         folder, _, _ = path.rpartition("/")
         if folder not in self._folders:
             Path(folder).mkdir(parents=True, exist_ok=True)
@@ -168,3 +167,34 @@ def took(row: dict[str, Any], name: str) -> Iterator[None]:
     begun = time.perf_counter()
     yield
     row[name] = 1000 * (time.perf_counter() - begun)
+
+
+class InProgressLog:
+    """Notes of a worker, which the same worker finds again once it has been restarted on its node.
+
+    Ray gives a batch whose worker died to the worker's successor, again and again. A scan that takes too much memory
+    would kill every one of them; the notes say which it is.
+    """
+
+    def __init__(self, notes: Path) -> None:
+        self._deaths = Counter[str]()
+        if notes.exists():
+            for line in notes.read_text(encoding="ascii").splitlines():
+                self._deaths[line[1:]] += 1 if line.startswith("+") else -1
+        self._file = notes.open("ab", buffering=0)  # each line is with the system before the next step
+
+    @contextlib.contextmanager
+    def on(self, scan: str) -> Iterator[None]:
+        """While a scan is under work."""
+        self._note("+", scan)
+        try:
+            yield
+        finally:
+            self._note("-", scan)
+
+    def deaths(self, scan: str) -> int:
+        """How many of this worker's predecessors died while they had the scan under work."""
+        return self._deaths[ascii(scan)]
+
+    def _note(self, sign: str, scan: str) -> None:
+        self._file.write(f"{sign}{scan!a}\n".encode("ascii"))

@@ -16,7 +16,7 @@ _numbers = itertools.count()
 
 
 @contextmanager
-def written_whole(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+def atomic_write(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     """Opens a new file beside `path`, which takes its place when the block ends well and goes away otherwise.
 
     A symbolic link is followed; what is there and no regular file is never replaced.
@@ -32,7 +32,7 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
         temporary, opened = _new_file_in(target.parent)
     except OSError as error:
         raise OSError(error.errno, error.strerror, os.fspath(path)) from None
-    file = _Remembering(opened)
+    file = _FirstErrorFile(opened)
     try:
         with opened:
             yield cast(BinaryIO, file)
@@ -45,7 +45,7 @@ def written_whole(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
         raise
 
 
-class _Remembering:
+class _FirstErrorFile:
     """A file that keeps the first error of the disk, since compressors tell only that there was one."""
 
     def __init__(self, file: BinaryIO) -> None:

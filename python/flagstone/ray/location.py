@@ -7,11 +7,14 @@ from __future__ import annotations
 import contextlib
 import os
 import posixpath
+import re
 import uuid
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from flagstone._atomic_file import atomic_write
 
 if TYPE_CHECKING:
     import pyarrow.fs
@@ -20,8 +23,16 @@ if TYPE_CHECKING:
 OBJECT_STORES = frozenset({"s3", "s3a", "gcs", "gs", "abfs", "abfss", "az", "oss", "oci", "r2"})
 
 
+class File(NamedTuple):
+    """A file met in a folder."""
+
+    name: str  # below the folder
+    size: int  # bytes
+    modified: float | None  # seconds since 1970; None if the file system does not say
+
+
 @dataclass(frozen=True)
-class Place:
+class Location:
     """A folder, by its path and the filesystem it is in: None for the local one."""
 
     path: str
@@ -35,20 +46,21 @@ class Place:
         """The path of the file that is `name` here."""
         return posixpath.join(self.path, name)
 
-    def below(self, name: str) -> Place:
+    def below(self, name: str) -> Location:
         """A folder in this one."""
-        return Place(self.at(name), self.filesystem)
+        return Location(self.at(name), self.filesystem)
 
-    def size(self, name: str) -> int | None:
-        """The bytes of a file, or None where there is no such file."""
+    def file(self) -> File | None:
+        """The file that this path names, by the last part of it; None if it does not name a file."""
+        name = posixpath.basename(self.path)
         if self.filesystem is None:
-            path = Path(self.at(name))
-            return path.stat().st_size if path.is_file() else None
-        info = self.filesystem.get_file_info(self.at(name))
-        return int(info.size) if info.is_file else None
+            path = Path(self.path)
+            return _local_file(name, path.stat()) if path.is_file() else None
+        info = self.filesystem.get_file_info(self.path)
+        return _arrow_file(name, info) if info.is_file else None
 
-    def files(self) -> Iterator[tuple[str, int]]:
-        """Name and bytes of every file in this folder and below it; none where there is no such folder."""
+    def files(self) -> Iterator[File]:
+        """Every file in this folder and below it; none if there is no such folder."""
         if self.filesystem is None:
             yield from _local_files(self.path)
             return
@@ -57,7 +69,7 @@ class Place:
         selector = pyarrow.fs.FileSelector(self.path, recursive=True, allow_not_found=True)
         for info in self.filesystem.get_file_info(selector):
             if info.is_file:
-                yield posixpath.relpath(info.path, self.path), int(info.size or 0)
+                yield _arrow_file(posixpath.relpath(info.path, self.path), info)
 
     def read(self, name: str) -> bytes:
         if self.filesystem is None:
@@ -69,18 +81,15 @@ class Place:
         """Writes a file whole or not at all, and makes the folders it needs."""
         path = self.at(name)
         folder, _ = posixpath.split(path)
-        beside = posixpath.join(folder, f".flagstone-{uuid.uuid4().hex}.tmp")
         if self.filesystem is None:
             Path(folder).mkdir(parents=True, exist_ok=True)
-            try:
-                Path(beside).write_bytes(data)
-                Path(beside).replace(path)
-            finally:
-                Path(beside).unlink(missing_ok=True)
+            with atomic_write(path) as file:
+                file.write(data)
         elif is_object_store(self.filesystem):
             _put(self.filesystem, path, data)
         else:
             self.filesystem.create_dir(folder, recursive=True)
+            beside = posixpath.join(folder, f".flagstone-{uuid.uuid4().hex}.tmp")
             try:
                 _put(self.filesystem, beside, data)
                 self.filesystem.move(beside, path)
@@ -91,25 +100,32 @@ class Place:
 
     def remove(self, name: str) -> None:
         if self.filesystem is None:
-            Path(self.at(name)).unlink()
+            Path(self.at(name)).unlink(missing_ok=True)
         else:
             self.filesystem.delete_file(self.at(name))
+
+    def is_left_over(self, name: str) -> bool:
+        """Whether a file is one that a killed process of flagstone had half written."""
+        left = re.fullmatch(r"\.flagstone-(?:(\d+)-(?:py)?\d+|[0-9a-f]{32})\.tmp", posixpath.basename(name))
+        if left is None:
+            return False
+        return left[1] is None or not (self.is_local and _is_running(int(left[1])))
 
     def __str__(self) -> str:
         return self.path
 
 
-def place(location: str | os.PathLike[str], filesystem: Any = None) -> Place:
-    """The place that a path or URL names.
+def location_of(where: str | os.PathLike[str], filesystem: Any = None) -> Location:
+    """The folder that a path or URL names.
 
     Args:
-        location: A local path, or a URL that PyArrow or fsspec knows (`s3://`, `gs://`, `hdfs://`, `abfs://`, ...).
-        filesystem: A PyArrow or fsspec filesystem that `location` is a path of; None: the one it names.
+        where: A local path, or a URL that PyArrow or fsspec knows (`s3://`, `gs://`, `hdfs://`, `abfs://`, ...).
+        filesystem: A PyArrow or fsspec filesystem that `where` is a path of; None: the one it names.
 
     Raises:
         ValueError: No filesystem is known for the URL.
     """
-    text = os.fspath(location)
+    text = os.fspath(where)
     found = None
     if filesystem is not None:
         found = _as_arrow(filesystem)
@@ -118,8 +134,8 @@ def place(location: str | os.PathLike[str], filesystem: Any = None) -> Place:
     import pyarrow.fs
 
     if found is None or isinstance(found, pyarrow.fs.LocalFileSystem):
-        return Place(str(Path(text).absolute()))  # workers run in other folders
-    return Place(text.rstrip("/"), found)
+        return Location(str(Path(text).absolute()))  # workers run in other folders
+    return Location(text.rstrip("/"), found)
 
 
 def is_object_store(filesystem: pyarrow.fs.FileSystem) -> bool:
@@ -156,7 +172,25 @@ def _put(filesystem: pyarrow.fs.FileSystem, path: str, data: bytes) -> None:
         stream.write(data)
 
 
-def _local_files(top: str) -> Iterator[tuple[str, int]]:
+def _local_file(name: str, status: os.stat_result) -> File:
+    return File(name, status.st_size, status.st_mtime_ns / 1e9)
+
+
+def _arrow_file(name: str, info: pyarrow.fs.FileInfo) -> File:
+    return File(name, int(info.size or 0), info.mtime_ns / 1e9 if info.mtime_ns else None)
+
+
+def _is_running(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (PermissionError, OverflowError):
+        return True
+    return True
+
+
+def _local_files(top: str) -> Iterator[File]:
     """As the command `flagstone segment` walks: links to files are followed, links to folders are not."""
     folders = [""]
     while folders:
@@ -170,4 +204,4 @@ def _local_files(top: str) -> Iterator[tuple[str, int]]:
             if entry.is_dir(follow_symlinks=False):
                 folders.append(name)
             elif entry.is_file():
-                yield name, entry.stat().st_size
+                yield _local_file(name, entry.stat())
