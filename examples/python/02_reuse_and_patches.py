@@ -1,26 +1,36 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Scan after scan with the same segmenter, and what Patchwork made of each patch of ground."""
+"""Scan after scan with the same segmenter, and what Patchwork found in each patch of ground."""
+
+import numpy as np
 
 import flagstone
 
-frames = flagstone.simulate("simulated", scene="flat_street", frames=3)
+random = np.random.default_rng(1)
 
-# The segmenter keeps its memory: after the first scans hardly anything is allocated. Nothing else is kept, so that
-# a scan's labels never depend on the scans before it.
+
+def next_scan() -> np.ndarray:
+    """A road and a wall, as your driver would return them."""
+    road = random.uniform([-40, -40, -1.75], [40, 40, -1.71], (80_000, 3))
+    wall = random.uniform([10, -20, -1.7], [10.1, 20, 1], (20_000, 3))
+    return np.concatenate([road, wall]).astype(np.float32)
+
+
+# The segmenter keeps its memory: after the first scans hardly anything is allocated. Nothing else is kept, so the
+# labels of a scan never depend on the scans before it.
 segmenter = flagstone.Patchwork(sensor="hdl-64e")
-for path in frames["scan"]:
-    result = segmenter.segment(flagstone.io.read(path))
+for _ in range(3):
+    result = segmenter.segment(next_scan())
     print(f"ground: {result.counts['ground']} of {len(result)} points, {len(result.patches)} patches")
 
-# The last scan's patches: where, how many points, the plane normal . p + d = 0, and why.
+# The patches of the last scan: where, how many points, the plane normal . p + d = 0, and the verdict.
 for patch in result.patches[:5]:
     x, y, z = patch["normal"]
-    verdict = flagstone.Verdict(patch["verdict"]).name.lower()
     print(
         f"zone {patch['zone']} ring {patch['ring']} sector {patch['sector']:2}: {patch['point_count']:3} points,"
-        f" normal ({x:.3f} {y:.3f} {z:.3f}), d {patch['d']:.2f}, {verdict}"
+        f" normal ({x:.3f} {y:.3f} {z:.3f}), d {patch['d']:.2f}, {flagstone.Verdict(patch['verdict']).name.lower()}"
     )
 
-# As a data frame they can be counted, grouped and joined.
-print(result.to_pandas().groupby("verdict", observed=True)["point_count"].agg(["size", "sum"]))
+# A structured array can be counted and filtered; result.to_pandas() is the same as a data frame.
+for verdict, count in zip(*np.unique(result.patches["verdict"], return_counts=True), strict=True):
+    print(f"{flagstone.Verdict(verdict).name.lower()}: {count} patches")

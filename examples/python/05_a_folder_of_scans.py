@@ -1,33 +1,39 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""A folder of scans on several threads; labels are written beside them. For a whole cluster there is flagstone.ray."""
+"""A folder of scans on several threads; labels go to a folder of their own. For a cluster there is flagstone.ray."""
 
 import os
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import numpy as np
+
 import flagstone
 
-frames = flagstone.simulate("simulated", scene="flat_street", frames=3)
-output = Path("labels")
+scans, output = Path("scans"), Path("labels")
 output.mkdir(exist_ok=True)
+if not scans.exists():  # your own scans go here: .bin, .pcd, .ply or .npy
+    scans.mkdir()
+    for number in range(3):
+        random = np.random.default_rng(number)
+        road = random.uniform([-40, -40, -1.75, 0], [40, 40, -1.71, 1], (80_000, 4))
+        wall = random.uniform([10, -20, -1.7, 0], [10.1, 20, 1, 1], (20_000, 4))
+        np.concatenate([road, wall]).astype(np.float32).tofile(scans / f"{number:06}.bin")
 
-# Python's lock is free while a scan is segmented, so that threads do work side by side. Those that share a segmenter
-# take turns: give each its own.
+# Python's lock is free while a scan is segmented, so that threads work side by side. Threads that share a segmenter
+# take turns: give each thread its own.
 own = threading.local()
 
 
-def segment_file(path: str) -> str:
-    """Segments one scan, writes its labels, and says how it went."""
+def segment_file(path: Path) -> str:
+    """Segments one scan, writes its labels and returns a line about it."""
     if not hasattr(own, "segmenter"):
         own.segmenter = flagstone.Surface(sensor="hdl-64e")
-    points = flagstone.io.read(path)
-    result = own.segmenter.segment(points)
-    flagstone.io.write_labels(output / f"{Path(path).stem}.label", result.labels)
-    return f"{Path(path).name}: {result.counts['ground'] / len(result):.1%} ground"
+    result = own.segmenter.segment(flagstone.io.read(path))
+    flagstone.io.write_labels(output / f"{path.stem}.label", result.labels)
+    return f"{path.name}: {result.counts['ground'] / len(result):.1%} ground"
 
 
 with ThreadPoolExecutor(os.cpu_count()) as pool:
-    for line in pool.map(segment_file, frames["scan"]):
-        print(line)
+    print(*pool.map(segment_file, sorted(scans.iterdir())), sep="\n")
