@@ -5,7 +5,7 @@
 # for example CMAKE_FLAGS=-DBUILD_SHARED_LIBS=ON.
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
-MEASUREMENTS := bench-scaling bench-steps bench-edges latency primitives soak-test surface-figures
+MEASUREMENTS := bench-scaling bench-steps bench-edges latency soak-test surface-figures
 
 .PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
         bench-compare $(MEASUREMENTS) surface-study worlds-study contact-sheet clean
@@ -62,11 +62,10 @@ bench-scaling: PROGRAM = growth ## time and memory by points, beams, bins and th
 bench-steps: PROGRAM = sharpness ## errors of the surface at kerbs, ditches and drops of known shape
 bench-edges: PROGRAM = edges ## labels on both sides of kerbs, ditches and drops, and of ghost points
 latency: PROGRAM = latency ## time of 10,000 different scans, adversarial scans included
-primitives: PROGRAM = primitives ## time of each step for every instruction set
 soak-test: PROGRAM = soak ## memory of one segmenter over 100,000 different scans
 surface-figures: PROGRAM = surface_stages ## the figures of docs/surface.md
 $(MEASUREMENTS):
-	@scripts/setup build benchmark plot && scripts/benchmark $(PROGRAM)
+	@scripts/setup build plot && scripts/benchmark $(PROGRAM)
 
 surface-study: build ## measure the method surface, write the tables of docs/surface.md; WORK: a directory with 4 GB free
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/surface_study.py run --work $(or $(WORK),out/study)

@@ -52,9 +52,7 @@ def say(text):
 
 
 def default_revision():
-    tag = subprocess.run(
-        ["git", "describe", "--tags", "--abbrev=0", "HEAD"], cwd=ROOT, text=True, capture_output=True
-    )
+    tag = subprocess.run(["git", "describe", "--tags", "--abbrev=0", "HEAD"], cwd=ROOT, text=True, capture_output=True)
     return tag.stdout.strip() if tag.returncode == 0 else "HEAD~1"
 
 
@@ -76,7 +74,7 @@ def build(name, source):
         "cmake", "-G", "Ninja", "-S", ROOT / "bench" / "segment_loop", "-B", tree,
         f"-DFLAGSTONE_REVISION={source}", "-DCMAKE_BUILD_TYPE=Release",
     )  # fmt: skip
-    call("cmake", "--build", tree, "--isa", "segment_loop")
+    call("cmake", "--build", tree, "--target", "segment_loop")
     return tree / "segment_loop"
 
 
@@ -179,9 +177,7 @@ def table(head, rows):
 def row_of(name, launches, time_of):
     """Times and ratio of what `time_of` takes from a round."""
     sides = [[time_of(round_) for times in launches for round_ in times[side]] for side in (0, 1)]
-    ratios = [
-        statistics.median(time_of(new) / time_of(old) for old, new in zip(*times)) for times in launches
-    ]
+    ratios = [statistics.median(time_of(new) / time_of(old) for old, new in zip(*times)) for times in launches]
     ratio, low, high = median_with_interval(ratios)
     return [name, *(f"{statistics.median(side) / 1e6:.3f}" for side in sides), f"{ratio:.4f}",
             f"{low:.4f} to {high:.4f}"]  # fmt: skip
@@ -211,9 +207,7 @@ def instruction_table(programs, scans):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--revision", help="what git knows it by; the last tag or HEAD~1")
     parser.add_argument("--method", choices=("patchwork", "surface"), default="patchwork")
     parser.add_argument("--launches", type=int, default=20, help="6 or more; 20")

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Draws docs/images/worlds.png: every scene as three sensors see it, from above, by true class. Needs Matplotlib.
 
-    make contact-sheet         # builds the command, simulates, draws
-    make contact-sheet SHEET="--scenes park forest_track --columns 1 --panel 600 --output sheet.png"
+make contact-sheet         # builds the command, simulates, draws
+make contact-sheet SHEET="--scenes park forest_track --columns 1 --panel 600 --output sheet.png"
 """
 
 import argparse

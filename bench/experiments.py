@@ -11,19 +11,11 @@ packages that bench/peers.py names. It simulates five sequences of 200 scans in 
 are there. Tables stand in the page between <!-- table NAME --> and <!-- end -->.
 """
 
-import argparse
-import json
-import os
-import pathlib
 import re
-import shlex
-import subprocess
 import sys
 
-from intervals import paired
-from tables import check, filled, percent, rounded, table, with_interval
+from study import ROOT, Runs, main, paired, percent, rounded, show_progress, table, with_interval
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "experiments.md"
 RESULTS = ROOT / "docs" / "results" / "experiments.json"
 SCENES = ["flat_street", "steep_street", "parked_cars", "bushes_and_lawn", "bumpy_field"]
@@ -64,53 +56,29 @@ CLAIMS = [
 
 
 class Runner:
+    """Runs of the command, and what they found by name."""
+
     def __init__(self, work, flagstone):
-        self.work = work
-        self.places = {
-            "flagstone": str(flagstone),
-            "$FLAGSTONE_DATA": os.environ.get("FLAGSTONE_DATA", str(ROOT.parent / "shared" / "data")),
-            "$WORK": str(work),
-        }
-        self.results = {"experiments": {}}
-
-    def real(self, command):
-        text = command
-        for name, place in self.places.items():
-            if name.startswith("$"):
-                text = text.replace(name, place)
-        words = shlex.split(text)
-        return [self.places.get(words[0], words[0]), *words[1:]]
-
-    def say(self, command):
-        print(f"> {command}", file=sys.stderr, flush=True)
+        self.runs = Runs(work, flagstone)
+        self.experiments = {}
 
     def call(self, command):
-        self.say(command)
-        done = subprocess.run(self.real(command), cwd=ROOT, text=True, stdout=subprocess.PIPE)
-        if done.returncode != 0:
-            sys.exit(f"exit code {done.returncode}: {command}")
-        return done.stdout
+        show_progress(command)
+        return self.runs.call(command)
 
     def evaluate(self, name, command):
         """Runs an `eval` or `sweep` and keeps what it found under `name`."""
-        file = self.work / "result.json"
-        self.call(f"{command} --json {file}")
-        found = json.loads(file.read_text())
-        for key in ("flagstone", "machine", "date"):
-            self.results[key] = found.pop(key)
-        self.results["experiments"][name] = {"command": command, **found}
-        return self.results["experiments"][name]
+        show_progress(command)
+        self.experiments[name] = self.runs.evaluate_command(command)
+        return self.experiments[name]
 
 
 def largest(of, other, figure, count):
     """The scans where `of` is farthest ahead of `other`."""
     theirs = {scan["scan"]: scan for scan in other["per_scan"]}
-    ranked = sorted(
-        of["per_scan"], key=lambda scan: theirs[scan["scan"]][figure] - scan[figure]
-    )[:count]
+    ranked = sorted(of["per_scan"], key=lambda scan: theirs[scan["scan"]][figure] - scan[figure])[:count]
     return [
-        {"scan": s["scan"], "before": theirs[s["scan"]][figure], "after": s[figure], "figure": figure}
-        for s in ranked
+        {"scan": s["scan"], "before": theirs[s["scan"]][figure], "after": s[figure], "figure": figure} for s in ranked
     ]
 
 
@@ -121,8 +89,7 @@ def by_name(experiment):
 def run_simulated(runner):
     for number, scene in enumerate(SCENES):
         runner.call(
-            f"flagstone simulate --scene {scene} --frames 200 --seed 1 --output $WORK/simulated"
-            f" --sequence {number:02}"
+            f"flagstone simulate --scene {scene} --frames 200 --seed 1 --output $WORK/simulated --sequence {number:02}"
         )
         for preset in PRESETS:
             found = runner.evaluate(
@@ -131,9 +98,7 @@ def run_simulated(runner):
                 f" --methods table1 --preset {preset} --sensor-height 1.73",
             )
             rows = by_name(found)
-            found["claims"] = [
-                paired(rows[first], rows[second], figure) for _, first, second, figure in CLAIMS
-            ]
+            found["claims"] = [paired(rows[first], rows[second], figure) for _, first, second, figure in CLAIMS]
             found["gains"] = {
                 "elevation": largest(rows["czm+u+e"], rows["czm+u"], "precision", 3),
                 "flatness": largest(rows["czm+u+e+f"], rows["czm+u+e"], "recall", 3),
@@ -160,28 +125,21 @@ def run_real(runner):
 
 
 def run_peers(runner):
-    text = runner.call(
-        f"{sys.executable} bench/peers.py $FLAGSTONE_DATA/kitti --output $WORK/peers"
-    )
+    text = runner.call(f"{sys.executable} bench/peers.py $FLAGSTONE_DATA/kitti --output $WORK/peers")
     labels = re.findall(r"--labels (\S+)", text.splitlines()[-1])
     arguments = " ".join(f"--labels {label}" for label in labels)
-    arguments = arguments.replace(str(runner.work), "$WORK")
+    arguments = arguments.replace(str(runner.runs.work), "$WORK")
     for protocol in ("patchwork", "patchwork++"):
         found = runner.evaluate(
             f"peers/{protocol}",
-            f"flagstone eval $FLAGSTONE_DATA/kitti --protocol {protocol} --methods patchwork --threads 1"
-            f" {arguments}",
+            f"flagstone eval $FLAGSTONE_DATA/kitti --protocol {protocol} --methods patchwork --threads 1 {arguments}",
         )
-        found["hz"] = {
-            line.split()[0]: float(line.split()[1]) for line in text.splitlines() if " Hz mean" in line
-        }
+        found["hz"] = {line.split()[0]: float(line.split()[1]) for line in text.splitlines() if " Hz mean" in line}
 
 
 def run_sweeps(runner):
     runner.evaluate("sweep/kitti", "flagstone sweep $FLAGSTONE_DATA/kitti --protocol patchwork")
-    runner.evaluate(
-        "sweep/simulated", "flagstone sweep $WORK/simulated --protocol simulation --every 10"
-    )
+    runner.evaluate("sweep/simulated", "flagstone sweep $WORK/simulated --protocol simulation --every 10")
 
 
 def run_shares(runner):
@@ -191,16 +149,14 @@ def run_shares(runner):
     )
 
 
-def run(work, flagstone):
-    work.mkdir(parents=True, exist_ok=True)
-    runner = Runner(work, flagstone)
+def measure(options):
+    runner = Runner(options.work, options.flagstone)
     for step in (run_simulated, run_real, run_peers, run_sweeps, run_shares):
         step(runner)
-    for experiment in runner.results["experiments"].values():
+    for experiment in runner.experiments.values():
         for method in experiment.get("methods", []):
             method.pop("per_scan")  # by far the most of it
-    RESULTS.parent.mkdir(exist_ok=True)
-    RESULTS.write_text(json.dumps(rounded(runner.results), indent=1) + "\n")
+    return rounded({"experiments": runner.experiments, **runner.runs.made_by})
 
 
 # --- tables ------------------------------------------------------------------------------------------------
@@ -373,7 +329,9 @@ def shares_table(results):
 
 
 def tables(results):
-    kitti = [(f"kitti/{p}/{preset}", f"`{p}`, preset `{preset}`") for p in ("patchwork", "patchwork++") for preset in PRESETS]
+    kitti = [
+        (f"kitti/{p}/{preset}", f"`{p}`, preset `{preset}`") for p in ("patchwork", "patchwork++") for preset in PRESETS
+    ]
     found = {
         "table-1": table_1(results, "kitti/patchwork/reference"),
         "table-1-presets": f1_by_preset(results, kitti),
@@ -392,23 +350,5 @@ def tables(results):
     return found
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    commands = parser.add_subparsers(dest="command", required=True)
-    run_command = commands.add_parser("run", help="run all experiments, write results and page")
-    run_command.add_argument("--work", type=pathlib.Path, required=True, help="folder for what is large")
-    run_command.add_argument("--flagstone", type=pathlib.Path, default=ROOT / "build" / "flagstone")
-    commands.add_parser("page", help="write the page's tables from the results")
-    commands.add_parser("check", help="fail if the page's tables are not those of the results")
-    options = parser.parse_args()
-
-    if options.command == "run":
-        run(options.work.resolve(), options.flagstone.resolve())
-    results = json.loads(RESULTS.read_text())
-    if options.command == "check":
-        check(PAGE, tables(results))
-    PAGE.write_text(filled(PAGE.read_text(), tables(results)))
-
-
 if __name__ == "__main__":
-    main()
+    main(__doc__, PAGE, RESULTS, tables, measure)

@@ -110,17 +110,13 @@ def file_system(path):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("command", help="flagstone")
     parser.add_argument("scans", help="folder of .bin files, a thousand or so")
     parser.add_argument("--output", required=True, help="folder for labels; removed, made anew")
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--rounds", type=int, default=7)
-    parser.add_argument(
-        "--segment", nargs=argparse.REMAINDER, default=[], help="all behind it is told to segment"
-    )
+    parser.add_argument("--segment", nargs=argparse.REMAINDER, default=[], help="all behind it is told to segment")
     asked = parser.parse_args()
     inputs = sorted(pathlib.Path(asked.scans).rglob("*.bin"))
     if not inputs:
@@ -144,9 +140,7 @@ def main():
             print(f"\rround {number + 1} of {asked.rounds}", end="", file=sys.stderr)
         read_ms, write_ms = file_milliseconds(inputs, label_sizes, least)
         one, segment_ms, _ = run_command(asked.command, asked.scans, labels, 1, asked.segment)
-        many, _, what_binds = run_command(
-            asked.command, asked.scans, labels, asked.threads, asked.segment
-        )
+        many, _, what_binds = run_command(asked.command, asked.scans, labels, asked.threads, asked.segment)
         rounds.append(Round(read_ms, segment_ms, write_ms, one, many, what_binds))
     if sys.stderr.isatty():
         print("\r\x1b[K", end="", file=sys.stderr)

@@ -244,8 +244,7 @@ def cells_table(results):
 def memory_table(results):
     first = results["memory_layouts"][0]["time"]["median_ms"]
     rows = [
-        [row["memory"], ms(row["time"]), f"{row['time']['median_ms'] / first:.2f}"]
-        for row in results["memory_layouts"]
+        [row["memory"], ms(row["time"]), f"{row['time']['median_ms'] / first:.2f}"] for row in results["memory_layouts"]
     ]
     return table(["a point is", "ms", "/ packed xyz"], rows)
 
@@ -295,15 +294,9 @@ def tables(results):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument(
-        "--program", type=pathlib.Path, default=ROOT / "build" / "bench" / "performance" / "growth"
-    )
-    parser.add_argument(
-        "--points", type=int, default=10000000, help="of the largest cloud, 1,000 to 10,000,000"
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "bench" / "performance" / "growth")
+    parser.add_argument("--points", type=int, default=10000000, help="of the largest cloud, 1,000 to 10,000,000")
     parser.add_argument("--method", choices=METHODS, help="the only one to measure")
     parser.add_argument("--from", dest="file", type=pathlib.Path, help="figures measured before")
     arguments = parser.parse_args()

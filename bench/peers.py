@@ -62,9 +62,7 @@ def open3d_ransac(_sensor_height):
     open3d = importlib.import_module("open3d")
 
     def cloud_of(points):
-        return open3d.geometry.PointCloud(
-            open3d.utility.Vector3dVector(points[:, :3].astype(np.float64))
-        )
+        return open3d.geometry.PointCloud(open3d.utility.Vector3dVector(points[:, :3].astype(np.float64)))
 
     def ground(cloud):
         open3d.utility.random.seed(0)

@@ -69,12 +69,8 @@ def table(results):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument(
-        "--program", type=pathlib.Path, default=ROOT / "build" / "bench" / "performance" / "soak"
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "bench" / "performance" / "soak")
     parser.add_argument("--scans", type=int, default=100000, help="of each method")
     parser.add_argument("--from", dest="file", type=pathlib.Path, help="figures measured before")
     arguments = parser.parse_args()

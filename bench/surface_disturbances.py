@@ -130,6 +130,4 @@ def write_copies(kitti, before, methods, disturb, folder):
         sources = np.asarray(sources)
         for method in methods:
             labels = np.fromfile(before / method / f"{file.stem}.label", "<u4")
-            np.where(sources < 0, 0, labels[sources]).astype("<u4").tofile(
-                folder / method / f"{file.stem}.label"
-            )
+            np.where(sources < 0, 0, labels[sources]).astype("<u4").tofile(folder / method / f"{file.stem}.label")

@@ -131,9 +131,7 @@ def draw_patches(stages):
         for name, (color, text) in VERDICTS.items()
         if counts[name] > 0
     ]
-    axes.legend(
-        handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, title="verdict (patches)"
-    )
+    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, title="verdict (patches)")
     return figure
 
 
@@ -165,9 +163,7 @@ def draw_coarse(stages):
     image = axes[1].imshow(confidences, origin="lower", extent=place, cmap="Blues", vmin=0, vmax=1)
     view_from_above(axes[1], extent, "Its confidence; dots: accepted patches")
     accepted = [patch["mean"] for patch in stages.patches if patch["verdict"] == "ground"]
-    axes[1].plot(
-        [mean[0] for mean in accepted], [mean[1] for mean in accepted], ".", color=ACCEPTED, markersize=4
-    )
+    axes[1].plot([mean[0] for mean in accepted], [mean[1] for mean in accepted], ".", color=ACCEPTED, markersize=4)
     figure.colorbar(image, ax=axes[1], shrink=0.85)
     return figure
 
@@ -221,9 +217,7 @@ def profile_of(axes, stages, where, across, limits, half_slice):
     levels = len(stages.grids) - 1
     y = np.arange(*across, 0.02)
     points = stages.points
-    near = (
-        (np.abs(points[:, X] - where) < half_slice) & (points[:, Y] > across[0]) & (points[:, Y] < across[1])
-    )
+    near = (np.abs(points[:, X] - where) < half_slice) & (points[:, Y] > across[0]) & (points[:, Y] < across[1])
     cut = points[near]
     refined, coarse = (stages.height(level, where, y) for level in (levels, 0))
     truth_extent, truth_cell = stages.about["truth"]["extent"], stages.about["truth"]["cell"]
@@ -231,12 +225,7 @@ def profile_of(axes, stages, where, across, limits, half_slice):
 
     stands = standing_cells(stages)
     margin = np.array(
-        [
-            stages.about[
-                "obstacle_margin" if (np.floor(2 * where), np.floor(2 * v)) in stands else "margin"
-            ]
-            for v in y
-        ]
+        [stages.about["obstacle_margin" if (np.floor(2 * where), np.floor(2 * v)) in stands else "margin"] for v in y]
     )
     axes.fill_between(
         y, refined, refined + margin, color=GROUND, alpha=0.3, linewidth=0, label="ground: up to the margin"
@@ -296,9 +285,7 @@ def draw_relief(stages):
     points = stages.points[(np.abs(stages.points[:, :2]) < extent).all(axis=1)]
     ground = points[:, LABEL] == 1
     for chosen, color in ((ground, GROUND), (~ground, OBSTACLE)):
-        axes[0].scatter(
-            points[chosen, X], points[chosen, Y], s=0.5, color=color, linewidths=0, rasterized=True
-        )
+        axes[0].scatter(points[chosen, X], points[chosen, Y], s=0.5, color=color, linewidths=0, rasterized=True)
     view_from_above(axes[0], extent, "Points: ground (yellow) and not (grey)")
     line = np.arange(-extent + cell / 2, extent, cell)
     x, y = np.meshgrid(line, line)
@@ -312,9 +299,7 @@ def draw_relief(stages):
     colors[np.isnan(heights + brightness)] = 1
     place = (-extent, extent, -extent, extent)
     axes[1].imshow(np.clip(colors, 0, 1), origin="lower", extent=place, interpolation="none")
-    contours = axes[1].contour(
-        line, line, heights, levels=np.arange(-12, 12, 0.5), colors=INK, linewidths=0.4
-    )
+    contours = axes[1].contour(line, line, heights, levels=np.arange(-12, 12, 0.5), colors=INK, linewidths=0.4)
     axes[1].clabel(contours, fontsize=7, fmt="%.1f")
     view_from_above(axes[1], extent, "The ground itself, shaded; contour lines every 0.5 m")
     return figure
@@ -332,9 +317,7 @@ def save(figure, name):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument(
         "--program", type=pathlib.Path, default=ROOT / "build" / "bench" / "performance" / "surface_stages"
     )

@@ -162,14 +162,6 @@ if(needs_command)
   endif()
 endif()
 
-if(FLAGSTONE_BUILD_BENCHMARKS)
-  set(BENCHMARK_ENABLE_TESTING OFF)
-  set(BENCHMARK_ENABLE_INSTALL OFF)
-  flagstone_dependency(
-    benchmark https://github.com/google/benchmark/archive/refs/tags/v1.7.1.tar.gz
-    6430e4092653380d9dc4ccb45a1e2dc9259d581f4866dc0759713126056bc1d7 1.7)
-endif()
-
 if(FLAGSTONE_BUILD_TESTS OR FLAGSTONE_SANITIZED_TESTS)
   flagstone_dependency(
     googletest https://github.com/google/googletest/archive/refs/tags/release-1.12.1.tar.gz

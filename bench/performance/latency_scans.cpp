@@ -6,16 +6,17 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "files/io/read_cloud.hpp"
 #include "flagstone/patchwork_config.hpp"
-#include "sorting_adversary.hpp"
 
 namespace flagstone::performance {
 namespace {
@@ -29,6 +30,38 @@ Point point(double x, double y, double z) {
 
 Point polar(double range, double angle, double z) {
   return point(range * std::cos(angle), range * std::sin(angle), z);
+}
+
+// Numbers from 0 to `count` in an order that makes std::nth_element of this standard library,
+// asked for one of the lowest, the `nth`, work hard. Where `fixed(i)` the number is `count`, the
+// greatest.
+//
+// M. D. McIlroy, "A Killer Adversary for Quicksort", Software: Practice and Experience 29(4),
+// 1999: numbers are decided while they are being compared, here each time so that the pivot is
+// high and next to nothing is left out for the next round.
+std::vector<double> adverse_to_selection(std::size_t count, std::size_t nth,
+                                         bool (*fixed)(std::size_t)) {
+  const auto greatest = static_cast<double>(count);
+  constexpr double undecided = 0;
+  std::vector<double> numbers(count, undecided);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (fixed(i)) numbers[i] = greatest;
+  }
+  double next = greatest - 1;
+  std::size_t candidate = 0;  // an undecided number that is probably the pivot
+  const auto less = [&](std::size_t a, std::size_t b) {
+    if (numbers[a] == undecided && numbers[b] == undecided) {
+      numbers[a == candidate ? a : b] = next--;
+    }
+    if (numbers[a] == undecided) candidate = a;
+    if (numbers[b] == undecided) candidate = b;
+    return numbers[a] < numbers[b];
+  };
+  std::vector<std::size_t> places(count);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(nth), places.end(),
+                   less);
+  return numbers;
 }
 
 struct NamedPath {

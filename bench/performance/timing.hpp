@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <vector>
 
+#include "library/core/statistics.hpp"
 #include "library/core/stopwatch.hpp"
 
 namespace flagstone::performance {
 
-/// Value below which `share` (0 to 1) of the values lie; the greatest for 1. Needs at least one.
+/// The percentile of 100 * `share` (0 to 1); the values keep their order.
 inline double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size()));
-  return values[std::min(rank, values.size() - 1)];
+  return percentile(values, 100 * share);
 }
 
 /// How long something takes, milliseconds.

@@ -10,8 +10,7 @@ import sys
 import unittest
 
 sys.path.insert(0, sys.argv.pop(1))
-import intervals
-import tables
+import study
 
 
 def scans(**f1):
@@ -32,38 +31,36 @@ class Intervals(unittest.TestCase):
             120: 1.980,
         }
         for degrees, quantile in printed.items():
-            self.assertAlmostEqual(intervals.t_975(degrees), quantile, delta=0.0006, msg=f"{degrees} degrees")
+            self.assertAlmostEqual(study.t_975(degrees), quantile, delta=0.0006, msg=f"{degrees} degrees")
 
     def test_differences_are_taken_scan_by_scan_whatever_their_order(self):
         of = scans(a=0.9, b=0.5, c=0.7)
         other = scans(c=0.6, a=0.7, b=0.5)
-        found = intervals.paired(of, other, "f1")
+        found = study.paired(of, other, "f1")
         self.assertAlmostEqual(found["mean"], 0.1)
         self.assertAlmostEqual(found["ci95"], 4.3027 * 0.1 / math.sqrt(3), places=4)
         self.assertEqual(found["scans"], 3)
 
     def test_one_scan_has_no_interval(self):
-        self.assertIsNone(intervals.mean_of([0.1])["ci95"])
-        self.assertEqual(tables.points_more(intervals.mean_of([0.1])), "+10.00 ± –")
+        self.assertIsNone(study.mean_of([0.1])["ci95"])
+        self.assertEqual(study.points_more(study.mean_of([0.1])), "+10.00 ± –")
 
     def test_only_differences_whose_interval_leaves_out_zero_are_bold(self):
-        self.assertEqual(tables.points_more({"mean": 0.02, "ci95": 0.01}), "**+2.00 ± 1.00**")
-        self.assertEqual(tables.points_more({"mean": -0.01, "ci95": 0.02}), "-1.00 ± 2.00")
+        self.assertEqual(study.points_more({"mean": 0.02, "ci95": 0.01}), "**+2.00 ± 1.00**")
+        self.assertEqual(study.points_more({"mean": -0.01, "ci95": 0.02}), "-1.00 ± 2.00")
 
     def test_no_difference_is_written_without_a_minus(self):
-        self.assertEqual(tables.points_more({"mean": -1e-6, "ci95": 1e-7}), "+0.00 ± 0.00")
+        self.assertEqual(study.points_more({"mean": -1e-6, "ci95": 1e-7}), "+0.00 ± 0.00")
 
 
 class Pages(unittest.TestCase):
     def test_a_table_of_a_page_is_replaced_and_the_text_around_it_kept(self):
         page = "before\n<!-- table a -->\nold\n<!-- end -->\nafter"
-        self.assertEqual(
-            tables.filled(page, {"a": "new"}), "before\n<!-- table a -->\n\nnew\n\n<!-- end -->\nafter"
-        )
+        self.assertEqual(study.filled(page, {"a": "new"}), "before\n<!-- table a -->\n\nnew\n\n<!-- end -->\nafter")
 
     def test_a_table_that_nothing_was_measured_for_is_named(self):
         with self.assertRaisesRegex(SystemExit, "wants a table b; there are a"):
-            tables.filled("<!-- table b --><!-- end -->", {"a": ""})
+            study.filled("<!-- table b --><!-- end -->", {"a": ""})
 
 
 if __name__ == "__main__":

@@ -1,0 +1,205 @@
+# SPDX-FileCopyrightText: 2026 flagstone contributors
+# SPDX-License-Identifier: MIT
+"""What the studies that write pages of the docs share: runs of the command, intervals, tables, the command line."""
+
+import argparse
+import difflib
+import json
+import math
+import os
+import pathlib
+import re
+import shlex
+import statistics
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+class Runs:
+    """Commands are kept with $WORK and $FLAGSTONE_DATA in the place of folders: as a reader can repeat them."""
+
+    def __init__(self, work, flagstone):
+        self.work = work
+        self.places = {
+            "$FLAGSTONE_DATA": os.environ.get("FLAGSTONE_DATA", str(ROOT.parent / "shared" / "data")),
+            "$WORK": str(work),
+        }
+        self.flagstone = str(flagstone)
+        self.made_by = {}  # flagstone, machine, date
+        work.mkdir(parents=True, exist_ok=True)
+
+    def call(self, command):
+        """Standard output of a command; the program ends if it fails."""
+        text = command
+        for name, place in self.places.items():
+            text = text.replace(name, shlex.quote(place))
+        words = shlex.split(text)
+        if words[0] == "flagstone":
+            words[0] = self.flagstone
+        done = subprocess.run(words, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        if done.returncode != 0:
+            sys.exit(f"exit code {done.returncode}: {command}\n{done.stderr.rstrip()}")
+        return done.stdout
+
+    def evaluate_command(self, command):
+        """The results of a `flagstone eval ...` or `flagstone sweep ...`."""
+        with tempfile.TemporaryDirectory(prefix="flagstone-eval-") as place:
+            file = pathlib.Path(place) / "result.json"
+            self.call(f"{command} --json {file}")
+            result = json.loads(file.read_text())
+        for key in ("flagstone", "machine", "date"):
+            self.made_by[key] = result.pop(key)
+        return {"command": command, **result}
+
+
+def show_progress(text):
+    """On a terminal, in one line that the next call replaces; an empty text clears it."""
+    if sys.stderr.isatty():
+        print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
+
+
+# --- differences between two rows of `flagstone eval`, scan by scan, with their 95 % interval ---------------
+
+
+def t_975(degrees):
+    """Quantile 0.975 of Student's t: 12.71 for one degree of freedom, towards 1.96 for many."""
+    if degrees >= 30:  # Abramowitz and Stegun, 26.7.5
+        z = statistics.NormalDist().inv_cdf(0.975)
+        return z + (z**3 + z) / (4 * degrees) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * degrees**2)
+    low, high = 1.0, 20.0
+    while high - low > 1e-9:
+        middle = (low + high) / 2
+        low, high = (middle, high) if share_within(middle, degrees) < 0.95 else (low, middle)
+    return low
+
+
+def share_within(t, degrees):
+    """Probability that |T| < t for Student's T: Abramowitz and Stegun, 26.7.3 and 26.7.4."""
+    angle = math.atan(t / math.sqrt(degrees))
+    cosine = math.cos(angle)
+    odd = degrees % 2
+    term = cosine if odd else 1.0
+    total = term if degrees > 1 else 0.0
+    for k in range(3 if odd else 2, degrees - 1, 2):
+        term *= cosine**2 * (k - 1) / k
+        total += term
+    total *= math.sin(angle)
+    return 2 / math.pi * (angle + total) if odd else total
+
+
+def mean_of(differences):
+    """Mean and the half width of its 95 % interval; scans are taken for independent."""
+    count = len(differences)
+    half_width = None
+    if count > 1:
+        half_width = t_975(count - 1) * statistics.stdev(differences) / math.sqrt(count)
+    return {"mean": statistics.fmean(differences), "ci95": half_width, "scans": count}
+
+
+def paired(of, other, figure):
+    """The mean difference between two methods' entries of an evaluation, scan by scan."""
+    theirs = {scan["scan"]: scan[figure] for scan in other["per_scan"]}
+    return mean_of([scan[figure] - theirs[scan["scan"]] for scan in of["per_scan"]])
+
+
+# --- tables in Markdown, and pages that hold them between <!-- table NAME --> and <!-- end --> --------------
+
+
+def percent(share, digits=2):
+    return "–" if share is None else f"{100 * share:.{digits}f}"
+
+
+def with_interval(value):
+    return f"{percent(value['mean'])} ± {percent(value['ci95'])}"
+
+
+def points_more(difference):
+    """A difference of shares in points: +0.12 ± 0.05; in bold where the interval does not hold 0."""
+    mean = round(100 * difference["mean"], 2) + 0.0  # no minus zero
+    text = f"{mean:+.2f} ± {percent(difference['ci95'])}"
+    beyond = difference["ci95"] is not None and abs(difference["mean"]) > difference["ci95"]
+    return f"**{text}**" if beyond and mean != 0 else text
+
+
+def table(head, rows, left=1):
+    """`left` columns are set flush left, the others right."""
+    rule = ["---"] * left + ["---:"] * (len(head) - left)
+    return "\n".join("| " + " | ".join(line) + " |" for line in (head, rule, *rows))
+
+
+def rounded(value):
+    """The same with shares to a thousandth of a percent."""
+    if isinstance(value, float):
+        return round(value, 5)
+    if isinstance(value, dict):
+        return {key: rounded(entry) for key, entry in value.items()}
+    return [rounded(entry) for entry in value] if isinstance(value, list) else value
+
+
+def filled(page, found):
+    """The text of a page with the tables of `found`, by name."""
+
+    def replace(match):
+        name = match.group(1)
+        if name not in found:
+            sys.exit(f"the page wants a table {name}; there are {', '.join(found)}")
+        return f"<!-- table {name} -->\n\n{found[name]}\n\n<!-- end -->"
+
+    return re.sub(r"<!-- table (\S+) -->.*?<!-- end -->", replace, page, flags=re.DOTALL)
+
+
+def check(path, found):
+    """Ends the program with exit code 1, and the differences, if the page's tables are not those found."""
+    page = path.read_text()
+    wanted = filled(page, found)
+    sys.stdout.writelines(difflib.unified_diff(page.splitlines(True), wanted.splitlines(True)))
+    sys.exit(page != wanted)
+
+
+# --- the command line ---------------------------------------------------------------------------------------
+
+
+def main(description, page, results_file, tables, measure, names=(), can_try=False, draw=None):
+    """The command line of a study whose `tables(results)` stand in a page.
+
+    `measure(options)` returns results that JSON can hold, of the measurements in `names` that were asked for. `draw`
+    makes pictures from the results.
+    """
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    measured = argparse.ArgumentParser(add_help=False)
+    measured.add_argument("--work", type=pathlib.Path, required=True, help="folder for what is large")
+    measured.add_argument("--flagstone", type=pathlib.Path, default=ROOT / "build" / "flagstone")
+    if names:
+        measured.add_argument("--only", nargs="+", choices=list(names), default=list(names), help="default: all")
+    commands.add_parser("run", parents=[measured], help="measure, write results and page")
+    if can_try:
+        try_command = commands.add_parser("try", parents=[measured], help="measure, print the tables")
+        try_command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="of the method")
+    commands.add_parser("page", help="write the page from the results")
+    commands.add_parser("check", help="fail if the page's tables are not those of the results")
+    options = parser.parse_args()
+
+    results = json.loads(results_file.read_text()) if results_file.exists() else {}
+    if options.command in ("run", "try"):
+        options.work = options.work.resolve()
+        options.flagstone = options.flagstone.resolve()
+        try:
+            found = measure(options)
+        except KeyboardInterrupt:
+            sys.exit("\ninterrupted")
+        show_progress("")
+        if options.command == "try":
+            for name, text in tables(found).items():
+                print(f"{name}\n\n{text}\n")
+            return
+        results |= found
+        results_file.write_text(json.dumps(results, indent=1) + "\n")
+    if options.command == "check":
+        check(page, tables(results))
+    page.write_text(filled(page.read_text(), tables(results)))
+    if draw:
+        draw(results)
