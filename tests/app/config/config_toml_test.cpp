@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/config/same_config.hpp"
+#include "numbers.hpp"
 
 namespace flagstone::config {
 namespace {
@@ -26,8 +27,6 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::SizeIs;
 using testing::StartsWith;
-
-constexpr float inf = std::numeric_limits<float>::infinity();
 
 /// Any float but NaN, which equals nothing: denormals, infinities and the largest among them.
 rc::Gen<float> any_number() {

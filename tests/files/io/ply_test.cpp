@@ -25,11 +25,11 @@ std::string header(const std::string& elements, const std::string& format = "asc
 
 std::string vertices(const std::string& count) { return "element vertex " + count + "\n" + xyz; }
 
-Status read(const std::string& text, Cloud& cloud) { return read_ply(bytes_of(text), cloud); }
+Status read_text(const std::string& text, Cloud& cloud) { return read_ply(bytes_of(text), cloud); }
 
-Status error_of(const std::string& text) {
+Status ply_error(const std::string& text) {
   Cloud cloud;
-  Status status = read(text, cloud);
+  Status status = read_text(text, cloud);
   EXPECT_TRUE(cloud.fields().empty()) << "a failed read changed its result";
   return status;
 }
@@ -42,7 +42,7 @@ TEST(Ply, ReadsAsciiWithElementsBeforeAndAfter) {
       "z\n"
       "element face 1\nproperty list uchar int vertex_indices\n");
 
-  ASSERT_THAT(read(text + "3 1 2 3\n0\n\n255 1.5 nan -7\n0 -2 inf 32767\n3 0 1 1\n", cloud),
+  ASSERT_THAT(read_text(text + "3 1 2 3\n0\n\n255 1.5 nan -7\n0 -2 inf 32767\n3 0 1 1\n", cloud),
               is_ok());
 
   ASSERT_EQ(cloud.size(), 2U);
@@ -92,7 +92,7 @@ TEST(Ply, ReadsBothNamesOfEveryType) {
       {"float", float32}, {"float32", float32}, {"double", float64}, {"float64", float64}};
   for (const auto& [name, type] : names) {
     Cloud cloud;
-    ASSERT_THAT(read(header(vertices("1") + "property " + name + " v\n") + "1 2 3 4\n", cloud),
+    ASSERT_THAT(read_text(header(vertices("1") + "property " + name + " v\n") + "1 2 3 4\n", cloud),
                 is_ok());
     EXPECT_EQ(cloud.find("v")->type, type);
     EXPECT_EQ(cloud.value(0, *cloud.find("v")), 4.0);
@@ -102,9 +102,10 @@ TEST(Ply, ReadsBothNamesOfEveryType) {
 TEST(Ply, SkipsAnElementWithoutPropertiesHoweverMany) {
   const std::string empty = "element nothing 18446744073709551615\n";
   Cloud cloud;
-  EXPECT_THAT(read(header(empty + vertices("1")) + "1 2 3\n", cloud), is_ok());
+  EXPECT_THAT(read_text(header(empty + vertices("1")) + "1 2 3\n", cloud), is_ok());
   EXPECT_THAT(
-      read(header(empty + vertices("1"), "binary_little_endian") + std::string(12, 'a'), cloud),
+      read_text(header(empty + vertices("1"), "binary_little_endian") + std::string(12, 'a'),
+                cloud),
       is_ok());
 }
 
@@ -112,118 +113,118 @@ TEST(Ply, DoesNotLookBehindTheVertices) {
   Cloud cloud;
   const std::string text =
       header(vertices("1") + "element face 9\nproperty list uchar int i\n", "binary_little_endian");
-  EXPECT_THAT(read(text + std::string(12, 'a'), cloud), is_ok());
+  EXPECT_THAT(read_text(text + std::string(12, 'a'), cloud), is_ok());
 }
 
 TEST(Ply, ReadsNoPoints) {
   Cloud cloud;
-  EXPECT_THAT(read(header(vertices("0")), cloud), is_ok());
+  EXPECT_THAT(read_text(header(vertices("0")), cloud), is_ok());
   EXPECT_EQ(cloud.fields().size(), 3U);
 }
 
 TEST(PlyHeader, BeginsWithPly) {
-  EXPECT_THAT(error_of(""), is_bad_at(0, "line 'ply'"));
-  EXPECT_THAT(error_of("plyx\n"), is_bad_at(0, "line 'ply'"));
+  EXPECT_THAT(ply_error(""), is_bad_at(0, "line 'ply'"));
+  EXPECT_THAT(ply_error("plyx\n"), is_bad_at(0, "line 'ply'"));
 }
 
 TEST(PlyHeader, MustBeClosed) {
-  EXPECT_THAT(error_of("ply\nformat ascii 1.0\n"), is_bad_at(21, "end_header must close it"));
+  EXPECT_THAT(ply_error("ply\nformat ascii 1.0\n"), is_bad_at(21, "end_header must close it"));
 }
 
 TEST(PlyHeader, HasOneKnownFormat) {
-  EXPECT_THAT(error_of("ply\nformat ascii 2.0\nend_header\n"), is_bad_at(4, "format ascii 1.0"));
-  EXPECT_THAT(error_of("ply\nformat ascii 1.0\nformat ascii 1.0\nend_header\n"),
+  EXPECT_THAT(ply_error("ply\nformat ascii 2.0\nend_header\n"), is_bad_at(4, "format ascii 1.0"));
+  EXPECT_THAT(ply_error("ply\nformat ascii 1.0\nformat ascii 1.0\nend_header\n"),
               is_bad_at(21, "one line"));
-  EXPECT_THAT(error_of("ply\nelement vertex 0\nend_header\n"), is_bad_at(0, "no line 'format'"));
+  EXPECT_THAT(ply_error("ply\nelement vertex 0\nend_header\n"), is_bad_at(0, "no line 'format'"));
 }
 
 TEST(PlyHeader, RefusesUnknownLines) {
-  EXPECT_THAT(error_of(header("elephant 1\n")), is_bad_at(21, "'elephant' is no line"));
-  EXPECT_THAT(error_of("ply\n" + std::string(1000000, '\xff')), is_bad_at(4, R"('\xff\xff)"));
+  EXPECT_THAT(ply_error(header("elephant 1\n")), is_bad_at(21, "'elephant' is no line"));
+  EXPECT_THAT(ply_error("ply\n" + std::string(1000000, '\xff')), is_bad_at(4, R"('\xff\xff)"));
 }
 
 TEST(PlyHeader, RefusesCountsThatAreNone) {
   for (const char* count : {"-1", "", "1.5", "x", "18446744073709551616"}) {
-    EXPECT_THAT(error_of(header(vertices(count))), is_bad_at(21, "COUNT a whole number"));
+    EXPECT_THAT(ply_error(header(vertices(count))), is_bad_at(21, "COUNT a whole number"));
   }
 }
 
 TEST(PlyHeader, RefusesAnElementTwice) {
-  EXPECT_THAT(error_of(header(vertices("0") + vertices("0"))),
+  EXPECT_THAT(ply_error(header(vertices("0") + vertices("0"))),
               is_bad_at(21 + 17 + 51, "'vertex' occurs twice"));
 }
 
 TEST(PlyHeader, RefusesPropertiesThatAreNone) {
-  EXPECT_THAT(error_of(header("property float x\n")), is_bad_at(21, "before the first element"));
-  EXPECT_THAT(error_of(header("element vertex 1\nproperty float\n")),
+  EXPECT_THAT(ply_error(header("property float x\n")), is_bad_at(21, "before the first element"));
+  EXPECT_THAT(ply_error(header("element vertex 1\nproperty float\n")),
               is_bad_at(38, "property TYPE NAME"));
-  EXPECT_THAT(error_of(header("element vertex 1\nproperty int64 x\n")),
+  EXPECT_THAT(ply_error(header("element vertex 1\nproperty int64 x\n")),
               is_bad_at(38, "'int64' is no type"));
-  EXPECT_THAT(error_of(header("element face 1\nproperty list float int x\n")),
+  EXPECT_THAT(ply_error(header("element face 1\nproperty list float int x\n")),
               is_bad_at(36, "'float' is no type"));
 }
 
 TEST(PlyHeader, RefusesTooManyProperties) {
   std::string many = "element vertex 1\n";
   for (std::size_t i = 0; i <= max_fields; ++i) many += fmt::format("property float f{}\n", i);
-  EXPECT_THAT(error_of(header(many)),
+  EXPECT_THAT(ply_error(header(many)),
               fails(StatusCode::bad_file, HasSubstr("more than 1024 properties")));
 }
 
 TEST(PlyHeader, NeedsVertices) {
-  EXPECT_THAT(error_of(header("element face 1\nproperty float x\n")),
+  EXPECT_THAT(ply_error(header("element face 1\nproperty float x\n")),
               is_bad_at(0, "no element 'vertex'"));
 }
 
 TEST(PlyHeader, NeedsXYAndZOnce) {
-  EXPECT_THAT(error_of(header("element vertex 1\nproperty float x\nproperty float y\n")),
+  EXPECT_THAT(ply_error(header("element vertex 1\nproperty float x\nproperty float y\n")),
               is_bad_at(21, "no field 'z'"));
-  EXPECT_THAT(error_of(header(vertices("1") + "property float x\n")),
+  EXPECT_THAT(ply_error(header(vertices("1") + "property float x\n")),
               is_bad_at(21, "'x' occurs twice"));
 }
 
 TEST(PlyHeader, RefusesListsInTheVertices) {
-  EXPECT_THAT(error_of(header(vertices("1") + "property list uchar int views\n")),
+  EXPECT_THAT(ply_error(header(vertices("1") + "property list uchar int views\n")),
               is_bad_at(21 + 17 + 51, "property 'views' of element vertex is a list"));
 }
 
 TEST(PlyAscii, RefusesMorePointsThanTheTextCanHold) {
   const std::string text = header(vertices("18446744073709551615")) + "1 2 3\n";
-  EXPECT_THAT(error_of(text), is_bad_at(text.size(), "too many for the 6 bytes behind it"));
+  EXPECT_THAT(ply_error(text), is_bad_at(text.size(), "too many for the 6 bytes behind it"));
 }
 
 TEST(PlyAscii, RefusesAFileThatEndsBeforeThePoints) {
   const std::string text =
       header("element camera 3\nproperty float f\n" + vertices("1")) + "1\n2\n";
-  EXPECT_THAT(error_of(text), is_bad_at(text.size(), "after 2 of 3 lines before the points"));
+  EXPECT_THAT(ply_error(text), is_bad_at(text.size(), "after 2 of 3 lines before the points"));
 }
 
 TEST(PlyAscii, RefusesWhatIsNoNumber) {
   const std::string text = header(vertices("1"));
-  EXPECT_THAT(error_of(text + "1 two 3\n"),
+  EXPECT_THAT(ply_error(text + "1 two 3\n"),
               is_bad_at(text.size() + 2, "'two' is not a float32 (field 'y' of point 0)"));
 }
 
 TEST(PlyAscii, RefusesPointsTheHeaderDoesNotCount) {
   const std::string text = header(vertices("1"));
-  EXPECT_THAT(error_of(text + "1 2 3\n4 5 6\n"),
+  EXPECT_THAT(ply_error(text + "1 2 3\n4 5 6\n"),
               is_bad_at(text.size() + 6, "more data after the 1 points"));
 }
 
 TEST(PlyBinary, RefusesAFileThatIsCutOff) {
   const std::string text = header(vertices("2"), "binary_little_endian") + std::string(23, 'a');
-  EXPECT_THAT(error_of(text), is_bad_at(text.size(), "hold 1"));
+  EXPECT_THAT(ply_error(text), is_bad_at(text.size(), "hold 1"));
 }
 
 TEST(PlyBinary, RefusesGiganticCounts) {
   const std::string text =
       header(vertices("1537228672809129302"), "binary_big_endian") + std::string(24, 'a');
-  EXPECT_THAT(error_of(text), is_bad_at(text.size(), "hold 2"));
+  EXPECT_THAT(ply_error(text), is_bad_at(text.size(), "hold 2"));
 }
 
 TEST(PlyBinary, RefusesPointsTheHeaderDoesNotCount) {
   const std::string text = header(vertices("1"), "binary_little_endian");
-  EXPECT_THAT(error_of(text + std::string(24, 'a')),
+  EXPECT_THAT(ply_error(text + std::string(24, 'a')),
               is_bad_at(text.size() + 12, "12 bytes after the 1 points"));
 }
 
@@ -232,7 +233,7 @@ TEST(PlyBinary, RefusesGiganticElementsBeforeThePoints) {
       header("element big 2305843009213693953\nproperty double f\n" + vertices("1"),
              "binary_little_endian") +
       std::string(20, 'a');
-  EXPECT_THAT(error_of(text),
+  EXPECT_THAT(ply_error(text),
               is_bad_at(text.size(), "within the 2305843009213693953 of element 'big'"));
 }
 
@@ -240,17 +241,17 @@ TEST(PlyBinary, RefusesListsBeyondTheFile) {
   const std::string text = header("element big 1\nproperty list uint double f\n" + vertices("1"),
                                   "binary_little_endian") +
                            "\xff\xff\xff\xff" + std::string(12, 'a');
-  EXPECT_THAT(error_of(text), is_bad_at(text.size(), "of element 'big'"));
+  EXPECT_THAT(ply_error(text), is_bad_at(text.size(), "of element 'big'"));
   const std::string none =
       header("element big 9999999999\nproperty list uint double f\n" + vertices("1"),
              "binary_little_endian");
-  EXPECT_THAT(error_of(none), is_bad_at(none.size(), "of element 'big'"));
+  EXPECT_THAT(ply_error(none), is_bad_at(none.size(), "of element 'big'"));
 }
 
 TEST(PlyBinary, RefusesListsOfNegativeLength) {
   const std::string text =
       header("element big 1\nproperty list char char f\n" + vertices("1"), "binary_little_endian");
-  EXPECT_THAT(error_of(text + "\xff" + std::string(12, 'a')),
+  EXPECT_THAT(ply_error(text + "\xff" + std::string(12, 'a')),
               is_bad_at(text.size(), "list 'f' of length -1"));
 }
 

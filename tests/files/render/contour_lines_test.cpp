@@ -11,12 +11,12 @@
 #include <limits>
 #include <numbers>
 
+#include "numbers.hpp"
+
 namespace flagstone::render {
 namespace {
 
 using testing::UnorderedElementsAre;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 std::vector<float> sampled(std::size_t width, std::size_t rows,
                            const std::function<double(double, double)>& height) {

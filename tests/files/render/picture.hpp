@@ -20,6 +20,11 @@ namespace flagstone::render {
 bool operator==(const Color& a, const Color& b) noexcept;
 void PrintTo(const Color& color, std::ostream* out);
 
+/// Points that are rightly ground, wrongly not ground, wrongly ground.
+inline constexpr Color green{44, 166, 96};
+inline constexpr Color blue{66, 140, 255};
+inline constexpr Color red{255, 72, 56};
+
 /// A PNG file read back with Cairo; without pixels where it is no valid picture.
 class Picture {
  public:

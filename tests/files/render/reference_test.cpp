@@ -8,9 +8,6 @@
 namespace flagstone::render {
 namespace {
 
-constexpr Color green{44, 166, 96};
-constexpr Color blue{66, 140, 255};
-constexpr Color red{255, 72, 56};
 constexpr Color neutral{140, 148, 158};
 constexpr Color faint{70, 77, 87};
 

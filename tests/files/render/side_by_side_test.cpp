@@ -17,10 +17,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr Color green{44, 166, 96};
-constexpr Color blue{66, 140, 255};
-constexpr Color red{255, 72, 56};
-
 // Pictures of one point, which is ground, at x = 20 m, y = 10 m.
 class SideBySidePicture : public PictureTest {
  protected:

@@ -6,18 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "files/io/temporary_folder.hpp"
 #include "files/render/layout.hpp"
 #include "files/render/picture.hpp"
 #include "files/render/top_view.hpp"
+#include "numbers.hpp"
 #include "random_surface.hpp"
 
 namespace flagstone::render {
 namespace {
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 double lightness(Color color) { return 0.3 * color.red + 0.59 * color.green + 0.11 * color.blue; }
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "files/io/read_cloud.hpp"
 #include "lab/baselines/cascaded_beams.hpp"
 #include "lab/baselines/cascaded_planes.hpp"
+#include "numbers.hpp"
 #include "real_scans.hpp"
 
 namespace flagstone {
@@ -26,14 +26,13 @@ using baselines::ContinuousPlanes;
 using baselines::Coordinates;
 
 constexpr double sensor_height = 1.73;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double tangent(double degrees) { return std::tan(degrees * std::numbers::pi / 180); }
 
 /// What a scan is cast against: a plane that rises forward, and a wall across.
 struct World {
   double slope = 0;           ///< of the ground along x, degrees; level below the sensor
-  double wall_x = infinity;   ///< metres
+  double wall_x = inf;        ///< metres
   double wall_height = 3;     ///< above the ground at its foot, metres
   double farthest_echo = 60;  ///< metres
 };
@@ -49,7 +48,7 @@ struct Scan {
 /// Where a ray with this elevation, as a tangent, and azimuth meets the world: horizontal distance.
 double distance_to_ground(const World& world, double rise, double cosine) {
   const double closing = tangent(world.slope) * cosine - rise;
-  return closing > 0 ? sensor_height / closing : infinity;
+  return closing > 0 ? sensor_height / closing : inf;
 }
 
 /// What an HDL-64E measures without noise, every half degree.
@@ -62,7 +61,7 @@ Scan scan_of(const World& world) {
       const double cosine = std::cos(azimuth);
       const double rise = tangent(elevations[ring]);
       const double ground = distance_to_ground(world, rise, cosine);
-      const double wall = cosine > 0 ? world.wall_x / cosine : infinity;
+      const double wall = cosine > 0 ? world.wall_x / cosine : inf;
       const double top = -sensor_height + tangent(world.slope) * world.wall_x + world.wall_height;
       const bool on_wall = wall < ground && wall * rise < top;
       const double range = on_wall ? wall : ground;
@@ -237,8 +236,8 @@ TEST(Cascaded, RingsOnASlopeAreCloserTogetherThanOnFlatGround) {
       1e-5);
   EXPECT_NEAR(beams.flat_radius(1), sensor_height / tangent(10), 1e-5);
   EXPECT_LT(beams.least_distance(0, 1), beams.flat_radius(1) - beams.flat_radius(0));
-  EXPECT_LT(beams.least_distance(1, 2), infinity);  // steeper ground than 3 degrees is met
-  EXPECT_EQ(beams.least_distance(2, 3), infinity);
+  EXPECT_LT(beams.least_distance(1, 2), inf);  // steeper ground than 3 degrees is met
+  EXPECT_EQ(beams.least_distance(2, 3), inf);
 }
 
 TEST(Cascaded, APlaneThatLeansTooMuchAgainstTheOneBeforeIsReplacedByIt) {

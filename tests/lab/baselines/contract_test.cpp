@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "methods.hpp"
+#include "numbers.hpp"
 #include "outcome.hpp"
 #include "random_cloud.hpp"
 
@@ -27,9 +28,6 @@ namespace {
 using tests::corrupted_cloud;
 using tests::random_cloud;
 using tests::view_of;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float inf = std::numeric_limits<float>::infinity();
 
 std::vector<Label> labels_of(const tests::Method& method, CloudView cloud) {
   Segmentation result;

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -18,12 +17,11 @@
 
 #include "lab/baselines/gpf_segments.hpp"
 #include "library/core/random.hpp"
+#include "numbers.hpp"
 #include "random_cloud.hpp"
 
 namespace flagstone {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 float uniform(Random& random, double low, double high) {
   return static_cast<float>(random.uniform(low, high));
@@ -114,7 +112,7 @@ TEST(Gpf, ManyReflectionsDefeatItUnlessTheyAreTakenOutAsNoise) {
   std::vector<Point> cloud = flat_street(6000);
   for (int i = 0; i < 40; ++i) cloud.push_back({5 + 0.1f * static_cast<float>(i % 7), 1, -8});
 
-  const Segmentation kept = segment(cloud, {.noise_factor = infinity});
+  const Segmentation kept = segment(cloud, {.noise_factor = inf});
   const Segmentation taken_out = segment(cloud);
 
   EXPECT_EQ(kept.count(Label::noise), 0u);

@@ -5,18 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <vector>
 
+#include "numbers.hpp"
 #include "random_cloud.hpp"
 
 namespace flagstone::baselines {
 namespace {
 
 using testing::ElementsAre;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float inf = std::numeric_limits<float>::infinity();
 
 struct Gathered {
   explicit Gathered(const std::vector<Point>& cloud) : labels(cloud.size(), Label::nonground) {

@@ -20,12 +20,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-using enum Truth;
 
 constexpr std::array<float, 12> four_points = {5, 0, -1.7f, 5, 0, -1.31f, 5, 0, -1.3f, 5, 0, 2};
 const CloudView cloud(four_points.data(), 4);
 
 TEST(Protocol, ThePapersCountsLowVegetationAsGroundAndEveryPoint) {
+  using enum Truth;
   constexpr std::array<std::uint32_t, 4> classes = {0, 70, 70, 70};
 
   EXPECT_THAT(truth_of(patchwork_protocol(), cloud, classes),
@@ -33,6 +33,7 @@ TEST(Protocol, ThePapersCountsLowVegetationAsGroundAndEveryPoint) {
 }
 
 TEST(Protocol, PatchworkPlusPlusDoesNotScoreUnlabelledOutliersAndVegetation) {
+  using enum Truth;
   constexpr std::array<std::uint32_t, 4> classes = {0, 1, 70, 50};
 
   EXPECT_THAT(truth_of(patchwork_plusplus_protocol(), cloud, classes),
@@ -40,6 +41,7 @@ TEST(Protocol, PatchworkPlusPlusDoesNotScoreUnlabelledOutliersAndVegetation) {
 }
 
 TEST(Protocol, TheSixGroundClassesAreGroundUnderAllThatUseSemanticKittiIds) {
+  using enum Truth;
   for (const Protocol* protocol :
        {&patchwork_protocol(), &patchwork_plusplus_protocol(), &simulation_protocol()}) {
     for (const std::uint32_t id : {40u, 44u, 48u, 49u, 60u, 72u}) {
@@ -51,6 +53,7 @@ TEST(Protocol, TheSixGroundClassesAreGroundUnderAllThatUseSemanticKittiIds) {
 }
 
 TEST(Protocol, SimulationScoresGhostsAndVegetationAsNotGround) {
+  using enum Truth;
   constexpr std::array<std::uint32_t, 4> classes = {1, 70, 70, 40};
 
   EXPECT_THAT(truth_of(simulation_protocol(), cloud, classes),
@@ -58,6 +61,7 @@ TEST(Protocol, SimulationScoresGhostsAndVegetationAsNotGround) {
 }
 
 TEST(Protocol, LidarsegScoresFlatSurfacesAndLeavesOutTheOwnVehicle) {
+  using enum Truth;
   constexpr std::array<std::uint32_t, 4> classes = {24, 27, 31, 17};
 
   EXPECT_THAT(truth_of(lidarseg_protocol(), cloud, classes),

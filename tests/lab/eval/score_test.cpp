@@ -13,6 +13,8 @@
 #include <optional>
 #include <vector>
 
+#include "numbers.hpp"
+
 namespace flagstone::eval {
 namespace {
 
@@ -72,7 +74,6 @@ TEST(Confusion, WithoutPointsLabelledGroundThePrecisionIsUndefined) {
   EXPECT_EQ(scores_text(confusion), "precision n/a %, recall 0.00 %, F1 0.00 %");
 }
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint32_t road = 40;
 constexpr std::uint32_t building = 50;
 constexpr std::uint32_t unlabelled = 0;

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <vector>
 
+#include "numbers.hpp"
 #include "random_surface.hpp"
 
 namespace flagstone {
@@ -20,9 +21,6 @@ namespace {
 
 using tests::random_surface;
 using tests::two_grids;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// One grid of 1 m cells whose centres lie at x, y = -1.5, -0.5, 0.5, 1.5.
 GroundSurface of_sixteen(const tests::Ground& ground) {
@@ -250,7 +248,7 @@ RC_GTEST_PROP(SurfaceHeight, LiesWithinTheHeightsAround, ()) {
 RC_GTEST_PROP(SurfaceAt, TakesEveryBitPattern, ()) {
   static const GroundSurface surface = random_surface(hills);
   const auto special =
-      rc::gen::element(nan, infinity, -infinity, -0.0f, 32.0f, -32.0f, 8.0f,
+      rc::gen::element(nan, inf, -inf, -0.0f, 32.0f, -32.0f, 8.0f,
                        std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min());
   const auto any_bits = rc::gen::map(rc::gen::arbitrary<std::uint32_t>(),
                                      [](std::uint32_t bits) { return std::bit_cast<float>(bits); });

@@ -6,16 +6,16 @@
 
 #include <limits>
 
+#include "numbers.hpp"
+
 namespace flagstone {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float denormal = std::numeric_limits<float>::denorm_min();
 
 TEST(PointValidity, NeedsThreeFiniteCoordinates) {
   EXPECT_TRUE(is_valid({1, -2, 3}));
-  for (const float bad : {infinity, -infinity, nan}) {
+  for (const float bad : {inf, -inf, nan}) {
     EXPECT_FALSE(is_valid({bad, 2, 3})) << bad;
     EXPECT_FALSE(is_valid({1, bad, 3})) << bad;
     EXPECT_FALSE(is_valid({1, 2, bad})) << bad;

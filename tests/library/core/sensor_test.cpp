@@ -6,17 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "numbers.hpp"
 
 namespace flagstone {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::string refusal_of(const std::function<void(Sensor&)>& spoil) {
   Sensor sensor = Sensor::named("vlp-16");

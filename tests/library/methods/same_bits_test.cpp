@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 #include <memory>
 #include <type_traits>
 #include <variant>
@@ -19,6 +18,7 @@
 #include "real_scans.hpp"
 #ifdef FLAGSTONE_HAS_SIMULATOR
 #include "lab/sim/drive.hpp"
+#include "numbers.hpp"
 #endif
 
 namespace flagstone {
@@ -29,9 +29,6 @@ using tests::Outcome;
 using tests::random_cloud;
 using tests::shuffled;
 using tests::view_of;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float inf = std::numeric_limits<float>::infinity();
 
 /// Settings of one of the methods, and their name.
 struct Setting {

@@ -22,6 +22,7 @@
 #include "flagstone/surface.hpp"
 #include "library/mount/recording_method.hpp"
 #include "library/mount/yard.hpp"
+#include "numbers.hpp"
 #include "random_cloud.hpp"
 
 namespace flagstone {
@@ -34,9 +35,6 @@ using tests::scan_of;
 using tests::view_of;
 using tests::Yard;
 using tests::YardScan;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Any sensor at all: leaning, in millimetres, off the frame's origin, higher than the method has
 /// it.
@@ -150,8 +148,8 @@ TEST(GravityAlignedSegmenter, WhatIsZeroOrNotFiniteStaysSoAndNothingElseBecomesI
   cloud.insert(cloud.end(), {{0, 0, 0},
                              {-0.0f, 0, 0},
                              {nan, 1, 1},
-                             {1, infinity, 1},
-                             {1, 1, -infinity},
+                             {1, inf, 1},
+                             {1, 1, -inf},
                              {3e38f, -3e38f, 3e38f},
                              {1500, -500, 250}});  // the very place of the sensor
   RecordingMethod::Seen seen;

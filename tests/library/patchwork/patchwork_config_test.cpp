@@ -6,21 +6,18 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "flagstone/patchwork.hpp"
+#include "numbers.hpp"
 
 namespace flagstone {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float inf = std::numeric_limits<float>::infinity();
 
 /// What check() says after `spoil`; empty if it is content.
 std::string complaint(const std::function<void(PatchworkConfig&)>& spoil) {

@@ -15,11 +15,10 @@
 
 #include "forced_target.hpp"
 #include "library/plane_fits/batch_of.hpp"
+#include "numbers.hpp"
 
 namespace flagstone::plane_fits {
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Sums over a set, and over the absolute values of what they sum.
 struct NaiveSums {
@@ -64,7 +63,7 @@ GroundSets any_sets(std::mt19937& random) {
     set = {.normal_x = 0.3f * (any() - 0.5f),
            .normal_y = 0.3f * (any() - 0.5f),
            .normal_z = 0.95f,
-           .bottom = random() % 3 == 0 ? -infinity : -2 + any(),
+           .bottom = random() % 3 == 0 ? -inf : -2 + any(),
            .top = -1 + 2 * any()};
   }
   return sets;
@@ -116,7 +115,7 @@ TEST_P(SumMomentsOn, KeepTheirPrecisionOverManyPoints) {
   std::mt19937 random(1);
   const BinBatch batch = tests::batch_of({std::vector<float>(300'000, -0.3f)});
   GroundSets sets{};
-  sets[0] = {0, 0, 1, -infinity, 1};
+  sets[0] = {0, 0, 1, -inf, 1};
   const NaiveSums expected = naive(batch, 0, sets[0]);
 
   MomentsBatch single{};
@@ -136,7 +135,7 @@ TEST_P(SumMomentsOn, KeepTheirPrecisionOverManyPoints) {
 TEST_P(SumMomentsOn, LeaveBinsThatAreNotWantedAlone) {
   const BinBatch batch = tests::batch_of({{-1, -1, -1}, {-1, -1}, {-1, -1, -1, -1}});
   GroundSets sets{};
-  sets.fill({0, 0, 1, -infinity, infinity});
+  sets.fill({0, 0, 1, -inf, inf});
   MomentsBatch moments{};
   moments.count.fill(77);
   moments.squares[5].fill(77);

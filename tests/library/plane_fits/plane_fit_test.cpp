@@ -8,18 +8,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "library/plane_fits/batch_of.hpp"
 #include "library/plane_fits/stage_clock.hpp"
+#include "numbers.hpp"
 
 namespace flagstone::plane_fits {
 namespace {
 
 using Heights = std::vector<float>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// 300 points of level ground, 1.7 m below the sensor, and these.
 Heights ground_and(const Heights& others) {
@@ -62,7 +60,7 @@ PlaneFit::Result fitted(const std::vector<Heights>& bins, const FitSettings& set
 TEST(PlaneFit, FirstSetReachesAsFarAboveTheSeedsMeanAsTheSeedHeight) {
   const Heights heights = ground_and({-1.25f, -1.15f});
 
-  const PlaneFit::Result result = fitted({heights}, first_set_only(), same_seeds(-infinity, 20));
+  const PlaneFit::Result result = fitted({heights}, first_set_only(), same_seeds(-inf, 20));
 
   EXPECT_EQ(result.judged.count[0], 301);
 }
@@ -70,7 +68,7 @@ TEST(PlaneFit, FirstSetReachesAsFarAboveTheSeedsMeanAsTheSeedHeight) {
 TEST(PlaneFit, FirstSetReachesAsFarBelowTheSeedsMeanAsTheSeedDepth) {
   const Heights heights = ground_and({-2.65f, -3.5f});
   FitSettings settings = first_set_only();
-  const Seeds seeds = same_seeds(-infinity, 200);  // whose mean is 1.4 cm below the ground
+  const Seeds seeds = same_seeds(-inf, 200);  // whose mean is 1.4 cm below the ground
 
   EXPECT_EQ(fitted({heights}, settings, seeds).judged.count[0], 302);
   settings.seed_depth = 1;
@@ -100,7 +98,7 @@ TEST(PlaneFit, SeedDepthAndFloorBothHold) {
 
 TEST(PlaneFit, FloorIsEachBinsOwn) {
   const Heights heights = ground_and({-3.5f, -3.5f});
-  Seeds seeds = same_seeds(-infinity, 1);
+  Seeds seeds = same_seeds(-inf, 1);
   seeds.floors[1] = -2;
 
   const PlaneFit::Result result = fitted({heights, heights}, first_set_only(), seeds);
@@ -111,7 +109,7 @@ TEST(PlaneFit, FloorIsEachBinsOwn) {
 
 TEST(PlaneFit, NumberOfSeedsIsEachBinsOwn) {
   const Heights heights = ground_and({-3.5f, -3.5f});
-  Seeds seeds = same_seeds(-infinity, 2);
+  Seeds seeds = same_seeds(-inf, 2);
   seeds.counts[1] = 100;
   seeds.counts[2] = 30;
 
@@ -126,7 +124,7 @@ TEST(PlaneFit, LaterSetsReachFromTheNoiseMarginBelowThePlaneToTheDistanceMarginA
   FitSettings settings = first_set_only();
   settings.iterations = 2;
 
-  const PlaneFit::Result result = fitted({heights}, settings, same_seeds(-infinity, 20));
+  const PlaneFit::Result result = fitted({heights}, settings, same_seeds(-inf, 20));
 
   EXPECT_EQ(result.judged.count[0], 302);
 }
@@ -136,7 +134,7 @@ TEST(PlaneFit, JudgingTheFinalSetIsOnePlaneMore) {
   FitSettings settings = first_set_only();
   settings.iterations = 2;
   settings.evaluate_final_set = true;
-  const Seeds seeds = same_seeds(-infinity, 20);
+  const Seeds seeds = same_seeds(-inf, 20);
 
   const PlaneFit::Result judged = fitted({heights}, settings, seeds);
   settings.iterations = 3;
@@ -148,8 +146,7 @@ TEST(PlaneFit, JudgingTheFinalSetIsOnePlaneMore) {
 }
 
 TEST(PlaneFit, PlanesAreSeenFromTheirOrigins) {
-  const PlaneFit::Result result =
-      fitted({ground_and({})}, first_set_only(), same_seeds(-infinity, 20));
+  const PlaneFit::Result result = fitted({ground_and({})}, first_set_only(), same_seeds(-inf, 20));
 
   const Plane plane = result.judged[0].moved_by(result.origins[0]);
 

@@ -9,20 +9,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "forced_target.hpp"
 #include "library/plane_fits/batch_of.hpp"
+#include "numbers.hpp"
 
 namespace flagstone::plane_fits {
 namespace {
 
 using Heights = std::vector<float>;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Eq. (4), as it is written.
 double naive(Heights heights, float floor, std::size_t seed_count) {
@@ -92,7 +90,7 @@ TEST_P(SeedHeightsOn, AreTheMeanOfTheLowestForBinsOf1To200Points) {
       bins.push_back(any_heights(first + i, 1U << 20U, random));
     }
     for (const std::size_t seed_count : seed_counts) {
-      expect_naive(bins, -infinity, seed_count);
+      expect_naive(bins, -inf, seed_count);
       expect_naive(bins, -1.9f, seed_count);
     }
   }
@@ -105,7 +103,7 @@ TEST_P(SeedHeightsOn, AreTheMeanOfTheLowestForBinsOf5000Points) {
     bins.push_back(any_heights(5000, levels, random));
   }
   for (const std::size_t seed_count : seed_counts) {
-    expect_naive(bins, -infinity, seed_count);
+    expect_naive(bins, -inf, seed_count);
     expect_naive(bins, -1.9f, seed_count);
   }
 }
@@ -121,7 +119,7 @@ TEST_P(SeedHeightsOn, AreRightWhereHeightsComeInOrder) {
     low_in_one_lane[i] = rising[i] + (i % 16 == 5 ? -2.0f : 0.0f);
   }
   for (const std::size_t seed_count : seed_counts) {
-    expect_naive({rising, falling, low_in_one_lane}, -infinity, seed_count);
+    expect_naive({rising, falling, low_in_one_lane}, -inf, seed_count);
   }
 }
 
@@ -130,7 +128,7 @@ TEST_P(SeedHeightsOn, AreRightForAnyHeights) {
     const auto seed_count = *rc::gen::oneOf(rc::gen::inRange<std::size_t>(1, 40),
                                             rc::gen::inRange<std::size_t>(1, 1001));
     const unsigned levels = 1U << *rc::gen::inRange(0U, 20U);
-    const float floor = *rc::gen::element(-infinity, -3.0f, -2.5f, -1.0f, 0.99f, 5.0f, infinity);
+    const float floor = *rc::gen::element(-inf, -3.0f, -2.5f, -1.0f, 0.99f, 5.0f, inf);
     std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
     std::vector<Heights> bins;
     for (std::size_t i = 0; i < *rc::gen::inRange<std::size_t>(1, batch_size + 1); ++i) {
@@ -162,10 +160,10 @@ TEST_P(SeedHeightsOn, DoNotDependOnTheOrderOfThePoints) {
   std::mt19937 random(3);
   Heights heights = any_heights(700, 1U << 20U, random);
   for (const std::size_t seed_count : seed_counts) {
-    const double mean = found({heights}, -infinity, seed_count)[0];
+    const double mean = found({heights}, -inf, seed_count)[0];
     for (int repeat = 0; repeat < 5; ++repeat) {
       std::ranges::shuffle(heights, random);
-      EXPECT_EQ(found({heights}, -infinity, seed_count)[0], mean);
+      EXPECT_EQ(found({heights}, -inf, seed_count)[0], mean);
     }
   }
 }

@@ -9,12 +9,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <random>
 #include <stdexcept>
 #include <vector>
 
 #include "flagstone/flagstone.hpp"
+#include "numbers.hpp"
 #include "outcome.hpp"
 #include "random_cloud.hpp"
 
@@ -24,8 +24,6 @@ namespace {
 using tests::corrupted_cloud;
 using tests::random_cloud;
 using tests::view_of;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 std::vector<Label> labels_of(const std::vector<Point>& cloud, const SurfaceConfig& config = {}) {
   return tests::segmented(config, view_of(cloud)).labels;

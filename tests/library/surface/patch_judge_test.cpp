@@ -5,14 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "library/surface/accepted_patches.hpp"
+#include "numbers.hpp"
 
 namespace flagstone::surface {
 namespace {
-
-constexpr float inf = std::numeric_limits<float>::infinity();
 
 /// A plane through many points at this place, this far from upright, degrees.
 Plane plane_at(double x, double z, double tilt = 0) {

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -15,12 +14,11 @@
 #include "forced_target.hpp"
 #include "library/core/simd_target.hpp"
 #include "library/surface/square_scan.hpp"
+#include "numbers.hpp"
 #include "random_surface.hpp"
 
 namespace flagstone::surface {
 namespace {
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 /// The grids of a made-up surface, one after another in memory.
 class JoinedGrids {
