@@ -36,7 +36,9 @@ std::vector<float> read_floats(const char* path) {
 /// Null where this revision has no such method.
 std::unique_ptr<flagstone::Segmenter> make_segmenter(const std::string& method) {
   if (method == "patchwork") return std::make_unique<flagstone::Patchwork>();
-#if __has_include(<flagstone/surface.hpp>)
+#if __has_include(<flagstone/surface_segmenter.hpp>)  // its name in revisions up to 2026-11-21
+  if (method == "surface") return std::make_unique<flagstone::SurfaceSegmenter>();
+#elif __has_include(<flagstone/surface.hpp>)
   if (method == "surface") return std::make_unique<flagstone::Surface>();
 #endif
   return nullptr;
