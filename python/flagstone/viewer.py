@@ -8,7 +8,9 @@ import contextlib
 import os
 import sys
 import time
+import urllib.parse
 import uuid
+import webbrowser
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -55,8 +57,9 @@ def show(
         save: Path of a recording to write, ending in `.rrd`, instead of showing anything: open it later with
             `rerun FILE.rrd`. It appears whole or not at all.
         where: "notebook": below the cell; "browser": in the default browser, served by this process; "window": in a
-            window of its own, which outlives this process. Without it, in a notebook there, else in the browser. A
-            script that shows in the browser goes on when interrupted with Ctrl-C.
+            window of its own, which outlives this process. Without it, in a notebook there, else in the browser. The
+            address is printed. A script that shows in the browser waits until it is interrupted with Ctrl-C; if there
+            is neither a browser nor a terminal, it goes on at once.
 
     Raises:
         ImportError: Rerun is not installed, or for notebooks rerun-notebook.
@@ -131,13 +134,30 @@ def _show_in_browser(recording: rerun.RecordingStream, scans: Any) -> None:
     )
     _log_all(recording, scans)
     recording.flush()
-    rr.serve_web_viewer(web_port=_free_port(), connect_to=address)
+    port = _free_port()
+    has_browser = _has_browser()
+    rr.serve_web_viewer(web_port=port, connect_to=address, open_browser=has_browser)
     _served.append(recording)
-    if not hasattr(sys, "ps1") and not sys.flags.interactive and not _in_notebook():
-        print("flagstone: shown in the browser until interrupted, Ctrl-C", file=sys.stderr)
+    url = f"http://localhost:{port}/?url={urllib.parse.quote(address, safe='')}"
+    what = "shown at" if has_browser else "no browser found; open"
+    if hasattr(sys, "ps1") or sys.flags.interactive or _in_notebook():
+        print(f"flagstone: {what} {url}", file=sys.stderr)
+    elif has_browser or (sys.stdin is not None and sys.stdin.isatty()):
+        print(f"flagstone: {what} {url} (Ctrl-C to go on)", file=sys.stderr)
         with contextlib.suppress(KeyboardInterrupt):
             while True:
                 time.sleep(3600)
+    else:
+        print(f"flagstone: no browser found; {url} is served while this program runs", file=sys.stderr)
+
+
+def _has_browser() -> bool:
+    """Whether a browser with windows can be opened: one in a terminal would take the terminal over."""
+    try:
+        browser = webbrowser.get()
+    except webbrowser.Error:
+        return False
+    return "BROWSER" in os.environ or type(browser) is not webbrowser.GenericBrowser
 
 
 def _free_port() -> int:

@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 import importlib
+import os
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any
@@ -249,6 +251,36 @@ def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 def test_outside_a_notebook_the_browser_shows(scan: Scan, opened: list[str]) -> None:
     flagstone.show(scan, flagstone.Surface().segment(scan))
     assert opened == ["browser"]
+
+
+SHOWN = """
+import re, sys, urllib.request, flagstone
+from conftest import made_up_scan
+
+scan = made_up_scan()
+flagstone.show(scan, flagstone.Surface().segment(scan))
+print("goes on")
+address = re.search("http://localhost:[0-9]+/", open(sys.argv[1]).read())[0]
+print(urllib.request.urlopen(address).status)
+"""
+
+
+def test_without_a_browser_the_address_is_printed_and_the_program_goes_on(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    path = os.pathsep.join([str(Path(flagstone.__file__).parents[1]), str(Path(__file__).parent)])
+    environment = {"PATH": "", "PYTHONPATH": path}
+    with log.open("w") as errors:
+        done = subprocess.run(
+            [sys.executable, "-c", SHOWN, log],
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            text=True,
+            timeout=120,
+        )
+    assert done.stdout == "goes on\n200\n", log.read_text()
+    assert "no browser found; http://localhost:" in log.read_text()
 
 
 def test_in_a_notebook_the_notebook_shows(scan: Scan, opened: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
