@@ -68,6 +68,8 @@ def read(
 
 
 def _read_by_core(path: Path, columns: int | None) -> npt.NDArray[np.void]:
+    if columns is not None and not isinstance(columns, int):
+        raise TypeError(f"columns = {columns!r} is not a whole number")
     return _structured(*_core.read_cloud(os.fspath(path), 0 if columns is None else columns))
 
 

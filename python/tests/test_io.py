@@ -120,3 +120,15 @@ def test_names_tell_formats_and_scans() -> None:
         None,
     ]
     assert io.is_scan_name("a.bin") and not io.is_scan_name("a_lidarseg.bin") and not io.is_scan_name(".a.bin")
+
+
+def test_errors_name_the_keyword_and_not_the_option_of_the_command(tmp_path: Path) -> None:
+    file = tmp_path / "a.bin"
+    file.write_bytes(bytes(28))
+    with pytest.raises(ValueError, match=r"say how many floats .* with columns=,") as raised:
+        io.read(file)
+    assert "--columns" not in str(raised.value)
+    with pytest.raises(ValueError, match=r"columns= takes 3 to 1024"):
+        io.read(file, columns=2000)
+    with pytest.raises(TypeError, match=r"^columns = 'x' is not a whole number$"):
+        io.read(file, columns="x")  # type: ignore[arg-type]
