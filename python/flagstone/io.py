@@ -104,7 +104,7 @@ def write(
             format 6, 7 with fields `red`, `green`, `blue`, 8 with `nir` too; coordinates are rounded to a millimetre,
             a floating `intensity` of 0 to 1 is spread over 16 bits, fields that LAS does not know are extra bytes.
         points: (N,) structured array with fields x, y and z, or (N, >=3) numbers, whose columns become x, y, z,
-            intensity, ring, c5, c6, ...
+            intensity, ring, c5, c6, ...; organized clouds, (H, W) and (H, W, >=3), are written row by row.
         labels: (N,) codes; become a field `label`, uint8. In LAS and LAZ they set `classification` as `classify_las`
             does.
         heights: (N,) metres; become a field `height`, float32.
@@ -216,7 +216,9 @@ def _structured(
 def _rows(points: PointsLike) -> npt.NDArray[np.void]:
     array = np.asarray(points)
     if array.dtype.names is not None:
-        return array
+        return array.reshape(-1)
+    if array.ndim == 3:
+        array = array.reshape(-1, array.shape[2])
     if array.ndim != 2 or array.shape[1] < 3:
         raise ValueError(f"points: shape {array.shape}; wanted is (N, 3) or more columns, or fields x, y and z")
     names = [*_NAMES_OF_COLUMNS, *(f"c{i}" for i in range(len(_NAMES_OF_COLUMNS), array.shape[1]))]

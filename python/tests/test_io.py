@@ -132,3 +132,13 @@ def test_errors_name_the_keyword_and_not_the_option_of_the_command(tmp_path: Pat
         io.read(file, columns=2000)
     with pytest.raises(TypeError, match=r"^columns = 'x' is not a whole number$"):
         io.read(file, columns="x")  # type: ignore[arg-type]
+
+
+def test_organized_clouds_are_written_row_by_row(tmp_path: Path) -> None:
+    flat = np.arange(120, dtype=np.float32).reshape(30, 4)
+    records = np.zeros((5, 6), [("x", "f4"), ("y", "f4"), ("z", "f4"), ("intensity", "f4")])
+    for i, name in enumerate(records.dtype.names or ()):
+        records[name] = flat[:, i].reshape(5, 6)
+    for points in (flat.reshape(5, 6, 4), records):
+        io.write(tmp_path / "a.bin", points)
+        assert np.array_equal(np.fromfile(tmp_path / "a.bin", np.float32).reshape(-1, 4), flat)
