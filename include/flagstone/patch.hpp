@@ -54,14 +54,14 @@ struct Patch {
       0;  ///< of those, points below the plane in one of their own: a ditch's bottom
 
   std::array<float, 3> mean{};         ///< mean of the ground set, metres, sensor frame
-  std::array<float, 3> normal{};       ///< n = v_3, unit length, pointing up (z >= 0), eq. (3)
+  std::array<float, 3> normal{};       ///< n = v_3, unit length, pointing up (z >= 0), eq. (4)
   float d = 0;                         ///< plane: normal . p + d = 0, metres
   std::array<float, 3> eigenvalues{};  ///< of the covariance, lambda_1 >= lambda_2 >= lambda_3, m^2
 
-  float uprightness = 0;  ///< phi, eq. (8): 1 upright enough, 0 not
-  float elevation = 0;    ///< psi, eq. (9): 0..1, above 0.5 low enough to be ground
-  float flatness = 0;     ///< varphi, eq. (10): 1, or the gain that may bring a high patch back
-  float likelihood = 0;   ///< f, eq. (7): product of the three; ground if above 0.5, eq. (11)
+  float uprightness = 0;  ///< phi, eq. (9): 1 upright enough, 0 not
+  float elevation = 0;    ///< psi, eq. (10): 0..1, above 0.5 low enough to be ground
+  float flatness = 0;     ///< varphi, eq. (11): 1, or the gain that may bring a high patch back
+  float likelihood = 0;   ///< f, eq. (8): product of the three; ground if above 0.5, eq. (12)
   float surface_variable = 0;  ///< sigma = lambda_3 / (lambda_1 + lambda_2 + lambda_3), 0..1/3
 
   /// Does this patch count as ground?

@@ -25,7 +25,7 @@ struct Zone {
   float height_margin = -1.1f;
 };
 
-/// `count` rings of equal width from `inner` to `outer` metres: the outer radii, as eq. (2) has
+/// `count` rings of equal width from `inner` to `outer` metres: the outer radii, as eq. (3) has
 /// them.
 std::vector<float> equal_rings(float inner, float outer, int count);
 
@@ -39,7 +39,7 @@ struct FieldOfView {
   float width = 360;
 };
 
-/// phi, eq. (8): the patch's normal must stand up.
+/// phi, eq. (9): the patch's normal must stand up.
 struct UprightnessTerm {
   /// Where false, phi is 1 for every patch.
   bool enabled = true;
@@ -48,7 +48,7 @@ struct UprightnessTerm {
   float angle = 50.0f;
 };
 
-/// psi, eq. (9): near the sensor the ground cannot be high.
+/// psi, eq. (10): near the sensor the ground cannot be high.
 /// psi = 1 / (1 + exp((mean z - kappa(r)) / scale)), kappa(r) = -h_s + base * exp(growth * r).
 struct ElevationTerm {
   /// Where false, psi is 1 for every patch.
@@ -64,7 +64,7 @@ struct ElevationTerm {
   float scale = 1.0f;
 };
 
-/// varphi, eq. (10): brings back patches that are too high but definitely even: steep slopes.
+/// varphi, eq. (11): brings back patches that are too high but definitely even: steep slopes.
 /// varphi = gain * exp(-(sigma - threshold) / scale) where psi < 0.5, else 1.
 struct FlatnessTerm {
   /// Where false, varphi is 1 for every patch.
@@ -125,7 +125,7 @@ struct PatchworkConfig {
   /// N_seed: the lowest points whose mean height starts the fit, 1 to 1,000.
   int seed_count = 20;
 
-  /// z_seed: points lower than the seeds' mean plus this form the first ground set, eq. (4);
+  /// z_seed: points lower than the seeds' mean plus this form the first ground set, eq. (5);
   /// metres, above 0, up to 100.
   float seed_height = 0.4f;
 
@@ -133,7 +133,7 @@ struct PatchworkConfig {
   /// for the seeds' mean.
   bool keep_below_margin = true;
 
-  /// M_d: points less than this above the plane are its ground set, eq. (5) and (6); metres, above
+  /// M_d: points less than this above the plane are its ground set, eq. (6); metres, above
   /// 0, up to 100.
   float distance_margin = 0.125f;
 
@@ -157,9 +157,9 @@ struct PatchworkConfig {
   /// more fit, or the set that the last plane was fitted to, as the public code does.
   bool evaluate_final_set = false;
 
-  UprightnessTerm uprightness{};  ///< phi, eq. (8)
-  ElevationTerm elevation{};      ///< psi, eq. (9)
-  FlatnessTerm flatness{};        ///< varphi, eq. (10)
+  UprightnessTerm uprightness{};  ///< phi, eq. (9)
+  ElevationTerm elevation{};      ///< psi, eq. (10)
+  FlatnessTerm flatness{};        ///< varphi, eq. (11)
 
   /// The preset of that name. Throws std::invalid_argument naming the presets there are.
   static PatchworkConfig preset(std::string_view name);

@@ -13,9 +13,9 @@ enum class Stage : std::uint8_t {
   bin,      ///< read every point, find its bin, note where runs of one bin begin (III-B)
   group,    ///< sort the runs by bin, list the patches, label points without one
   gather,   ///< pack the points of each bin
-  seed,     ///< mean height of the lowest points, eq. (4)
-  moments,  ///< sums over the ground sets, eqs. (5) and (6)
-  solve,    ///< planes and their likelihood, eqs. (3), (7) to (11)
+  seed,     ///< mean height of the lowest points, eq. (5)
+  moments,  ///< sums over the ground sets, eq. (6)
+  solve,    ///< planes and their likelihood, eqs. (4), (8) to (12)
   join,     ///< which patches are ground, and one surface of them; `surface` alone
   refine,   ///< the residual pyramid; `surface` alone
   measure,  ///< heights of points above the surface; `surface` alone

@@ -89,7 +89,7 @@ def _square(patch: Any, extent: float, inset: float) -> Floats:
 
 
 def _sector(patch: Any, settings: dict[str, Any], inset: float) -> Floats:
-    """The paper's eqs. (1) and (2): rings by distance, sectors by angle, counter-clockwise."""
+    """The paper's eqs. (2) and (3): rings by distance, sectors by angle, counter-clockwise."""
     zones, view = settings["zones"], settings["field_of_view"]
     zone, ring, sector = int(patch["zone"]), int(patch["ring"]), int(patch["sector"])
     if ring > 0:

@@ -26,15 +26,15 @@ class Verdict(IntEnum):
     GROUND = 0
     """Passed every term of the ground likelihood."""
     GROUND_FLAT = 1
-    """Too high for the elevation term, brought back by its flatness, eq. (10)."""
+    """Too high for the elevation term, brought back by its flatness, eq. (11)."""
     TOO_FEW_POINTS = 2
     """Not enough points to fit a plane."""
     NO_PLANE = 3
     """Fewer than three points survived the fit."""
     NOT_UPRIGHT = 4
-    """The normal leans too far, eq. (8): a wall, a hedge, a trunk."""
+    """The normal leans too far, eq. (9): a wall, a hedge, a trunk."""
     TOO_HIGH = 5
-    """Lies above where ground can be at that range, eq. (9), and is not flat enough."""
+    """Lies above where ground can be at that range, eq. (10), and is not flat enough."""
     MIXED = 6
     """Method `surface`: as many points just above the plane as in it: a wall, a bush."""
     OFF_SURFACE = 7

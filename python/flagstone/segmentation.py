@@ -108,11 +108,11 @@ class Segmentation:
           from the rear. Of `surface`: zone 0 are squares of 4 m, zone 1 of 8 m, ring the row, sector the column.
         - `verdict` (uint16): see `Verdict`. `point_count` |S_n|, `ground_count`, and of those
           `lower_ground_count`, below the plane in one of their own (uint32).
-        - `mean` (3 float32), metres; `normal` (3 float32) n = v_3, unit length, upward, eq. (3); `d` (float32): the
+        - `mean` (3 float32), metres; `normal` (3 float32) n = v_3, unit length, upward, eq. (4); `d` (float32): the
           plane is normal . p + d = 0; `eigenvalues` (3 float32) of the covariance, descending, square metres. Zero
           where no plane was fitted.
-        - `uprightness` phi, eq. (8); `elevation` psi, eq. (9); `flatness` varphi, eq. (10); `likelihood` f, their
-          product, ground above 0.5, eqs. (7) and (11); `surface_variable` sigma, 0 to 1/3 (float32). Of `surface`
+        - `uprightness` phi, eq. (9); `elevation` psi, eq. (10); `flatness` varphi, eq. (11); `likelihood` f, their
+          product, ground above 0.5, eqs. (8) and (12); `surface_variable` sigma, 0 to 1/3 (float32). Of `surface`
           they are zero.
         """
         return self._result.patches().view(PATCH_DTYPE)

@@ -171,8 +171,8 @@ class Patchwork(Segmenter):
     """Patchwork: concentric zones, a plane a patch, each judged by its ground likelihood.
 
     H. Lim, M. Oh, H. Myung, "Patchwork: Concentric Zone-based Region-wise Ground Segmentation with Ground Likelihood
-    Estimation Using a 3D LiDAR Sensor", IEEE RA-L 6(4), 2021: sections III-B (zones, eqs. 1, 2), III-C (planes, eqs. 3
-    to 6), III-D (likelihood, eqs. 7 to 11).
+    Estimation Using a 3D LiDAR Sensor", IEEE RA-L 6(4), 2021: sections III-B (zones, eqs. 2, 3), III-C (planes, eqs. 4
+    to 6), III-D (likelihood, eqs. 7 to 12).
     """
 
     def __init__(

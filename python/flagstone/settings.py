@@ -102,7 +102,7 @@ class PatchworkUprightness(TypedDict, total=False):
     """Table `uprightness` of `Patchwork`'s settings."""
 
     enabled: bool
-    """phi, eq. (8)."""
+    """phi, eq. (9)."""
     angle: float
     """theta_tau: smallest angle between normal and x-y plane; 0 to 90 degrees."""
 
@@ -111,7 +111,7 @@ class PatchworkElevation(TypedDict, total=False):
     """Table `elevation` of `Patchwork`'s settings."""
 
     enabled: bool
-    """psi, eq. (9)."""
+    """psi, eq. (10)."""
     base: float
     """kappa(r) = -h_s + base * exp(growth * r); 0 to 100 m."""
     growth: float
@@ -126,7 +126,7 @@ class PatchworkFlatness(TypedDict, total=False):
     """Table `flatness` of `Patchwork`'s settings."""
 
     enabled: bool
-    """varphi, eq. (10)."""
+    """varphi, eq. (11)."""
     gain: float
     """zeta; above 1, up to 1000."""
     thresholds: Sequence[float]
@@ -151,11 +151,11 @@ class PatchworkSettings(TypedDict, total=False):
     seed_count: int
     """N_seed: lowest points that start the fit; 1 to 1000."""
     seed_height: float
-    """z_seed, eq. (4); above 0, up to 100 m."""
+    """z_seed, eq. (5); above 0, up to 100 m."""
     keep_below_margin: bool
     """whether points below a zone's height margin may enter the first ground set."""
     distance_margin: float
-    """M_d, eqs. (5) and (6); above 0, up to 100 m."""
+    """M_d, eq. (6); above 0, up to 100 m."""
     noise_margin: float
     """points farther below the plane are no part of it but noise; above 0, up to 1000 m, or inf for none."""
     lower_plane_margin: float

@@ -38,7 +38,7 @@ struct Moments {
     return {sum[0] / count, sum[1] / count, sum[2] / count};
   }
 
-  /// Covariance C of eq. (3), divided by count - 1. Needs count > 1.
+  /// Covariance C of eq. (4), divided by count - 1. Needs count > 1.
   [[nodiscard]] Symmetric3 covariance() const noexcept {
     const Vector3 m = mean();
     const double n = count - 1;

@@ -11,7 +11,7 @@
 
 namespace flagstone {
 
-/// A plane n . p + d = 0 and the set of points it was fitted to, eq. (3).
+/// A plane n . p + d = 0 and the set of points it was fitted to, eq. (4).
 struct Plane {
   double count = 0;       ///< points in the set; a plane needs three
   Vector3 mean{};         ///< p-bar, metres

@@ -6,7 +6,7 @@
 
 namespace flagstone {
 
-/// What principal component analysis of a covariance gives, eq. (3).
+/// What principal component analysis of a covariance gives, eq. (4).
 struct PrincipalAxes {
   Vector3 eigenvalues;  ///< lambda_1 >= lambda_2 >= lambda_3 >= 0, m^2
   Vector3 normal;       ///< v_3, unit length, z >= 0

@@ -33,7 +33,7 @@ struct RingTree {
   static constexpr std::size_t few = 16;
 };
 
-/// The Concentric Zone Model, section III-B: zones Z_m of rings and sectors, eqs. (1) and (2), as
+/// The Concentric Zone Model, section III-B: zones Z_m of rings and sectors, eqs. (2) and (3), as
 /// tables, which the vector code in locate-inl.hpp reads.
 class ConcentricZones {
  public:

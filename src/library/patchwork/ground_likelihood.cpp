@@ -35,18 +35,18 @@ GroundLikelihood::GroundLikelihood(const PatchworkConfig& config, const std::vec
   }
 }
 
-/// phi, eq. (8). The normal has unit length and points up.
+/// phi, eq. (9). The normal has unit length and points up.
 double GroundLikelihood::uprightness(const Plane& plane) const noexcept {
   return !uprightness_.enabled || plane.normal[2] > smallest_normal_z_ ? 1 : 0;
 }
 
-/// psi, eq. (9), with the scale of the logistic function made explicit.
+/// psi, eq. (10), with the scale of the logistic function made explicit.
 double GroundLikelihood::elevation(const Plane& plane, std::size_t ring) const noexcept {
   if (!rings_[ring].near) return 1;
   return 1 / (1 + bounded_exp((plane.mean[2] - rings_[ring].midpoint) / elevation_scale_));
 }
 
-/// varphi, eq. (10), with the scale of the exponential function made explicit.
+/// varphi, eq. (11), with the scale of the exponential function made explicit.
 double GroundLikelihood::flatness(double elevation, double sigma, std::size_t ring) const noexcept {
   if (!flatness_.enabled || !(elevation < 0.5)) return 1;
   const double excess = (sigma - rings_[ring].flat) / flatness_.scale;
@@ -61,14 +61,14 @@ void GroundLikelihood::judge(const Plane& plane, std::size_t ring, Patch& patch)
   const double phi = uprightness(plane);
   const double psi = elevation(plane, ring);
   const double varphi = flatness(psi, sigma, ring);
-  const double f = phi * psi * varphi;  // eq. (7)
+  const double f = phi * psi * varphi;  // eq. (8)
 
   patch.uprightness = static_cast<float>(phi);
   patch.elevation = static_cast<float>(psi);
   patch.flatness = static_cast<float>(std::min(varphi, 1e30));
   patch.likelihood = static_cast<float>(std::min(f, 1e30));
   patch.surface_variable = static_cast<float>(sigma);
-  if (f > 0.5) {  // eq. (11)
+  if (f > 0.5) {  // eq. (12)
     patch.verdict = psi < 0.5 ? Verdict::ground_flat : Verdict::ground;
   } else {
     patch.verdict = phi == 0 ? Verdict::not_upright : Verdict::too_high;

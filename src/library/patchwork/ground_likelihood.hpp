@@ -12,7 +12,7 @@
 
 namespace flagstone::patchwork {
 
-/// Ground Likelihood Estimation, section III-D, eqs. (7) to (11): is a fitted patch ground?
+/// Ground Likelihood Estimation, section III-D, eqs. (7) to (12): is a fitted patch ground?
 class GroundLikelihood {
  public:
   GroundLikelihood(const PatchworkConfig& config, const std::vector<Ring>& rings);

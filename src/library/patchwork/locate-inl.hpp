@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Concentric Zone Model, section III-B, eqs. (1) and (2): the bin S_i,j,m that a point falls into,
+// Concentric Zone Model, section III-B, eqs. (2) and (3): the bin S_i,j,m that a point falls into,
 // for a vector of points at once. Included once for each instruction set.
 
 // clang-format off
@@ -24,7 +24,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// theta of eq. (2) as a share of a full turn, counted from -pi: 0 to 1, within 1e-7; exact on the
+/// theta of eq. (3) as a share of a full turn, counted from -pi: 0 to 1, within 1e-7; exact on the
 /// axes and diagonals, which sectors begin at, NaN at the origin. By + - * / alone, so that every
 /// instruction set has the same bits.
 HWY_INLINE FloatVector turn_of(FloatVector x, FloatVector y) {
@@ -111,7 +111,7 @@ HWY_INLINE FloatVector share_of_view(FloatVector turn, const ConcentricZones& zo
   return hn::Div(from_begin, hn::Set(d, zones.turns()));
 }
 
-/// Sector j of eq. (2); theta = pi itself counts as -pi.
+/// Sector j of eq. (3); theta = pi itself counts as -pi.
 HWY_INLINE IntVector sector_of(FloatVector turn, FloatVector sectors) {
   const FloatVector turns = hn::Mul(turn, sectors);
   return whole_part(hn::IfThenElseZero(hn::Lt(turns, sectors), turns));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Which points belong to a ground set, eqs. (4) to (6). Included once for each instruction set.
+// Which points belong to a ground set, eqs. (5) and (6). Included once for each instruction set.
 
 // clang-format off
 #if defined(FLAGSTONE_PATCHES_GROUND_SET_INL_HPP) == defined(HWY_TARGET_TOGGLE)

@@ -10,8 +10,8 @@
 
 namespace flagstone::plane_fits {
 
-/// The points G of a bin with bottom <= n . p < top, metres: eqs. (5) and (6) with p as the batch
-/// has it and n = (normal_x, normal_y, normal_z). With n = (0, 0, 1) a set of eq. (4).
+/// The points G of a bin with bottom <= n . p < top, metres: eq. (6) with p as the batch
+/// has it and n = (normal_x, normal_y, normal_z). With n = (0, 0, 1) a set of eq. (5).
 struct GroundSet {
   float normal_x, normal_y, normal_z;
   float bottom, top;
@@ -39,7 +39,7 @@ void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted, 
 /// Where the first set of a bin begins, metres.
 struct FirstSet {
   float origin;       ///< where heights are seen from afterwards
-  float bottom, top;  ///< of the set, seen from there: bottom <= z < top, eq. (4)
+  float bottom, top;  ///< of the set, seen from there: bottom <= z < top, eq. (5)
 };
 
 /// Moves the origin of z in every bin of the batch, and takes the moments of the first sets on the

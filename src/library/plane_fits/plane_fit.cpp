@@ -22,14 +22,14 @@ BinMask all_of(const BinBatch& batch) { return (BinMask{1} << batch.count()) - 1
 
 void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
                    Result& result) noexcept {
-  // z-bar_init, eq. (4)
+  // z-bar_init, eq. (5)
   std::array<float, batch_size> floors{};
   for (std::size_t i = 0; i < batch.count(); ++i) floors[i] = round_up(seeds.floors[i]);
   Batch initial_heights;
   seed_heights_.find(batch, floors, seeds.counts, initial_heights);
   clock.end(Stage::seed);
 
-  // G^0, eq. (4), with the points below the floor kept out where that is wanted. Heights are seen
+  // G^0, eq. (5), with the points below the floor kept out where that is wanted. Heights are seen
   // from z-bar_init from now on; where there was no seed and it is 0, from the first point.
   GroundSets& sets = result.sets;
   std::array<FirstSet, batch_size> first_sets{};
@@ -46,7 +46,7 @@ void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
   }
   sum_first_moments(batch, first_sets, moments_);
 
-  // G^(l+1), eqs. (5) and (6): the points less than M_d above the plane of G^l, and not so far
+  // G^(l+1), eq. (6): the points less than M_d above the plane of G^l, and not so far
   // below it that they are noise.
   PlaneBatch& planes = result.judged;
   result.exists = fit_sets(batch, sets, all_of(batch), clock, planes);
@@ -62,7 +62,7 @@ void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
   }
 }
 
-/// Eq. (3) for the bins in `wanted`, whose moments are taken; returns those that have a plane.
+/// Eq. (4) for the bins in `wanted`, whose moments are taken; returns those that have a plane.
 BinMask PlaneFit::fit_sets(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
                            StageClock& clock, PlaneBatch& planes) noexcept {
   clock.end(Stage::moments);

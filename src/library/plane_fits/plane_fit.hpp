@@ -33,7 +33,7 @@ struct Seeds {
   std::array<std::uint32_t, batch_size> counts{};  ///< N_seed: the lowest so many, at least 1
 };
 
-/// Region-wise Ground Plane Fitting, section III-C, eqs. (3) to (6), for a batch of bins at a time.
+/// Region-wise Ground Plane Fitting, section III-C, eqs. (4) to (6), for a batch of bins at a time.
 class PlaneFit {
  public:
   explicit PlaneFit(const FitSettings& settings) noexcept : settings_(settings) {}

@@ -12,7 +12,7 @@
 
 namespace flagstone::plane_fits {
 
-/// z-bar_init of eq. (4) for the bins of a batch.
+/// z-bar_init of eq. (5) for the bins of a batch.
 class SeedHeights {
  public:
   /// Makes room for bins of `points` points; may throw std::bad_alloc.

@@ -110,8 +110,8 @@ TEST(ConfigToml, EverySettingIsCommented) {
 
   EXPECT_THAT(
       text,
-      HasSubstr("\ndistance_margin = 0.125  # M_d, eqs. (5) and (6); above 0, up to 100 m\n"));
-  EXPECT_THAT(text, HasSubstr("\n[elevation]\nenabled = true  # psi, eq. (9)"));
+      HasSubstr("\ndistance_margin = 0.125  # M_d, eq. (6); above 0, up to 100 m\n"));
+  EXPECT_THAT(text, HasSubstr("\n[elevation]\nenabled = true  # psi, eq. (10)"));
   EXPECT_THAT(text, HasSubstr("\n[[zones]]\n"));
 }
 

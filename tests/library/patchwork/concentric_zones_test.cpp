@@ -24,7 +24,7 @@ std::uint32_t locate(const ConcentricZones& zones, Point p) {
   return bin;
 }
 
-/// Zone, ring, sector and distance to the nearest bin boundary, computed as eq. (2) reads.
+/// Zone, ring, sector and distance to the nearest bin boundary, computed as eq. (3) reads.
 struct Expected {
   std::uint32_t bin = 0;
   double to_boundary = 0;  ///< as a share of the range
@@ -106,7 +106,7 @@ Point any_point(double reach) {
           -1.5f};
 }
 
-TEST(ConcentricZones, AnyZonesRingsAndSectorsGiveTheBinOfEquation2) {
+TEST(ConcentricZones, AnyZonesRingsAndSectorsGiveTheBinOfEquation3) {
   EXPECT_TRUE(rc::check([] {
     const PatchworkConfig config = any_zones();
     config.check();

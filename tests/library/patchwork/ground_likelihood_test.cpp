@@ -51,7 +51,7 @@ TEST(Uprightness, CanBeSwitchedOff) {
   EXPECT_EQ(judged(config, plane(0.1, -1.7, 0.001)).verdict, Verdict::ground);
 }
 
-TEST(Elevation, IsTheLogisticFunctionOfEquation9) {
+TEST(Elevation, IsTheLogisticFunctionOfEquation10) {
   const Patch patch = judged(paper, plane(1, -1.0, 0.001));
 
   EXPECT_NEAR(patch.elevation, 1 / (1 + std::exp(-1.0 - kappa(paper))), 1e-6);
@@ -103,7 +103,7 @@ TEST(Elevation, BecomesAStepAsItsScaleShrinks) {
   EXPECT_EQ(judged(config, plane(1, kappa(config) + 1e-3, 0.001)).elevation, 0);
 }
 
-TEST(Flatness, IsTheExponentialOfEquation10WhereThePatchIsHigh) {
+TEST(Flatness, IsTheExponentialOfEquation11WhereThePatchIsHigh) {
   const double sigma = 0.01;
 
   const Patch patch = judged(paper, plane(1, kappa(paper) + 0.5, sigma));

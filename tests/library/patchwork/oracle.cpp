@@ -21,7 +21,7 @@ Vector3d at(CloudView cloud, std::size_t k) { return {cloud[k].x, cloud[k].y, cl
 // III-B, Concentric Zone Model
 // ---------------------------------------------------------------------
 
-/// S_i,j,m of eq. (2) as (m - 1, i - 1, j - 1), for a rho_k within [L_min, L_max).
+/// S_i,j,m of eq. (3) as (m - 1, i - 1, j - 1), for a rho_k within [L_min, L_max).
 struct Place {
   int zone = 0;
   int ring = 0;
@@ -73,7 +73,7 @@ struct Plane {
   double d = 0;
 };
 
-/// Eq. (3): C v_alpha = lambda_alpha v_alpha; n = v_3 and d = -n . p-bar.
+/// Eq. (4): C v_alpha = lambda_alpha v_alpha; n = v_3 and d = -n . p-bar.
 Plane plane_of(CloudView cloud, const Indices& set) {
   if (set.size() < 3) return {};
   Plane plane;
@@ -133,7 +133,7 @@ double initial_height(CloudView cloud, const Indices& s_n, double cut, int n_see
   return sum / static_cast<double>(heights.size());
 }
 
-/// Eq. (4): G^0, without the points below the margin where the configuration says so.
+/// Eq. (5): G^0, without the points below the margin where the configuration says so.
 Indices initial_set(CloudView cloud, const Indices& s_n, double cut,
                     const PatchworkConfig& config) {
   const double z_init = initial_height(cloud, s_n, cut, config.seed_count);
@@ -167,19 +167,19 @@ Indices next_set(CloudView cloud, const Indices& s_n, const Plane& plane,
 // --------------------------------------------------------------
 
 Verdict judge(const Plane& plane, double r_n, std::size_t ring, const PatchworkConfig& config) {
-  // Eq. (8)
+  // Eq. (9)
   const double theta_tau = config.uprightness.angle * std::numbers::pi / 180;
   const bool upright =
       !config.uprightness.enabled || plane.normal.z() > std::cos(std::numbers::pi / 2 - theta_tau);
 
-  // Eq. (9)
+  // Eq. (10)
   const double kappa = -static_cast<double>(config.sensor_height) +
                        config.elevation.base * std::exp(config.elevation.growth * r_n);
   const bool near = config.elevation.enabled && r_n < config.elevation.range;
   const double above = (plane.mean.z() - kappa) / config.elevation.scale;
   const double log_psi = near ? -std::log1p(std::exp(std::min(above, 300.0))) : 0;
 
-  // Eq. (10), as a logarithm, which small scales do not overflow
+  // Eq. (11), as a logarithm, which small scales do not overflow
   const double spread = plane.eigenvalues.sum();
   const double sigma = spread > 0 ? plane.eigenvalues[2] / spread : 0;
   const std::vector<float>& thresholds = config.flatness.thresholds;

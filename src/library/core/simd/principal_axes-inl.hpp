@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Principal component analysis of 3 x 3 covariances, eq. (3), one in each lane. Included once for
+// Principal component analysis of 3 x 3 covariances, eq. (4), one in each lane. Included once for
 // each instruction set. By + - * / and square root alone, which round alike everywhere.
 
 // clang-format off
