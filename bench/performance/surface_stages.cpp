@@ -34,8 +34,6 @@
 #include "library/plane_fits/scan_points.hpp"
 #include "library/surface/cell_observations.hpp"
 #include "library/surface/grid.hpp"
-#include "library/surface/grid_steps.hpp"
-#include "library/surface/read_scan.hpp"
 #include "library/surface/square_cells.hpp"
 
 namespace flagstone::performance {

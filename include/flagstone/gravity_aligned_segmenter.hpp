@@ -54,7 +54,7 @@ class GravityAlignedSegmenter final : public Segmenter {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> workings_;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace flagstone

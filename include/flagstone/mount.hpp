@@ -162,7 +162,7 @@ class MountEstimator {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> workings_;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace flagstone

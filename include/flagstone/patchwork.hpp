@@ -11,15 +11,16 @@
 namespace flagstone {
 
 /// Patchwork: concentric zone-based region-wise ground segmentation with ground likelihood
-/// estimation.
+/// estimation. Comments give the numbers of the paper's equations: (2) and (3) zones and bins,
+/// (4) planes, (5) and (6) ground sets, (7) to (11) likelihood, (12) the ground.
 ///
 /// H. Lim, M. Oh, H. Myung, "Patchwork: Concentric Zone-based Region-wise Ground Segmentation with
 /// Ground Likelihood Estimation Using a 3D LiDAR Sensor", IEEE RA-L 6(4), 2021.
 class Patchwork final : public Segmenter {
  public:
   /// `threads` work on one scan together, 1 to 1,024; the result does not depend on how many. All
-  /// but the caller's are started here (fewer if the system has no more) and do not survive a
-  /// fork(): a child that segments makes a segmenter of its own. It holds 52 bytes for each point
+  /// but the caller's are started here (fewer if the system has no more), and again by the
+  /// child of a fork() when it first segments. It holds 52 bytes for each point
   /// of its largest scan, and 17 more for each thread but the first. Throws std::invalid_argument
   /// naming the field, its value and the range allowed, or std::bad_alloc.
   explicit Patchwork(PatchworkConfig config = {}, unsigned threads = 1);

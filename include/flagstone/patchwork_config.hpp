@@ -20,8 +20,9 @@ struct Zone {
   /// N_theta,m: sectors a ring is cut into, within the field of view; 1 to 3,600.
   int sectors = 32;
 
-  /// M_h of this zone: when seeds are chosen, points below M_h * h_s are passed over as
-  /// reflections. Below -1; the lower, the looser. Minus infinity passes over none.
+  /// M_h of this zone: when seeds are chosen, eq. (5), points below M_h * h_s are skipped as
+  /// reflections. Below -1; the lower, the looser. Minus infinity skips none. If h_s is 0 or less,
+  /// points are skipped that are (-1 - M_h) * 1.73 m below the ground.
   float height_margin = -1.1f;
 };
 
@@ -86,7 +87,10 @@ struct FlatnessTerm {
 /// - `reference`: how the authors' public code behaves;
 /// - `default`: what measures best; see docs/presets.md.
 struct PatchworkConfig {
-  /// h_s: height of the sensor above the ground, metres, -100 to 100.
+  /// h_s: height of the cloud's origin above the ground, metres, -100 to 100. Usually the origin is
+  /// in the sensor. At 0 and below it is not: lengths that grow with the sensor's height are then
+  /// those of a sensor 1.73 m above the ground, and results do not change when all points and
+  /// sensor_height move together.
   float sensor_height = 1.73f;
 
   // Concentric Zone Model, section III-B

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "library/core/plane.hpp"
 
-#include "library/core/principal_axes.hpp"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/core/plane.cpp"
 #include <hwy/foreach_target.h>
@@ -14,6 +12,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace flagstone::HWY_NAMESPACE {
 namespace {
+
+void axes_of(const Symmetric3& c, double trace, PrincipalAxes& result) {
+  const Axes axes = principal_axes(
+      {number(c[0]), number(c[1]), number(c[2]), number(c[3]), number(c[4]), number(c[5])},
+      number(trace));
+  const double spread = hn::GetLane(axes.l1) > 0 ? trace : 0;  // not infinite
+  result.eigenvalues = {hn::GetLane(axes.l1) * spread, hn::GetLane(axes.l2) * spread,
+                        hn::GetLane(axes.l3) * spread};
+  result.normal = {hn::GetLane(axes.normal.x), hn::GetLane(axes.normal.y),
+                   hn::GetLane(axes.normal.z)};
+}
 
 /// Planes of `Lanes` sets from `first` on; bits as of fit_planes.
 HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, PlaneBatch& planes) {
@@ -81,8 +90,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace flagstone {
 namespace {
+HWY_EXPORT(axes_of);
 HWY_EXPORT(fit_all);
 }  // namespace
+
+PrincipalAxes principal_axes(const Symmetric3& covariance) noexcept {
+  PrincipalAxes axes{};
+  HWY_DYNAMIC_DISPATCH(axes_of)(covariance, covariance[0] + covariance[3] + covariance[5], axes);
+  return axes;
+}
 
 std::uint32_t fit_planes(const MomentsBatch& moments, PlaneBatch& planes) noexcept {
   return HWY_DYNAMIC_DISPATCH(fit_all)(moments, planes);

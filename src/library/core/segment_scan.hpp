@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <new>
@@ -14,6 +16,16 @@
 #include "flagstone/status.hpp"
 
 namespace flagstone {
+
+/// Points by label, as Segmentation::finish takes them.
+using LabelTotals = std::array<std::size_t, label_count>;
+
+/// Returns the configuration of a method, or throws what its check() throws.
+template <class Config>
+Config checked(Config config) {
+  config.check();
+  return config;
+}
 
 /// What every Segmenter::segment does around its own work: refuses impossible clouds, starts and
 /// finishes the result, turns a failed allocation into a status. `work(labels)` sets the labels

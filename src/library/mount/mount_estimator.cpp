@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <iomanip>
 #include <memory>
 #include <optional>
 #include <span>
+#include <sstream>
+#include <string>
 
 #include "flagstone/mount.hpp"
 #include "library/core/floating_point_mode.hpp"
-#include "library/mount/agreement.hpp"
-#include "library/mount/expected_mount.hpp"
+#include "library/core/segment_scan.hpp"
 #include "library/mount/ground_plane.hpp"
+#include "library/mount/mount_settings.hpp"
 #include "library/mount/near_points.hpp"
 #include "library/mount/vectors.hpp"
 
@@ -41,11 +44,6 @@ constexpr float farther = 2.5f;
 
 /// From afar a lean is easily made up of walls and rows of cars, so that more must speak for one.
 constexpr float lean_cost_afar = 45;
-
-MountSettings checked(const MountSettings& settings) {
-  settings.check();
-  return settings;
-}
 
 }  // namespace
 
@@ -141,15 +139,83 @@ MountDecision MountEstimator::Impl::estimate(CloudView cloud) noexcept {
 }
 
 MountEstimator::MountEstimator(const MountSettings& settings)
-    : workings_(std::make_unique<Impl>(settings)) {}
+    : impl_(std::make_unique<Impl>(settings)) {}
 MountEstimator::~MountEstimator() = default;
 MountEstimator::MountEstimator(MountEstimator&&) noexcept = default;
 MountEstimator& MountEstimator::operator=(MountEstimator&&) noexcept = default;
 
-MountDecision MountEstimator::estimate(CloudView cloud) noexcept {
-  return workings_->estimate(cloud);
+MountDecision MountEstimator::estimate(CloudView cloud) noexcept { return impl_->estimate(cloud); }
+
+const MountSettings& MountEstimator::settings() const noexcept { return impl_->settings; }
+
+namespace {
+
+void add_mount(std::ostream& text, const MountDecision& decision) {
+  text << "sensor " << decision.mount.sensor_height << " m above the ground";
+  if (decision.tilt >= 0.05f) {
+    const auto& up = decision.mount.up;
+    text << ", tilted by " << std::setprecision(1) << decision.tilt << " degrees"
+         << std::setprecision(3) << ", up is (" << up[0] << ", " << up[1] << ", " << up[2] << ')'
+         << std::setprecision(2);
+  }
 }
 
-const MountSettings& MountEstimator::settings() const noexcept { return workings_->settings; }
+void add_reason(std::ostream& text, const MountDecision& decision) {
+  const auto percent = [&](float share) {
+    text << std::setprecision(0) << 100 * share << " %" << std::setprecision(2);
+  };
+  switch (decision.verdict) {
+    case MountVerdict::fixed:
+    case MountVerdict::accepted: break;
+    case MountVerdict::too_few_points:
+      text << "too few points where ground can be, " << decision.points << " places, "
+           << decision.cells << " square metres";
+      break;
+    case MountVerdict::no_plane:
+      text << "near points agree on no plane, they lie within " << decision.spread
+           << " m of the best";
+      break;
+    case MountVerdict::obstructed:
+      text << "what lies lowest is the foot of what stands on it, only ";
+      percent(decision.free);
+      text << " of it is free";
+      break;
+    case MountVerdict::points_below:
+      text << "too much lies below the best plane, ";
+      percent(decision.below);
+      break;
+    case MountVerdict::one_sided:
+      text << "that ground is seen in " << decision.directions << " directions of " << decision.seen
+           << " with any points";
+      break;
+    case MountVerdict::height_limit: text << "that height is not within the limits"; break;
+    case MountVerdict::tilt_limit: text << "that tilt is beyond the limit"; break;
+    case MountVerdict::outlier: text << "too far from what the scans before have told"; break;
+  }
+}
+
+}  // namespace
+
+std::string to_sentence(const MountDecision& decision) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2);
+  if (decision.verdict == MountVerdict::fixed) {
+    add_mount(text, decision);
+    text << ", as given";
+  } else if (decision.accepted()) {
+    add_mount(text, decision);
+    text << ", confidence " << decision.confidence;
+  } else {
+    text << "not told by this scan: ";
+    add_reason(text, decision);
+    const bool has_plane = decision.cells > 0;
+    if (has_plane) {
+      text << " (it seems: ";
+      add_mount(text, decision);
+      text << ", confidence " << decision.confidence << ')';
+    }
+  }
+  return text.str();
+}
 
 }  // namespace flagstone

@@ -104,8 +104,8 @@ HWY_EXPORT(copy_runs);
 
 /// Of the points of a bin that are noise, makes those ground that lie in a plane of their own;
 /// returns how many. In double precision: few bins have such points.
-std::uint32_t label_sunken(const plane_fits::BinBatch& batch, std::size_t bin,
-                           std::uint8_t* labels) {
+std::uint32_t label_lower_ground(const plane_fits::BinBatch& batch, std::size_t bin,
+                                 std::uint8_t* labels) {
   const auto each_deep = [&](const auto& work) {
     for (std::size_t i = 0; i < batch.size(bin); ++i) {
       if (labels[i] != static_cast<std::uint8_t>(Label::noise)) continue;
@@ -137,15 +137,15 @@ std::uint32_t label_sunken(const plane_fits::BinBatch& batch, std::size_t bin,
 }  // namespace
 
 LabelCounts BinLabels::write(const plane_fits::BinBatch& batch, std::size_t i,
-                             const plane_fits::GroundSet& set, bool find_sunken,
-                             const plane_fits::BinGroups& groups,
+                             plane_fits::GroundSet set, const plane_fits::BinGroups& groups,
                              std::span<Label> labels) noexcept {
+  set.bottom = std::max(set.bottom, set.top - depth_);
   std::uint8_t* packed = packed_.data();
   LabelCounts counts = HWY_DYNAMIC_DISPATCH(label_bin)(batch, i, set, packed);
-  if (find_sunken && counts.noise >= plane_fits::fewest_sunken_points) {
-    counts.sunken = label_sunken(batch, i, packed);
-    counts.ground += counts.sunken;
-    counts.noise -= counts.sunken;
+  if (finds_lower_ground_ && counts.noise >= plane_fits::fewest_sunken_points) {
+    counts.lower_ground = label_lower_ground(batch, i, packed);
+    counts.ground += counts.lower_ground;
+    counts.noise -= counts.lower_ground;
   }
   if (groups.moved()) {
     for (const plane_fits::MovedPoint& point : groups.points(batch.bin(i))) {

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "flagstone/label.hpp"
+#include "flagstone/patchwork_config.hpp"
 #include "library/core/buffer.hpp"
 #include "library/plane_fits/bin_batch.hpp"
 #include "library/plane_fits/bin_groups.hpp"
@@ -18,19 +20,23 @@ namespace flagstone::patchwork {
 struct LabelCounts {
   std::uint32_t ground = 0;
   std::uint32_t noise = 0;
-  std::uint32_t sunken = 0;  ///< of the ground, what lies in a plane below the set's
+  std::uint32_t lower_ground = 0;  ///< of the ground, points in a separate plane below the set
 };
 
-/// Labels the points of bins where they stand in the cloud.
+/// Labels the points of bins, in the order of the cloud.
 class BinLabels {
  public:
+  explicit BinLabels(const PatchworkConfig& config) noexcept
+      : depth_(config.lower_plane_margin + config.distance_margin),
+        finds_lower_ground_(std::isfinite(config.lower_plane_margin)) {}
+
   /// Makes room for bins of `points` points; may throw std::bad_alloc.
   void reserve(std::size_t points) { packed_.reserve(points + 128); }
 
-  /// Labels the points of bin `i` of the batch: ground if in the set, noise below it, nonground
-  /// above. With `find_sunken`, points below it that lie in a plane of their own are ground too.
-  LabelCounts write(const plane_fits::BinBatch& batch, std::size_t i,
-                    const plane_fits::GroundSet& set, bool find_sunken,
+  /// Labels the points of bin `i` of the batch: those in its final ground set are ground, eq. (12),
+  /// those above it nonground. Points farther below the plane than the lower plane margin are
+  /// ground if they form a separate plane, otherwise noise.
+  LabelCounts write(const plane_fits::BinBatch& batch, std::size_t i, plane_fits::GroundSet set,
                     const plane_fits::BinGroups& groups, std::span<Label> labels) noexcept;
 
   /// Gives all points of a bin one label.
@@ -39,6 +45,8 @@ class BinLabels {
                             std::span<Label> labels) noexcept;
 
  private:
+  float depth_;  ///< of the final ground set, from its top, metres
+  bool finds_lower_ground_;
   Buffer<std::uint8_t> packed_;  ///< labels of one bin, in the order of its points
 };
 

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "flagstone/cloud_view.hpp"
 #include "flagstone/patchwork_config.hpp"
+#include "library/plane_fits/scan_points.hpp"
 
 namespace flagstone::patchwork {
 
@@ -19,6 +21,7 @@ struct Ring {
   std::uint16_t ring;       ///< i - 1, within the zone
   std::uint16_t sectors;    ///< N_theta,m
   std::uint32_t first_bin;  ///< bin of sector 0; the others follow
+  double seed_floor;        ///< no seed of eq. (5) is lower, metres
   float center_radius;      ///< r_n: distance from the origin to the centre of the bins, metres
 };
 
@@ -34,7 +37,7 @@ struct RingTree {
 };
 
 /// The Concentric Zone Model, section III-B: zones Z_m of rings and sectors, eqs. (2) and (3), as
-/// tables, which the vector code in locate-inl.hpp reads.
+/// tables.
 class ConcentricZones {
  public:
   explicit ConcentricZones(const PatchworkConfig& config);
@@ -97,5 +100,11 @@ class ConcentricZones {
   RingTree tree_;
   std::uint32_t bin_count_ = 0;
 };
+
+/// Reads chunk `chunk` of the cloud into `scan`, which is reserved for it, each point in its bin of
+/// the Concentric Zone Model, noise(), out_of_range() or invalid(). Chunks may be read by several
+/// threads at once.
+void read_chunk(CloudView cloud, std::size_t chunk, const ConcentricZones& zones,
+                plane_fits::ScanPoints& scan) noexcept;
 
 }  // namespace flagstone::patchwork

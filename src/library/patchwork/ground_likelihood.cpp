@@ -61,14 +61,14 @@ void GroundLikelihood::judge(const Plane& plane, std::size_t ring, Patch& patch)
   const double phi = uprightness(plane);
   const double psi = elevation(plane, ring);
   const double varphi = flatness(psi, sigma, ring);
-  const double f = phi * psi * varphi;  // eq. (8)
+  const double f = phi * psi * varphi;  // eq. (8): a factor of the product of eq. (7)
 
   patch.uprightness = static_cast<float>(phi);
   patch.elevation = static_cast<float>(psi);
   patch.flatness = static_cast<float>(std::min(varphi, 1e30));
   patch.likelihood = static_cast<float>(std::min(f, 1e30));
   patch.surface_variable = static_cast<float>(sigma);
-  if (f > 0.5) {  // eq. (12)
+  if (f > 0.5) {  // eq. (12): the patch's ground set is part of the ground
     patch.verdict = psi < 0.5 ? Verdict::ground_flat : Verdict::ground;
   } else {
     patch.verdict = phi == 0 ? Verdict::not_upright : Verdict::too_high;

@@ -13,6 +13,7 @@
 namespace flagstone::patchwork {
 
 /// Ground Likelihood Estimation, section III-D, eqs. (7) to (12): is a fitted patch ground?
+/// The likelihood of a scan, eq. (7), is the product over its patches; each is decided by itself.
 class GroundLikelihood {
  public:
   GroundLikelihood(const PatchworkConfig& config, const std::vector<Ring>& rings);

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "flagstone/patchwork.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -16,12 +13,9 @@
 #include "library/core/thread_pool.hpp"
 #include "library/patchwork/bin_labels.hpp"
 #include "library/patchwork/concentric_zones.hpp"
-#include "library/patchwork/fit_settings.hpp"
 #include "library/patchwork/ground_likelihood.hpp"
-#include "library/patchwork/read_scan.hpp"
-#include "library/plane_fits/bin_batch.hpp"
 #include "library/plane_fits/bin_groups.hpp"
-#include "library/plane_fits/plane_fit.hpp"
+#include "library/plane_fits/fitters.hpp"
 #include "library/plane_fits/scan_points.hpp"
 #include "library/plane_fits/stage_clock.hpp"
 
@@ -31,210 +25,184 @@ using patchwork::BinLabels;
 using patchwork::ConcentricZones;
 using patchwork::GroundLikelihood;
 using patchwork::LabelCounts;
-using patchwork::read_chunk;
 using patchwork::Ring;
-using plane_fits::BinBatch;
 using plane_fits::BinGroups;
-using plane_fits::PlaneFit;
+using plane_fits::FitSettings;
 using plane_fits::ScanPoints;
 using plane_fits::StageClock;
-
-namespace {
-
-/// Points by label, as Segmentation::finish takes them.
-using LabelTotals = std::array<std::size_t, label_count>;
-
-PatchworkConfig checked(PatchworkConfig config) {
-  config.check();
-  return config;
-}
-
-}  // namespace
-
-namespace patchwork {
-
-/// What one thread needs to fit bins.
-struct Fitter {
-  explicit Fitter(const PatchworkConfig& config) : fit(fit_settings(config)) {
-    seeds.counts.fill(static_cast<std::uint32_t>(config.seed_count));
-  }
-
-  void reserve(std::size_t point_count) {
-    batch.reserve(point_count);
-    fit.reserve(point_count);
-    bin_labels.reserve(point_count);
-  }
-
-  BinBatch batch;
-  plane_fits::Seeds seeds{};
-  PlaneFit fit;
-  PlaneFit::Result fitted;
-  BinLabels bin_labels;
-  LabelTotals totals{};
-};
-
-}  // namespace patchwork
 
 /// Patchwork, top to bottom: points into bins, a plane for each bin, a verdict for each plane,
 /// labels.
 struct Patchwork::Pipeline {
-  Pipeline(PatchworkConfig settings, unsigned threads)
-      : config(checked(std::move(settings))),
-        zones(config),
-        likelihood(config, zones.rings()),
-        seed_floors(patchwork::seed_floors(config)),
-        pool(checked_threads("patchwork", threads)) {
-    for (std::size_t i = 0; i < pool.size(); ++i) fitters.emplace_back(config);
-  }
+  Pipeline(PatchworkConfig given, unsigned threads);
 
-  void reserve(std::size_t point_count, Segmentation& result) {
-    scan.reserve(point_count);
-    groups.reserve(point_count, zones.group_count());
-    for (patchwork::Fitter& fitter : fitters) fitter.reserve(point_count);
-    result.mutable_patches().reserve(zones.bin_count());
-    fitted_bins.reserve(zones.bin_count());
-  }
+  void reserve(std::size_t point_count, Segmentation& result);
+  LabelTotals segment(CloudView cloud, Segmentation& result, std::span<Label> labels) noexcept;
 
-  LabelTotals segment(CloudView cloud, Segmentation& result, std::span<Label> labels) noexcept {
-    const ScopedFloatingPointMode own;
-    StageClock clock(stage_times);
-
-    // Concentric Zone Model (III-B)
-    pool.run(ScanPoints::chunk_count(cloud.size()),
-             [&](std::size_t, std::size_t chunk) { read_chunk(cloud, chunk, zones, scan); });
-    clock.end(Stage::bin);
-    groups.group(scan, cloud.size(), zones.group_count());
-    for (patchwork::Fitter& fitter : fitters) fitter.totals = {};
-    label_binless(labels);
-    list_patches(result.mutable_patches(), labels);
-    clock.end(Stage::group);
-
-    // Planes and verdicts (III-C, III-D), sixteen bins at a time
-    const std::span<Patch> patches = result.mutable_patches();
-    const std::size_t batches = (fitted_count + batch_size - 1) / batch_size;
-    pool.run(batches, [&](std::size_t worker, std::size_t batch) {
-      StageClock no_clock(nullptr);
-      segment_batch(batch, patches, labels, fitters[worker], worker == 0 ? clock : no_clock);
-    });
-
-    LabelTotals totals{};
-    for (const patchwork::Fitter& fitter : fitters) {
-      for (std::size_t i = 0; i < label_count; ++i) totals[i] += fitter.totals[i];
-    }
-    return totals;
-  }
-
-  /// Points that have no bin.
-  void label_binless(std::span<Label> labels) noexcept {
-    fill(zones.noise(), Label::noise, labels);
-    fill(zones.out_of_range(), Label::out_of_range, labels);
-    fill(zones.invalid(), Label::invalid, labels);
-  }
-
-  /// Gives all points of a bin one label.
-  std::uint32_t fill(std::uint32_t bin, Label label, std::span<Label> labels) noexcept {
-    const std::uint32_t count = BinLabels::fill(groups, bin, label, labels);
-    fitters.front().totals[static_cast<std::size_t>(label)] += count;
-    return count;
-  }
-
-  /// One patch for each bin that holds points; those with enough points are to be fitted.
-  void list_patches(std::vector<Patch>& patches, std::span<Label> labels) noexcept {
-    fitted_count = 0;
-    for (std::size_t r = 0; r < zones.rings().size(); ++r) {
-      const Ring& ring = zones.rings()[r];
-      for (std::uint16_t sector = 0; sector < ring.sectors; ++sector) {
-        const std::uint32_t bin = ring.first_bin + sector;
-        if (groups.size(bin) == 0) continue;
-        Patch patch{.zone = ring.zone, .ring = ring.ring, .sector = sector};
-        patch.point_count = groups.size(bin);
-        if (patch.point_count >= static_cast<std::uint32_t>(config.min_points)) {
-          fitted_bins.data()[fitted_count++] = {.bin = bin,
-                                                .patch = static_cast<std::uint32_t>(patches.size()),
-                                                .ring = static_cast<std::uint32_t>(r)};
-        } else if (config.sparse_bins_are_ground) {
-          patch.ground_count = fill(bin, Label::ground, labels);
-        }
-        patches.push_back(patch);  // within what was reserved
-      }
-    }
-  }
-
-  void segment_batch(std::size_t index, std::span<Patch> patches, std::span<Label> labels,
-                     patchwork::Fitter& fitter, StageClock& clock) noexcept {
-    const std::size_t first = index * batch_size;
-    const std::span<const FittedBin> bins(fitted_bins.data() + first,
-                                          std::min(batch_size, fitted_count - first));
-    fitter.batch.clear();
-    for (std::size_t i = 0; i < bins.size(); ++i) {
-      const Patch& patch = patches[bins[i].patch];
-      fitter.seeds.floors[i] = seed_floors[patch.zone];
-      fitter.batch.add(bins[i].bin, patch.point_count);
-    }
-
-    // Region-wise Ground Plane Fitting (III-C)
-    fitter.batch.gather(scan, groups);
-    clock.end(Stage::gather);
-    fitter.fit.fit(fitter.batch, fitter.seeds, clock, fitter.fitted);
-
-    // Ground Likelihood Estimation (III-D)
-    for (std::size_t i = 0; i < bins.size(); ++i) {
-      judge(fitter.fitted, i, bins[i].ring, patches[bins[i].patch]);
-    }
-    clock.end(Stage::solve);
-
-    // The final ground set, eq. (6) of the last plane, less what lies far below it: that is noise,
-    // or ground in a plane of its own. All other points stay nonground.
-    for (std::size_t i = 0; i < bins.size(); ++i) {
-      Patch& patch = patches[bins[i].patch];
-      if (!patch.is_ground()) continue;
-      const LabelCounts counts =
-          fitter.bin_labels.write(fitter.batch, i, set_to_label(fitter.fitted.sets[i]),
-                                  std::isfinite(config.lower_plane_margin), groups, labels);
-      patch.ground_count = counts.ground;
-      patch.lower_ground_count = counts.sunken;
-      fitter.totals[static_cast<std::size_t>(Label::ground)] += counts.ground;
-      fitter.totals[static_cast<std::size_t>(Label::noise)] += counts.noise;
-    }
-    clock.end(Stage::label);
-  }
-
-  /// The part of a ground set that needs no plane of its own.
-  [[nodiscard]] plane_fits::GroundSet set_to_label(plane_fits::GroundSet set) const noexcept {
-    const float depth = config.lower_plane_margin + config.distance_margin;
-    set.bottom = std::max(set.bottom, set.top - depth);
-    return set;
-  }
-
-  void judge(const PlaneFit::Result& fitted, std::size_t i, std::size_t ring,
-             Patch& patch) const noexcept {
-    if ((fitted.exists >> i & 1U) == 0) {
-      patch.verdict = Verdict::no_plane;
-      return;
-    }
-    const Plane plane = fitted.judged[i].moved_by(fitted.origins[i]);
-    set_plane(plane, patch);
-    likelihood.judge(plane, ring, patch);
-  }
-
+  /// A bin with enough points for a plane.
   struct FittedBin {
     std::uint32_t bin;
     std::uint32_t patch;  ///< its index
     std::uint32_t ring;   ///< counted over all zones
   };
 
+  /// Working memory of one thread.
+  struct Fitter : plane_fits::Fitter {
+    explicit Fitter(const PatchworkConfig& config);
+    void reserve(std::size_t points);
+    BinLabels bin_labels;
+  };
+
+  void label_points_without_bin(std::span<Label> labels) noexcept;
+  std::span<FittedBin> list_patches(std::vector<Patch>& patches, std::span<Label> labels) noexcept;
+  std::uint32_t fill(std::uint32_t bin, Label label, std::span<Label> labels) noexcept;
+  void gather(std::span<const FittedBin> bins, Fitter& fitter) noexcept;
+
   PatchworkConfig config;
   ConcentricZones zones;
   GroundLikelihood likelihood;
-  std::vector<double> seed_floors;  ///< of each zone, metres
   ScanPoints scan;
   BinGroups groups;
   Buffer<FittedBin> fitted_bins;
-  std::size_t fitted_count = 0;
   StageTimes* stage_times = nullptr;
-  std::vector<patchwork::Fitter> fitters;  ///< one per thread
   ThreadPool pool;
+  plane_fits::Fitters<Fitter> fitters;
 };
+
+LabelTotals Patchwork::Pipeline::segment(CloudView cloud, Segmentation& result,
+                                         std::span<Label> labels) noexcept {
+  const ScopedFloatingPointMode mode;
+  StageClock scan_clock(stage_times);
+  std::vector<Patch>& patches = result.mutable_patches();
+  fitters.clear_totals();
+
+  // Concentric Zone Model (III-B): every point into its bin, eqs. (2) and (3)
+  pool.run(ScanPoints::chunk_count(cloud.size()), [&](std::size_t, std::size_t chunk) {
+    patchwork::read_chunk(cloud, chunk, zones, scan);
+  });
+  scan_clock.end(Stage::bin);
+  groups.group(scan, cloud.size(), zones.group_count());
+  label_points_without_bin(labels);
+  const std::span<FittedBin> all_bins = list_patches(patches, labels);
+  scan_clock.end(Stage::group);
+
+  const auto segment_bins = [&](std::span<FittedBin> bins, Fitter& fitter, StageClock& clock) {
+    // Region-wise Ground Plane Fitting (III-C): seeds, eq. (5), and planes, eqs. (4) and (6)
+    gather(bins, fitter);
+    clock.end(Stage::gather);
+    fitter.fit.fit(fitter.batch, fitter.seeds, clock, fitter.fitted);
+
+    // Ground Likelihood Estimation (III-D): uprightness, elevation and flatness, eqs. (8) to (11)
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      Patch& patch = patches[bins[i].patch];
+      patch.verdict = Verdict::no_plane;
+      if (!fitter.fitted.has_plane(i)) continue;
+      const Plane plane = fitter.fitted.plane(i);
+      set_plane(plane, patch);
+      likelihood.judge(plane, bins[i].ring, patch);
+    }
+    clock.end(Stage::solve);
+
+    // The ground, eq. (12): the final ground sets of the patches that are likely to be ground
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      Patch& patch = patches[bins[i].patch];
+      if (!patch.is_ground()) continue;
+      const LabelCounts counts =
+          fitter.bin_labels.write(fitter.batch, i, fitter.fitted.sets[i], groups, labels);
+      patch.ground_count = counts.ground;
+      patch.lower_ground_count = counts.lower_ground;
+      fitter.totals[static_cast<std::size_t>(Label::ground)] += counts.ground;
+      fitter.totals[static_cast<std::size_t>(Label::noise)] += counts.noise;
+    }
+    clock.end(Stage::label);
+  };
+  fitters.run(pool, all_bins, scan_clock, segment_bins);
+  return fitters.totals();
+}
+
+namespace {
+
+FitSettings fit_settings(const PatchworkConfig& config) {
+  return {.seed_height = config.seed_height,
+          .distance_margin = config.distance_margin,
+          .noise_margin = config.noise_margin,
+          .iterations = config.iterations,
+          .keep_below_floor = config.keep_below_margin,
+          .evaluate_final_set = config.evaluate_final_set};
+}
+
+}  // namespace
+
+Patchwork::Pipeline::Pipeline(PatchworkConfig given, unsigned threads)
+    : config(checked(std::move(given))),
+      zones(config),
+      likelihood(config, zones.rings()),
+      pool(checked_threads("patchwork", threads)),
+      fitters(pool.size(), config) {}
+
+Patchwork::Pipeline::Fitter::Fitter(const PatchworkConfig& config)
+    : plane_fits::Fitter(fit_settings(config)), bin_labels(config) {
+  seeds.counts.fill(static_cast<std::uint32_t>(config.seed_count));
+}
+
+void Patchwork::Pipeline::Fitter::reserve(std::size_t points) {
+  plane_fits::Fitter::reserve(points);
+  bin_labels.reserve(points);
+}
+
+void Patchwork::Pipeline::reserve(std::size_t point_count, Segmentation& result) {
+  scan.reserve(point_count);
+  groups.reserve(point_count, zones.group_count());
+  fitters.reserve(point_count);
+  result.mutable_patches().reserve(zones.bin_count());
+  fitted_bins.reserve(zones.bin_count());
+}
+
+void Patchwork::Pipeline::label_points_without_bin(std::span<Label> labels) noexcept {
+  fill(zones.noise(), Label::noise, labels);
+  fill(zones.out_of_range(), Label::out_of_range, labels);
+  fill(zones.invalid(), Label::invalid, labels);
+}
+
+/// Gives all points of a bin one label; returns how many they are.
+std::uint32_t Patchwork::Pipeline::fill(std::uint32_t bin, Label label,
+                                        std::span<Label> labels) noexcept {
+  const std::uint32_t count = BinLabels::fill(groups, bin, label, labels);
+  fitters.totals_of(0)[static_cast<std::size_t>(label)] += count;
+  return count;
+}
+
+/// Adds one patch for each bin with points; returns the bins that have enough points for a plane.
+std::span<Patchwork::Pipeline::FittedBin> Patchwork::Pipeline::list_patches(
+    std::vector<Patch>& patches, std::span<Label> labels) noexcept {
+  std::size_t count = 0;
+  for (std::uint32_t r = 0; r < zones.rings().size(); ++r) {
+    const Ring& ring = zones.rings()[r];
+    for (std::uint16_t sector = 0; sector < ring.sectors; ++sector) {
+      const std::uint32_t bin = ring.first_bin + sector;
+      if (groups.size(bin) == 0) continue;
+      Patch patch{.zone = ring.zone, .ring = ring.ring, .sector = sector};
+      patch.point_count = groups.size(bin);
+      if (patch.point_count >= static_cast<std::uint32_t>(config.min_points)) {
+        const auto index = static_cast<std::uint32_t>(patches.size());
+        fitted_bins.data()[count++] = {.bin = bin, .patch = index, .ring = r};
+      } else if (config.sparse_bins_are_ground) {
+        patch.ground_count = fill(bin, Label::ground, labels);
+      }
+      patches.push_back(patch);  // within what was reserved
+    }
+  }
+  return {fitted_bins.data(), count};
+}
+
+void Patchwork::Pipeline::gather(std::span<const FittedBin> bins, Fitter& fitter) noexcept {
+  fitter.batch.clear();
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    fitter.seeds.floors[i] = zones.rings()[bins[i].ring].seed_floor;
+    fitter.batch.add(bins[i].bin, groups.size(bins[i].bin));
+  }
+  fitter.batch.gather(scan, groups);
+}
 
 Patchwork::Patchwork(PatchworkConfig config, unsigned threads)
     : pipeline_(std::make_unique<Pipeline>(std::move(config), threads)) {}

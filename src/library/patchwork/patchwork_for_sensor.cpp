@@ -9,13 +9,148 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "flagstone/patchwork_config.hpp"
 #include "flagstone/sensor.hpp"
-#include "library/patchwork/ground_rings.hpp"
 
 namespace flagstone {
 namespace {
+
+/// A ring around a sensor, and the points that it has on flat ground there.
+struct GroundRing {
+  double inner = 0;   ///< metres
+  double outer = 0;   ///< metres
+  int beams = 0;      ///< that meet flat ground between them; 0 beyond the last
+  double points = 0;  ///< in one full turn; of one beam beyond the last
+
+  [[nodiscard]] double length() const noexcept { return outer - inner; }
+  [[nodiscard]] double middle() const noexcept { return (inner + outer) / 2; }
+};
+
+/// Where the beams of a sensor meet flat ground `height` metres below it, and how many points each
+/// of them has in a full turn. A rosette counts as beams that share out its points evenly over its
+/// field of view.
+class GroundBeams {
+ public:
+  explicit GroundBeams(const Sensor& sensor);
+
+  /// Distances from the point below the sensor, metres, ascending: height / tan(-elevation). Beams
+  /// that meet no ground within the sensor's range are not among them.
+  [[nodiscard]] const std::vector<double>& radii() const noexcept { return radii_; }
+
+  /// How far the beams meet ground that rises by `slope`, metres a metre, up to the sensor's range;
+  /// metres.
+  [[nodiscard]] double reach(double slope) const noexcept;
+
+  /// Points of a beam in a full turn; a narrow field of view holds its share of them.
+  [[nodiscard]] double points_a_turn() const noexcept { return points_a_turn_; }
+
+ private:
+  std::vector<double> radii_;
+  double least_fall_ = 0;  ///< of the flattest beam, metres a metre; negative where it rises
+  double height_ = 0;
+  double max_range_ = 0;
+  double points_a_turn_ = 0;
+};
+
+/// How long rings are to be.
+struct RingLengths {
+  double first = 0;     ///< shortest length of the first ring, metres
+  double shortest = 0;  ///< of the others, metres
+  double one_beam = 0;  ///< of rings that hold one beam only, metres
+  double growth = 0;    ///< of the others as a share of the distance of their middle
+  double beyond = 0;    ///< of rings beyond the last beam, as a share of the distance they begin at
+};
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// Elevations of as many beams as would draw the same number of points one angle apart both ways.
+std::vector<double> beams_of_rosette(const Sensor& sensor) {
+  const double height = sensor.elevations.front() - sensor.elevations.back();
+  const double width = sensor.azimuth_end - sensor.azimuth_begin;
+  const double count = std::clamp(std::round(std::sqrt(sensor.firings * height / width)), 2.0, 1e3);
+  std::vector<double> elevations(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < elevations.size(); ++i) {
+    elevations[i] = sensor.elevations.front() - height * static_cast<double>(i) / (count - 1);
+  }
+  return elevations;
+}
+
+/// Radius of the edge after beam `i`, metres.
+double edge_after(const std::vector<double>& radii, std::size_t i) {
+  if (i + 1 < radii.size()) return (radii[i] + radii[i + 1]) / 2;
+  const double gap = i > 0 ? radii[i] - radii[i - 1] : radii[i];
+  return radii[i] + std::max(gap / 2, radii[i] / 20);
+}
+
+bool is_long_enough(const GroundRing& ring, bool is_first, const RingLengths& lengths) {
+  const double least = lengths.growth * ring.middle();
+  if (ring.beams < 2 && ring.length() < std::max(lengths.one_beam, least)) return false;
+  return ring.length() >= (is_first ? lengths.first : std::max(lengths.shortest, least));
+}
+
+/// Rings of those beams that meet flat ground.
+std::vector<GroundRing> rings_of_beams(const GroundBeams& beams, double begin,
+                                       const RingLengths& lengths) {
+  const std::vector<double>& radii = beams.radii();
+  std::vector<GroundRing> rings;
+  GroundRing ring{.inner = begin};
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    if (radii[i] <= begin) continue;
+    ring.outer = edge_after(radii, i);
+    ++ring.beams;
+    ring.points += beams.points_a_turn();
+    if (!is_long_enough(ring, rings.empty(), lengths)) continue;
+    rings.push_back(ring);
+    ring = {.inner = ring.outer};
+  }
+  if (ring.beams == 0) return rings;
+  // What is left is too short for a ring of its own.
+  if (rings.empty()) return {ring};
+  rings.back().outer = ring.outer;
+  rings.back().beams += ring.beams;
+  rings.back().points += ring.points;
+  return rings;
+}
+
+GroundBeams::GroundBeams(const Sensor& sensor)
+    : least_fall_(-std::tan(radians(std::min(sensor.elevations.front(), 89.0)))),
+      height_(sensor.height),
+      max_range_(sensor.max_range) {
+  const std::vector<double> elevations =
+      sensor.draws_rosette() ? beams_of_rosette(sensor) : sensor.elevations;
+  for (const double elevation : elevations) {
+    const double fall = std::sin(radians(-elevation));
+    if (fall <= 0 || sensor.height >= sensor.max_range * fall) continue;
+    radii_.push_back(sensor.height / std::tan(radians(-elevation)));
+  }
+  std::ranges::sort(radii_);
+  const double firings = sensor.draws_rosette()
+                             ? sensor.firings / static_cast<double>(elevations.size())
+                             : sensor.firings;
+  points_a_turn_ = firings * 360 / (sensor.azimuth_end - sensor.azimuth_begin);
+}
+
+double GroundBeams::reach(double slope) const noexcept {
+  const double fall = least_fall_ - slope;  // towards ground that rises beams fall less
+  return fall * max_range_ <= height_ ? max_range_ : height_ / fall;
+}
+
+/// Rings from `begin` metres outward, each as short as `lengths` allow: while beams meet flat
+/// ground, edges halfway between them and no ring without one; then rings up to `reach` metres, for
+/// ground that rises. Empty where no beam meets flat ground beyond `begin`.
+std::vector<GroundRing> ground_rings(const GroundBeams& beams, double begin, double reach,
+                                     const RingLengths& lengths) {
+  std::vector<GroundRing> rings = rings_of_beams(beams, begin, lengths);
+  if (rings.empty()) return rings;
+  while (rings.back().outer * (1 + lengths.beyond) <= reach) {
+    const double inner = rings.back().outer;
+    rings.push_back(
+        {.inner = inner, .outer = inner * (1 + lengths.beyond), .points = beams.points_a_turn()});
+  }
+  return rings;
+}
 
 /// h_s that the settings of `default` were found at, metres. What is a distance seen at some angle
 /// from above is scaled with the height.

@@ -12,8 +12,8 @@
 // The above includes this file once for each instruction set.
 #include "library/core/simd/lanes-inl.hpp"
 
-#ifndef FLAGSTONE_PATCHES_BIN_BATCH_ONCE
-#define FLAGSTONE_PATCHES_BIN_BATCH_ONCE
+#ifndef FLAGSTONE_PLANE_FITS_BIN_BATCH_ONCE
+#define FLAGSTONE_PLANE_FITS_BIN_BATCH_ONCE
 namespace flagstone::plane_fits {
 
 /// Where the points of one bin go. What lies behind them may be written up to the next multiple of
@@ -155,11 +155,10 @@ void BinBatch::gather(const ScanPoints& scan, const BinGroups& groups) noexcept 
   }
 }
 
-void BinBatch::add_sample(std::uint32_t bin, std::span<const MovedPoint> points,
-                          std::size_t most) noexcept {
+void BinBatch::add_sample(std::span<const MovedPoint> points, std::size_t most) noexcept {
   const std::size_t i = count_;
   const Sample sample(points, std::min(points.size(), most));
-  add(bin, static_cast<std::uint32_t>(sample.size));
+  add(0, static_cast<std::uint32_t>(sample.size));
   const MovedPoint& first = sample[0];
   const MovedPoint& last = sample[sample.size - 1];
   origins_[i] = midway(first.x, first.y, last.x, last.y);

@@ -10,7 +10,6 @@
 #include "library/core/buffer.hpp"
 #include "library/core/plane.hpp"
 #include "library/plane_fits/bin_groups.hpp"
-#include "library/plane_fits/moved_points.hpp"
 #include "library/plane_fits/scan_points.hpp"
 
 namespace flagstone::plane_fits {
@@ -39,12 +38,13 @@ class BinBatch {
   /// Packs the points of the bins: x and y as seen from `origin(i)`, z as it is.
   void gather(const ScanPoints& scan, const BinGroups& groups) noexcept;
 
-  /// Adds a bin that has these points and packs them likewise. Of n points, where those are more
-  /// than `most`, 1 to 65,535, it takes numbers j * n / most for all j < most. 16 points behind the
-  /// last may be read.
-  void add_sample(std::uint32_t bin, std::span<const MovedPoint> points, std::size_t most) noexcept;
+  /// Adds a bin, without its number, that has these points and packs them likewise. Of n points,
+  /// where those are more than `most`, 1 to 65,535, it takes numbers j * n / most for all j < most.
+  /// 16 points behind the last may be read.
+  void add_sample(std::span<const MovedPoint> points, std::size_t most) noexcept;
 
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
+  /// Number of bin `i`, as add() was given it.
   [[nodiscard]] std::uint32_t bin(std::size_t i) const noexcept { return bins_[i]; }
 
   /// Points of bin `i` of the batch.

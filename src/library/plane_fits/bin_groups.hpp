@@ -7,10 +7,21 @@
 #include <span>
 
 #include "library/core/buffer.hpp"
-#include "library/plane_fits/moved_points.hpp"
 #include "library/plane_fits/scan_points.hpp"
 
 namespace flagstone::plane_fits {
+
+/// Consecutive input points that share a bin.
+struct Run {
+  std::uint32_t begin;   ///< index of the first point
+  std::uint32_t length;  ///< number of points, at least 1
+};
+
+/// A point that was moved to its bin.
+struct MovedPoint {
+  float x, y, z;
+  std::uint32_t index;  ///< in the cloud
+};
 
 /// What groups are to list.
 enum class Listing : std::uint8_t {

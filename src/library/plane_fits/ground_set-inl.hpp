@@ -4,11 +4,11 @@
 // Which points belong to a ground set, eqs. (5) and (6). Included once for each instruction set.
 
 // clang-format off
-#if defined(FLAGSTONE_PATCHES_GROUND_SET_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef FLAGSTONE_PATCHES_GROUND_SET_INL_HPP
-#undef FLAGSTONE_PATCHES_GROUND_SET_INL_HPP
+#if defined(FLAGSTONE_PLANE_FITS_GROUND_SET_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef FLAGSTONE_PLANE_FITS_GROUND_SET_INL_HPP
+#undef FLAGSTONE_PLANE_FITS_GROUND_SET_INL_HPP
 #else
-#define FLAGSTONE_PATCHES_GROUND_SET_INL_HPP
+#define FLAGSTONE_PLANE_FITS_GROUND_SET_INL_HPP
 #endif
 // clang-format on
 

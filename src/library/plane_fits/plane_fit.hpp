@@ -50,6 +50,13 @@ class PlaneFit {
     /// What the likelihood is to judge, seen from `origins`.
     PlaneBatch judged{};
     std::array<Vector3, batch_size> origins{};
+
+    /// Does bin `i` have a plane?
+    [[nodiscard]] bool has_plane(std::size_t i) const noexcept { return (exists >> i & 1U) != 0; }
+    /// Its plane in the sensor frame.
+    [[nodiscard]] Plane plane(std::size_t i) const noexcept {
+      return judged[i].moved_by(origins[i]);
+    }
   };
 
   /// Fits the planes of the bins. Changes the batch: heights are seen from `origins` afterwards.

@@ -5,11 +5,11 @@
 // for any way of finding a point's bin. Included once for each instruction set.
 
 // clang-format off
-#if defined(FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP
-#undef FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP
+#if defined(FLAGSTONE_PLANE_FITS_READ_STRETCH_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef FLAGSTONE_PLANE_FITS_READ_STRETCH_INL_HPP
+#undef FLAGSTONE_PLANE_FITS_READ_STRETCH_INL_HPP
 #else
-#define FLAGSTONE_PATCHES_READ_STRETCH_INL_HPP
+#define FLAGSTONE_PLANE_FITS_READ_STRETCH_INL_HPP
 #endif
 // clang-format on
 
@@ -74,14 +74,14 @@ HWY_INLINE void prefetch_block(const float* points) {
 /// Reads sixteen points of `floats` floats each and finds their bins.
 template <std::size_t floats, class Locate>
 HWY_INLINE void read_block(const float* HWY_RESTRICT points, std::size_t index,
-                           const PointSlice& stretch, const Locate& locate, RunWriter& runs) {
+                           const PointSlice& slice, const Locate& locate, RunWriter& runs) {
   const FloatTag d;
   for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
     FloatVector x, y, z;
     load_points<floats>(points + floats * lane, x, y, z);
-    hn::StoreU(x, d, stretch.x + index + lane);
-    hn::StoreU(y, d, stretch.y + index + lane);
-    hn::StoreU(z, d, stretch.z + index + lane);
+    hn::StoreU(x, d, slice.x + index + lane);
+    hn::StoreU(y, d, slice.y + index + lane);
+    hn::StoreU(z, d, slice.z + index + lane);
     runs.add(locate(x, y, z));
   }
 }
@@ -104,49 +104,48 @@ HWY_INLINE void copy_records_at_once(const std::byte* points, std::ptrdiff_t str
   }
 }
 
-/// Reads a stretch; returns how many runs it has. `locate(x, y, z)` gives the bins of a vector of
+/// Reads a slice; returns how many runs it has. `locate(x, y, z)` gives the bins of a vector of
 /// points, each less than 1 << bin_bits, and takes any bit pattern; it is to be a struct whose
 /// operator() is HWY_INLINE, so that the tables it reads stay in registers.
 ///
 /// Packed xyz and records of four floats are read where they lie, as long as no read can leave the
 /// cloud; all other layouts, and what the last point needs, by way of a copy.
 template <class Locate>
-HWY_INLINE std::size_t read_slice(const PointSlice& stretch, const Locate& locate) {
-  const CloudView& cloud = stretch.cloud;
+HWY_INLINE std::size_t read_slice(const PointSlice& slice, const Locate& locate) {
+  const CloudView& cloud = slice.cloud;
   const CloudLayout& layout = cloud.layout();
   const std::byte* first = static_cast<const std::byte*>(cloud.data()) + layout.x +
-                           static_cast<std::ptrdiff_t>(stretch.begin) * layout.stride;
+                           static_cast<std::ptrdiff_t>(slice.begin) * layout.stride;
   const auto* floats = reinterpret_cast<const float*>(first);
   const bool together = layout.y == layout.x + 4 && layout.z == layout.x + 8 && layout.stride >= 12;
   const bool aligned = std::bit_cast<std::uintptr_t>(first) % sizeof(float) == 0;
-  const std::size_t count = stretch.end - stretch.begin;
+  const std::size_t count = slice.end - slice.begin;
   // Blocks without the last point of the cloud.
   const std::size_t whole =
-      together ? (std::min(stretch.end, cloud.size() - 1) - stretch.begin) / lanes * lanes : 0;
+      together ? (std::min(slice.end, cloud.size() - 1) - slice.begin) / lanes * lanes : 0;
 
-  RunWriter runs(stretch.starts);
+  RunWriter runs(slice.starts);
   HWY_ALIGN std::array<float, 4 * lanes> records{};
   std::size_t i = 0;
   if (aligned && layout.stride == 16) {
     for (; i < whole; i += lanes) {
       prefetch_block<4>(floats + 4 * i);
-      read_block<4>(floats + 4 * i, i, stretch, locate, runs);
+      read_block<4>(floats + 4 * i, i, slice, locate, runs);
     }
   } else if (aligned && layout.stride == 12) {
     for (; i < whole; i += lanes) {
       prefetch_block<3>(floats + 3 * i);
-      read_block<3>(floats + 3 * i, i, stretch, locate, runs);
+      read_block<3>(floats + 3 * i, i, slice, locate, runs);
     }
   }
   for (; i < whole; i += lanes) {
     copy_records_at_once(first + static_cast<std::ptrdiff_t>(i) * layout.stride, layout.stride,
                          records.data());
-    read_block<4>(records.data(), i, stretch, locate, runs);
+    read_block<4>(records.data(), i, slice, locate, runs);
   }
   for (; i < count; i += lanes) {
-    copy_records(cloud, stretch.begin + i, stretch.begin + std::min(count, i + lanes),
-                 records.data());
-    read_block<4>(records.data(), i, stretch, locate, runs);
+    copy_records(cloud, slice.begin + i, slice.begin + std::min(count, i + lanes), records.data());
+    read_block<4>(records.data(), i, slice, locate, runs);
   }
   return runs.close(count);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,7 +21,7 @@ inline constexpr int bin_bits =
     18;  ///< bins are 0 to 262,143, those of points without one included
 static_assert(chunk_size <= 1U << (32 - bin_bits - 1));  // the index behind the last fits too
 
-/// A stretch of a cloud to read and where to put it.
+/// Consecutive points of a cloud to read, and where to put them.
 struct PointSlice {
   CloudView cloud;
   std::size_t begin, end;  ///< at most chunk_size points
@@ -36,14 +37,19 @@ struct PointSlice {
 class ScanPoints {
  public:
   /// Makes room for `points` points; may throw std::bad_alloc.
-  void reserve(std::size_t points);
+  void reserve(std::size_t points) {
+    const std::size_t chunks = chunk_count(points);
+    for (Buffer<float>* coordinate : {&x_, &y_, &z_}) coordinate->reserve(points + 2 * slack);
+    starts_.reserve(chunks * (chunk_size + slack) + slack);
+    run_counts_.reserve(chunks);
+  }
 
-  /// Reads chunk `chunk` of the cloud, which is no larger than reserved: `read_slice(stretch)`
+  /// Reads chunk `chunk` of the cloud, which is no larger than reserved: `read_slice(slice)`
   /// does, knowing the bins, and returns how many runs there are; see read_slice-inl.hpp. Chunks
   /// may be read by several threads at once.
-  template <class ReadStretch>
-  void read(CloudView cloud, std::size_t chunk, const ReadStretch& read_slice) noexcept {
-    const std::size_t runs = read_slice(stretch(cloud, chunk));
+  template <class ReadSlice>
+  void read(CloudView cloud, std::size_t chunk, const ReadSlice& read_slice) noexcept {
+    const std::size_t runs = read_slice(slice(cloud, chunk));
     run_counts_.data()[chunk] = static_cast<std::uint32_t>(runs);
   }
 
@@ -70,7 +76,16 @@ class ScanPoints {
  private:
   static constexpr std::size_t slack = 16;  ///< what vectors may write behind the last element
 
-  [[nodiscard]] PointSlice stretch(CloudView cloud, std::size_t chunk) noexcept;
+  [[nodiscard]] PointSlice slice(CloudView cloud, std::size_t chunk) noexcept {
+    const std::size_t begin = chunk * chunk_size;
+    return {.cloud = cloud,
+            .begin = begin,
+            .end = std::min(begin + chunk_size, cloud.size()),
+            .x = x_.data() + begin,
+            .y = y_.data() + begin,
+            .z = z_.data() + begin,
+            .starts = starts_.data() + chunk * (chunk_size + slack)};
+  }
 
   Buffer<float> x_;
   Buffer<float> y_;

@@ -12,8 +12,8 @@
 // The above includes this file once for each instruction set.
 #include "library/core/simd/lanes-inl.hpp"
 
-#ifndef FLAGSTONE_PATCHES_SEED_HEIGHTS_ONCE
-#define FLAGSTONE_PATCHES_SEED_HEIGHTS_ONCE
+#ifndef FLAGSTONE_PLANE_FITS_SEED_HEIGHTS_ONCE
+#define FLAGSTONE_PLANE_FITS_SEED_HEIGHTS_ONCE
 namespace flagstone::plane_fits {
 
 /// Up to this many candidates of sixteen bins are sorted side by side.

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "flagstone/surface_config.hpp"
-#include "library/plane_fits/moved_points.hpp"
+#include "library/plane_fits/bin_groups.hpp"
 #include "library/surface/grid.hpp"
 
 namespace flagstone::surface {

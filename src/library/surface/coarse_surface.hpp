@@ -7,7 +7,6 @@
 #include "library/core/moments.hpp"
 #include "library/core/plane.hpp"
 #include "library/surface/grid.hpp"
-#include "library/surface/pull_push.hpp"
 
 namespace flagstone::surface {
 

@@ -12,7 +12,7 @@
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
 #include "library/core/simd/lanes-inl.hpp"
-#include "library/surface/locate-inl.hpp"
+#include "library/surface/square_cells-inl.hpp"
 
 #ifndef FLAGSTONE_SURFACE_POINT_HEIGHTS_ONCE
 #define FLAGSTONE_SURFACE_POINT_HEIGHTS_ONCE

@@ -10,14 +10,12 @@
 #include "flagstone/label.hpp"
 #include "flagstone/surface_config.hpp"
 #include "library/core/buffer.hpp"
+#include "library/core/segment_scan.hpp"
 #include "library/plane_fits/scan_points.hpp"
 #include "library/surface/grid.hpp"
 #include "library/surface/square_cells.hpp"
 
 namespace flagstone::surface {
-
-/// Points by label, as Segmentation::finish takes them.
-using LabelTotals = std::array<std::size_t, label_count>;
 
 /// The grids of a surface as tables, an entry for each; a place belongs to the last one that
 /// reaches it.

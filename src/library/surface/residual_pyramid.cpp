@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
-#include "library/surface/grid_steps.hpp"
+#include "library/surface/grid.hpp"
 
 namespace flagstone::surface {
 namespace {
@@ -16,6 +17,9 @@ constexpr std::size_t fewest_points_in_cell = 3;
 
 /// A cell whose observations weigh as much keeps its correction, whatever is around.
 constexpr float full_weight = 0.5f;
+
+/// Where confidence is less, nothing supports the surface.
+constexpr float min_confidence = 1.0f / 16;
 
 /// Cells that one thread observes at a time.
 constexpr std::size_t cells_of_a_job = 256;
@@ -124,14 +128,14 @@ void ResidualPyramid::list_cells_of(const Block& block, std::size_t level) noexc
 }
 
 void ResidualPyramid::refine(const plane_fits::BinGroups& groups, PullPush& pull_push,
-                             ThreadPool& crew) noexcept {
+                             ThreadPool& pool) noexcept {
   list_cells(groups);
   for (std::size_t level = 0; level < cells_.size(); ++level) {
     const Grid& grid = grids_[level];
     if (level > 0) upsample(grids_[level - 1], grid);
     std::fill_n(corrections_.data(), grid.size(), 0.0f);
     std::fill_n(weights_.data(), grid.size(), 0.0f);
-    observe_level(level, groups, crew);
+    observe_level(level, groups, pool);
     pull_push.fill(corrections_.data(), weights_.data(), grid.width, full_weight);
     const bool inner = level > 0 && grid.extent() < grids_[level - 1].extent();
     correct(corrections_.data(), weights_.data(), inner, grid);
@@ -145,7 +149,7 @@ float ResidualPyramid::gate_of(std::size_t level) const noexcept {
 }
 
 void ResidualPyramid::observe_level(std::size_t level, const plane_fits::BinGroups& groups,
-                                    ThreadPool& crew) noexcept {
+                                    ThreadPool& pool) noexcept {
   const Observations observations{.points = groups.points(0, 0).data(),
                                   .surface = &grids_[level],
                                   .gate = gate_of(level),
@@ -159,7 +163,7 @@ void ResidualPyramid::observe_level(std::size_t level, const plane_fits::BinGrou
     return (count + cells_of_a_job - 1) / cells_of_a_job;
   };
   const std::size_t large_jobs = jobs_of(list.large_count);
-  crew.run(large_jobs + jobs_of(list.small_count), [&](std::size_t, std::size_t job) {
+  pool.run(large_jobs + jobs_of(list.small_count), [&](std::size_t, std::size_t job) {
     const bool large = job < large_jobs;
     const std::size_t first = (large ? job : job - large_jobs) * cells_of_a_job;
     const std::size_t count = large ? list.large_count : list.small_count;
@@ -167,6 +171,35 @@ void ResidualPyramid::observe_level(std::size_t level, const plane_fits::BinGrou
     observe(observations, {cells + first, std::min(cells_of_a_job, count - first)},
             large ? CellSize::any : CellSize::small);
   });
+}
+
+std::size_t ResidualPyramid::most_cells_along() const noexcept {
+  return std::ranges::max(grids_, {}, &Grid::width).width;
+}
+
+void ResidualPyramid::reserve(GroundSurface& surface) const {
+  std::vector<GroundSurface::Grid>& copies = surface.start();
+  copies.resize(grids_.size());
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    copies[i].cell = grids_[i].cell;
+    copies[i].width = grids_[i].width;
+    copies[i].heights.resize(grids_[i].size());
+    copies[i].confidences.resize(grids_[i].size());
+  }
+}
+
+void ResidualPyramid::copy_to(GroundSurface& surface) const noexcept {
+  std::vector<GroundSurface::Grid>& copies = surface.start();
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    const Grid& grid = grids_[i];
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+      if (grid.confidences[k] >= min_confidence) continue;
+      grid.heights[k] = std::numeric_limits<float>::quiet_NaN();
+      grid.confidences[k] = 0;
+    }
+    std::copy_n(grid.heights, grid.size(), copies[i].heights.data());
+    std::copy_n(grid.confidences, grid.size(), copies[i].confidences.data());
+  }
 }
 
 }  // namespace flagstone::surface

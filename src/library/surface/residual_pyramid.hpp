@@ -8,13 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "flagstone/ground_surface.hpp"
 #include "flagstone/surface_config.hpp"
 #include "library/core/buffer.hpp"
 #include "library/core/thread_pool.hpp"
 #include "library/plane_fits/bin_groups.hpp"
 #include "library/surface/cell_observations.hpp"
 #include "library/surface/grid.hpp"
-#include "library/surface/pull_push.hpp"
 #include "library/surface/square_cells.hpp"
 
 namespace flagstone::surface {
@@ -29,8 +29,18 @@ class ResidualPyramid {
   /// Coarsest first; they lie one after another in memory, heights as well as confidences.
   [[nodiscard]] std::span<const Grid> grids() const noexcept { return grids_; }
 
+  /// Cells along a side of the widest grid.
+  [[nodiscard]] std::size_t most_cells_along() const noexcept;
+
+  /// Makes room for the grids in `surface`; may throw std::bad_alloc.
+  void reserve(GroundSurface& surface) const;
+
+  /// Copies the grids into `surface`, which has room for them. Where nothing supports a height, the
+  /// grids forget it.
+  void copy_to(GroundSurface& surface) const noexcept;
+
   /// Refines the surface on the coarsest grid, and from it makes those on the others.
-  void refine(const plane_fits::BinGroups& groups, PullPush& pull_push, ThreadPool& crew) noexcept;
+  void refine(const plane_fits::BinGroups& groups, PullPush& pull_push, ThreadPool& pool) noexcept;
 
  private:
   /// A block of 8 m.
@@ -51,7 +61,7 @@ class ResidualPyramid {
   void list_cells_of(const Block& block, std::size_t level) noexcept;
   [[nodiscard]] float gate_of(std::size_t level) const noexcept;
   void observe_level(std::size_t level, const plane_fits::BinGroups& groups,
-                     ThreadPool& crew) noexcept;
+                     ThreadPool& pool) noexcept;
 
   Refinement settings_;
   std::vector<Grid> grids_;

@@ -4,9 +4,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "library/core/mounting_height.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "library/surface/square_cells.cpp"
+#include <hwy/foreach_target.h>
+// The above includes this file once for each instruction set.
+#include "library/plane_fits/read_slice-inl.hpp"
+#include "library/surface/square_cells-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::surface::HWY_NAMESPACE {
+namespace {
+
+struct Locate {
+  HWY_INLINE IntVector operator()(FloatVector x, FloatVector y, FloatVector z) const {
+    return locate(x, y, z, cells);
+  }
+  const SquareCells& cells;
+};
+
+std::size_t read_cells(const plane_fits::PointSlice& stretch, const SquareCells& cells) {
+  return plane_fits::HWY_NAMESPACE::read_slice(stretch, Locate{cells});
+}
+
+}  // namespace
+}  // namespace flagstone::surface::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace flagstone::surface {
 namespace {
+HWY_EXPORT(read_cells);
+
+/// However high the sensor, farther away it sees the ground, metres.
+constexpr float most_blind_range = 6;
 
 /// Rings of blocks that the levels reach, class by class: 8, 24 and 40 m from the sensor, the rest.
 constexpr std::array<int, level_count> class_of_level = {3, 2, 1, 0};
@@ -82,4 +116,46 @@ CellRange SquareCells::block(int column, int row) const noexcept {
           static_cast<std::uint32_t>(first + cells_per_block_[ring])};
 }
 
+SquarePatches::SquarePatches(const SurfaceConfig& config, const SquareCells& cells) {
+  const int blocks = 2 * cells.half_blocks();
+  const float blind_range = std::min(2 * mounting_height(config.sensor_height), most_blind_range);
+  const auto add = [&](CellRange range, int row, int column, int size) {
+    const auto side = static_cast<float>(size);
+    const SquarePatch patch{.cells = range,
+                            .x = (static_cast<float>(column) + 0.5f) * side - cells.extent(),
+                            .y = (static_cast<float>(row) + 0.5f) * side - cells.extent(),
+                            .size = side,
+                            .size_class = static_cast<std::uint16_t>(size == block_size ? 1 : 0),
+                            .row = static_cast<std::uint16_t>(row),
+                            .column = static_cast<std::uint16_t>(column)};
+    if (std::hypot(patch.x, patch.y) >= blind_range) list_.push_back(patch);
+  };
+  for (int row = 0; row < blocks; ++row) {
+    for (int column = 0; column < blocks; ++column) {
+      const CellRange block = cells.block(column, row);
+      if (cells.block_class(column, row) > 1) {
+        add(block, row, column, block_size);
+        continue;
+      }
+      const std::uint32_t quarter = (block.last - block.first) / 4;  // along the Z-order curve
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        add({block.first + i * quarter, block.first + (i + 1) * quarter},
+            2 * row + static_cast<int>(i / 2), 2 * column + static_cast<int>(i % 2),
+            block_size / 2);
+      }
+    }
+  }
+  std::ranges::sort(list_, {}, [](const SquarePatch& patch) {
+    return std::tuple(patch.x * patch.x + patch.y * patch.y, patch.row, patch.column);
+  });
+}
+
+void read_chunk(CloudView cloud, std::size_t chunk, const SquareCells& cells,
+                plane_fits::ScanPoints& scan) noexcept {
+  scan.read(cloud, chunk, [&](const plane_fits::PointSlice& stretch) {
+    return HWY_DYNAMIC_DISPATCH(read_cells)(stretch, cells);
+  });
+}
+
 }  // namespace flagstone::surface
+#endif

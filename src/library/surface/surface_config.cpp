@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "flagstone/surface_config.hpp"
 
+#include <algorithm>
+
+#include "flagstone/sensor.hpp"
 #include "library/surface/surface_settings.hpp"
 
 namespace flagstone {
@@ -99,6 +102,25 @@ std::vector<Setting> settings_of(SurfaceConfig& c) {
 void SurfaceConfig::check() const {
   SurfaceConfig copy = *this;  // settings point into something that may be written to
   check_settings("surface", settings_of(copy));
+}
+
+namespace {
+
+constexpr double least_range = 8;  // what check() allows, metres
+constexpr double most_range = 200;
+
+}  // namespace
+
+SurfaceConfig SurfaceConfig::for_sensor(const Sensor& sensor) {
+  sensor.check();
+  SurfaceConfig config;
+  config.sensor_height = static_cast<float>(sensor.height);
+  config.max_range = static_cast<float>(std::clamp(sensor.max_range, least_range, most_range));
+  return config;
+}
+
+SurfaceConfig SurfaceConfig::for_sensor(std::string_view name) {
+  return for_sensor(Sensor::named(name));
 }
 
 }  // namespace flagstone

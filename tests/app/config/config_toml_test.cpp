@@ -108,9 +108,7 @@ RC_GTEST_PROP(ConfigToml, AnyConfigurationReadsBackTheSame, ()) {
 TEST(ConfigToml, EverySettingIsCommented) {
   const std::string text = to_toml(PatchworkConfig{});
 
-  EXPECT_THAT(
-      text,
-      HasSubstr("\ndistance_margin = 0.125  # M_d, eq. (6); above 0, up to 100 m\n"));
+  EXPECT_THAT(text, HasSubstr("\ndistance_margin = 0.125  # M_d, eq. (6); above 0, up to 100 m\n"));
   EXPECT_THAT(text, HasSubstr("\n[elevation]\nenabled = true  # psi, eq. (10)"));
   EXPECT_THAT(text, HasSubstr("\n[[zones]]\n"));
 }

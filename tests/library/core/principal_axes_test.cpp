@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "library/core/principal_axes.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -10,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+
+#include "library/core/plane.hpp"
 
 namespace flagstone {
 namespace {

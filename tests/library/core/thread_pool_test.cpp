@@ -4,8 +4,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -18,6 +16,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "child_process.hpp"
 
 namespace flagstone {
 namespace {
@@ -129,29 +129,18 @@ TEST_P(ThreadPoolOf, CanRunFromAJobOfAnotherPool) {
   EXPECT_EQ(done, 400U);
 }
 
-/// The exit code of `work` in a child process; 124 if it takes longer than 20 seconds.
-int exit_code_of_child(const std::function<int()>& work) {
-  const pid_t child = fork();
-  if (child == 0) {
-    alarm(20);
-    _exit(work());
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 124;
-}
-
 TEST_P(ThreadPoolOf, StartsItsOwnWorkersAfterAFork) {
   EXPECT_THAT(times_done(pool, 100), Each(1));
 
-  const int exit_code = exit_code_of_child([&] {
+  const int exit_code = tests::exit_code_of_child([&] {
     for (int round = 0; round < 20; ++round) {
       for (const int times : times_done(pool, 100)) {
         if (times != 1) return 1;
       }
     }
     // A child of the child, too.
-    return exit_code_of_child([&] { return times_done(pool, 3) == std::vector{1, 1, 1} ? 0 : 2; });
+    return tests::exit_code_of_child(
+        [&] { return times_done(pool, 3) == std::vector{1, 1, 1} ? 0 : 2; });
   });
 
   EXPECT_EQ(exit_code, 0);
@@ -160,7 +149,7 @@ TEST_P(ThreadPoolOf, StartsItsOwnWorkersAfterAFork) {
 
 TEST_P(ThreadPoolOf, CanBeDestroyedInAChildThatHasNotUsedIt) {
   auto copied = std::make_unique<ThreadPool>(GetParam());
-  EXPECT_EQ(exit_code_of_child([&] {
+  EXPECT_EQ(tests::exit_code_of_child([&] {
               copied.reset();
               return 0;
             }),

@@ -65,6 +65,27 @@ TEST(Elevation, RejectsPatchesAboveItsMidpoint) {
   EXPECT_EQ(judged(config, plane(1, kappa(config) + 0.01, 0.001)).verdict, Verdict::too_high);
 }
 
+TEST(Elevation, AtItsMidpointIsOneHalfWhichIsNeitherLowNorHighAndNotGround) {
+  PatchworkConfig config = paper;
+  config.elevation.base = 0;  // so that kappa is -h_s, exactly
+
+  const Patch patch = judged(config, plane(1, -double{config.sensor_height}, 1e-6));
+
+  EXPECT_EQ(patch.elevation, 0.5f);
+  EXPECT_EQ(patch.flatness, 1);  // psi < 0.5 in eq. (11), not <=
+  EXPECT_EQ(patch.likelihood, 0.5f);
+  EXPECT_EQ(patch.verdict, Verdict::too_high);  // f > 0.5 in eq. (12), not >=
+}
+
+TEST(Elevation, JudgesRingsNearerThanItsRangeOnly) {
+  PatchworkConfig config = paper;
+  config.elevation.range = ConcentricZones(config).rings()[0].center_radius;
+  EXPECT_EQ(judged(config, plane(1, 3, 0.1)).elevation, 1);  // r_n < L_tau in eq. (10), not <=
+
+  config.elevation.range = std::nextafter(config.elevation.range, 100.0f);
+  EXPECT_LT(judged(config, plane(1, 3, 0.1)).elevation, 0.5f);
+}
+
 TEST(Elevation, CanBeSwitchedOff) {
   PatchworkConfig config = paper;
   config.elevation.enabled = false;

@@ -240,7 +240,12 @@ void segment_bin(CloudView cloud, const Place& place, std::size_t ring_overall,
 
   const Zone& zone = config.zones[static_cast<std::size_t>(place.zone)];
   const double margin = zone.height_margin;
-  const double cut = std::isinf(margin) ? margin : margin * config.sensor_height;  // M_h h_s
+  // M_h h_s; if the origin is not in the sensor, as far below the ground as for one 1.73 m above
+  // it.
+  const double height = config.sensor_height;
+  const double cut = std::isinf(margin) ? margin
+                     : height > 0       ? margin * height
+                                        : -height + (margin + 1) * double{1.73f};
   Indices set = initial_set(cloud, bin.points, cut, config);
   Indices previous;
   Plane last;

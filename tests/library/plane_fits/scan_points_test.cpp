@@ -12,7 +12,6 @@
 
 #include "forced_target.hpp"
 #include "library/patchwork/concentric_zones.hpp"
-#include "library/patchwork/read_scan.hpp"
 #include "library/plane_fits/square_cells.hpp"
 #include "random_cloud.hpp"
 

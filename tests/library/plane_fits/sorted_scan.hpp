@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "library/patchwork/concentric_zones.hpp"
-#include "library/patchwork/read_scan.hpp"
 #include "library/plane_fits/bin_batch.hpp"
 #include "library/plane_fits/bin_groups.hpp"
 #include "library/plane_fits/scan_points.hpp"

@@ -37,8 +37,8 @@ struct Locate {
   const SquareCells& cells;
 };
 
-std::size_t read_cells(const plane_fits::PointSlice& stretch, const SquareCells& cells) {
-  return plane_fits::HWY_NAMESPACE::read_slice(stretch, Locate{cells});
+std::size_t read_cells(const plane_fits::PointSlice& slice, const SquareCells& cells) {
+  return plane_fits::HWY_NAMESPACE::read_slice(slice, Locate{cells});
 }
 
 }  // namespace
@@ -65,8 +65,8 @@ std::uint32_t SquareCells::cell_of(const Point& point) const {
 
 void read_chunk(CloudView cloud, std::size_t chunk, const SquareCells& cells,
                 plane_fits::ScanPoints& scan) {
-  scan.read(cloud, chunk, [&](const plane_fits::PointSlice& stretch) {
-    return HWY_DYNAMIC_DISPATCH(read_cells)(stretch, cells);
+  scan.read(cloud, chunk, [&](const plane_fits::PointSlice& slice) {
+    return HWY_DYNAMIC_DISPATCH(read_cells)(slice, cells);
   });
 }
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "library/surface/accepted_patches.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "forced_target.hpp"
 #include "library/core/simd_target.hpp"
+#include "library/surface/patch_judge.hpp"
 
 namespace flagstone::surface {
 namespace {

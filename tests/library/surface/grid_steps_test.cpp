@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "library/surface/grid_steps.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "forced_target.hpp"
 #include "library/core/simd_target.hpp"
+#include "library/surface/grid.hpp"
 #include "library/surface/owned_grid.hpp"
 
 namespace flagstone::surface {

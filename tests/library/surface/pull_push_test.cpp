@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "library/surface/pull_push.hpp"
-
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -14,6 +12,7 @@
 
 #include "forced_target.hpp"
 #include "library/core/simd_target.hpp"
+#include "library/surface/grid.hpp"
 
 namespace flagstone::surface {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "library/surface/slab_counts.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "forced_target.hpp"
 #include "library/core/simd_target.hpp"
 #include "library/plane_fits/bin_batch.hpp"
+#include "library/surface/patch_judge.hpp"
 
 namespace flagstone::surface {
 namespace {
@@ -32,7 +31,7 @@ MovedPoint point_above(const Plane& plane, float x, float y, double distance) {
 void add(BinBatch& batch, std::vector<MovedPoint> points) {
   const std::size_t count = points.size();
   points.resize(count + 16);
-  batch.add_sample(0, {points.data(), count}, 1000);
+  batch.add_sample({points.data(), count}, 1000);
 }
 
 void set(PlaneBatch& planes, std::size_t i, const Plane& plane) {

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "library/surface/square_patches.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +27,7 @@ bool covers(const SquarePatch& patch, float x, float y) {
 
 TEST(SquarePatches, CoverAllButTheBlindMiddleOnce) {
   for (const float range : {8.0f, 23.0f, 40.0f, 100.0f}) {
-    for (const float height : {0.0f, 1.2f, 1.73f, 4.0f}) {
+    for (const float height : {0.1f, 1.2f, 1.73f, 4.0f}) {
       const SurfaceConfig config = config_of(range, height);
       const SquareCells cells(config);
       const SquarePatches patches(config, cells);
@@ -51,11 +49,13 @@ TEST(SquarePatches, CoverAllButTheBlindMiddleOnce) {
   }
 }
 
-TEST(SquarePatches, OfASensorBelowGroundAreThoseOfOneAbove) {
-  const SquareCells cells{config_of(50, 2)};
-
-  EXPECT_EQ(SquarePatches(config_of(50, 2), cells).list().size(),
-            SquarePatches(config_of(50, -2), cells).list().size());
+TEST(SquarePatches, AreThoseOfTheDefaultHeightIfTheOriginIsNotInTheSensor) {
+  const auto count = [](float height) {
+    const SurfaceConfig config = config_of(40, height);
+    return SquarePatches(config, SquareCells(config)).list().size();
+  };
+  EXPECT_GT(count(0.1f), count(1.73f));
+  for (const float height : {0.0f, -1.0f, -50.0f}) EXPECT_EQ(count(height), count(1.73f));
 }
 
 TEST(SquarePatches, ComeNearestFirst) {

@@ -9,7 +9,6 @@
 #include "flagstone/surface_config.hpp"
 #include "library/plane_fits/bin_groups.hpp"
 #include "library/plane_fits/scan_points.hpp"
-#include "library/surface/read_scan.hpp"
 #include "library/surface/square_cells.hpp"
 #include "random_cloud.hpp"
 

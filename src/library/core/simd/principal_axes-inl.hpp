@@ -103,7 +103,7 @@ struct Axes {
   Vectors3 normal;
 };
 
-/// See principal_axes.hpp. `trace` is what the shares are of; where it is not positive and finite
+/// See plane.hpp. `trace` is what the shares are of; where it is not positive and finite
 /// all of them are 0.
 HWY_INLINE Axes principal_axes(const Symmetrics& c, DoubleVector trace) {
   // Gap between eigenvalues, as a share of their sum, under which they count as equal. Wide enough

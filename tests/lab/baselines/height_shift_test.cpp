@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+// The origin of a cloud need not be in the sensor: in a map, or in a vehicle's frame, it is on the
+// ground or below. Results are those of the cloud with its origin in the sensor.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "edge_scan.hpp"
+#include "flagstone/make_segmenter.hpp"
+#include "random_cloud.hpp"
+
+namespace flagstone {
+namespace {
+
+struct Case {
+  std::string name;
+  std::string method;
+  MethodConfig config;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const std::string_view method : method_names()) {
+    all.push_back({std::string(method), std::string(method), default_config(method)});
+  }
+  for (const std::string_view preset : PatchworkConfig::preset_names()) {
+    all.push_back(
+        {"patchwork_" + std::string(preset), "patchwork", PatchworkConfig::preset(preset)});
+  }
+  for (Case& each : all) {
+    std::ranges::replace_if(each.name, [](char c) { return c == '+'; }, '_');
+  }
+  return all;
+}
+
+/// Edges, a ditch, ghosts below the ground, walls and boxes. Heights are multiples of 1/1024 m, so
+/// that they can be shifted without rounding.
+std::vector<Point> scene() {
+  std::vector<Point> cloud = tests::edge_scan(tests::ditch_of(0.6f));
+  tests::add_ghosts(cloud, 200);
+  std::ranges::copy(tests::random_cloud(20000, 3), std::back_inserter(cloud));
+  for (Point& p : cloud) p.z = std::round(p.z * 1024) / 1024;
+  return cloud;
+}
+
+/// Labels of a cloud that is raised by `rise`, with a sensor height that says so.
+std::vector<Label> labels_of(const Case& method, std::vector<Point> cloud, float rise) {
+  MethodConfig config = method.config;
+  std::visit(
+      [&](auto& settings) {
+        if constexpr (requires { settings.sensor_height; }) {
+          settings.sensor_height = 1.73f - rise;
+        }
+      },
+      config);
+  for (Point& p : cloud) p.z += rise;
+  Segmentation result;
+  EXPECT_TRUE(make_segmenter(method.method, config)->segment(tests::view_of(cloud), result).ok());
+  return {result.labels().begin(), result.labels().end()};
+}
+
+class HeightShift : public testing::TestWithParam<Case> {};
+
+INSTANTIATE_TEST_SUITE_P(All, HeightShift, testing::ValuesIn(cases()),
+                         [](const auto& each) { return each.param.name; });
+
+TEST_P(HeightShift, OfPointsAndSensorHeightTogetherChangesNoLabel) {
+  const std::vector<Point> cloud = scene();
+  const std::vector<Label> labels = labels_of(GetParam(), cloud, 0);
+
+  for (const float rise : {1.75f, 2.75f, 12.75f}) {  // the ground 2 cm to 11 m above the origin
+    const std::vector<Label> shifted = labels_of(GetParam(), cloud, rise);
+
+    std::size_t different = 0;  // points within rounding of a threshold may differ
+    for (std::size_t i = 0; i < cloud.size(); ++i) different += labels[i] != shifted[i];
+    EXPECT_LE(different, cloud.size() / 5000) << "raised by " << rise << " m";
+  }
+}
+
+}  // namespace
+}  // namespace flagstone
