@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "child_process.hpp"
 #include "library/methods/methods.hpp"
 #include "random_cloud.hpp"
 
@@ -43,6 +44,17 @@ TYPED_TEST(LibraryContract, ManyMoreThreadsThanCoresSegment) {
   TypeParam many({}, 64);
 
   EXPECT_TRUE(tests::is_same(segmented(one, view_of(cloud)), segmented(many, view_of(cloud))));
+}
+
+TYPED_TEST(LibraryContract, AChildProcessSegmentsWithItsOwnThreads) {
+  const std::vector<Point> cloud = random_cloud(40000, 16);  // enough for several threads
+  TypeParam segmenter({}, 2);
+  const auto before = segmented(segmenter, view_of(cloud));
+
+  EXPECT_EQ(tests::exit_code_of_child([&] {
+              return tests::is_same(segmented(segmenter, view_of(cloud)), before) ? 0 : 1;
+            }),
+            0);
 }
 
 TYPED_TEST(LibraryContract, AMovedSegmenterStillSegmentsWithItsSettings) {

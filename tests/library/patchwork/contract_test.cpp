@@ -8,12 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-<<<<<<< HEAD
 #include "outcome.hpp"
-=======
-#include "child_process.hpp"
-#include "flagstone/flagstone.hpp"
->>>>>>> 4d93abf (A method's stages are files: CZM, plane fits, patch judge, grids; patchwork does not depend on the frame's height)
 #include "random_cloud.hpp"
 
 namespace flagstone {
@@ -54,68 +49,5 @@ TEST(PatchworkContract, AllPointsEqualAreOnePlace) {
   EXPECT_THAT(air, testing::Each(air.front()));
 }
 
-<<<<<<< HEAD
-=======
-TEST(Contract, TenMillionPointsAreSegmented) {
-  const std::vector<Point> cloud = random_cloud(10'000'000, 13);
-  Patchwork patchwork;
-  Segmentation result;
-
-  ASSERT_TRUE(patchwork.segment(view_of(cloud), result).ok());
-
-  EXPECT_EQ(result.labels().size(), cloud.size());
-  EXPECT_GT(result.count(Label::ground), cloud.size() / 2);
-}
-
-TEST(Contract, ThreadsOutsideOf1To1024AreRefusedWithTheirNumber) {
-  for (const unsigned threads : {0U, 1025U, 4294967295U}) {
-    try {
-      const Patchwork patchwork({}, threads);
-      ADD_FAILURE() << threads << " threads were accepted";
-    } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("threads is " + std::to_string(threads)));
-      EXPECT_THAT(error.what(), testing::HasSubstr("1 to 1024"));
-    }
-  }
-}
-
-TEST(Contract, ManyMoreThreadsThanCoresSegment) {
-  const std::vector<Point> cloud = random_cloud(20000, 16);
-  Patchwork patchwork({}, 64);
-  Segmentation result;
-
-  ASSERT_TRUE(patchwork.segment(view_of(cloud), result).ok());
-
-  EXPECT_TRUE(std::ranges::equal(result.labels(), labels_of(cloud)));
-}
-
-TEST(Contract, AChildProcessSegmentsWithThreadsOfItsOwn) {
-  const std::vector<Point> cloud = random_cloud(40000, 16);
-  Patchwork patchwork({}, 2);
-  Segmentation result;
-  ASSERT_TRUE(patchwork.segment(view_of(cloud), result).ok());
-  const std::vector<Label> labels(result.labels().begin(), result.labels().end());
-
-  EXPECT_EQ(tests::exit_code_of_child([&] {
-              return patchwork.segment(view_of(cloud), result).ok() &&
-                             std::ranges::equal(result.labels(), labels)
-                         ? 0
-                         : 1;
-            }),
-            0);
-}
-
-TEST(Contract, AMovedSegmenterStillSegments) {
-  const std::vector<Point> cloud = random_cloud(3000, 15);
-  Patchwork original;
-  Patchwork moved = std::move(original);
-  Segmentation result;
-
-  ASSERT_TRUE(moved.segment(view_of(cloud), result).ok());
-
-  EXPECT_TRUE(std::ranges::equal(result.labels(), labels_of(cloud)));
-}
-
->>>>>>> 4d93abf (A method's stages are files: CZM, plane fits, patch judge, grids; patchwork does not depend on the frame's height)
 }  // namespace
 }  // namespace flagstone

@@ -22,13 +22,7 @@ namespace {
 
 using Heights = std::vector<float>;
 
-<<<<<<< HEAD
-/// Eq. (4), as it is written.
-=======
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// Eq. (5), as it is written.
->>>>>>> df51d04 (The paper's equations have their true numbers)
 double naive(Heights heights, float floor, std::size_t seed_count) {
   std::erase_if(heights, [=](float z) { return z < floor; });
   std::ranges::sort(heights);

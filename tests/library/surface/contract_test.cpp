@@ -13,7 +13,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "child_process.hpp"
 #include "flagstone/flagstone.hpp"
 #include "numbers.hpp"
 #include "outcome.hpp"
@@ -253,67 +252,6 @@ TEST(SurfaceContract, ASettingOutOfRangeIsRefused) {
   EXPECT_THROW(Surface{config}, std::invalid_argument);
 }
 
-<<<<<<< HEAD
-=======
-TEST(SurfaceContract, ManyMoreThreadsThanCoresSegment) {
-  const std::vector<Point> cloud = random_cloud(20000, 16);
-  Surface segmenter({}, 64);
-
-  EXPECT_TRUE(tests::is_same(tests::segmented(SurfaceConfig{}, view_of(cloud)),
-                             tests::segmented(segmenter, view_of(cloud))));
-}
-
-TEST(SurfaceContract, AChildProcessSegmentsWithThreadsOfItsOwn) {
-  const std::vector<Point> cloud = random_cloud(40000, 16);
-  Surface surface({}, 2);
-  Segmentation result;
-  ASSERT_TRUE(surface.segment(view_of(cloud), result).ok());
-  const std::vector<Label> labels(result.labels().begin(), result.labels().end());
-
-  EXPECT_EQ(tests::exit_code_of_child([&] {
-              return surface.segment(view_of(cloud), result).ok() &&
-                             std::ranges::equal(result.labels(), labels)
-                         ? 0
-                         : 1;
-            }),
-            0);
-}
-
-TEST(SurfaceContract, AMovedSegmenterStillSegments) {
-  const std::vector<Point> cloud = random_cloud(3000, 15);
-  SurfaceConfig config;
-  config.max_range = 50;
-  Surface original(config, 2);
-  Surface moved = std::move(original);
-
-  EXPECT_EQ(moved.config().max_range, 50);
-  EXPECT_TRUE(tests::is_same(tests::segmented(config, view_of(cloud)),
-                             tests::segmented(moved, view_of(cloud))));
-}
-
-TEST(SurfaceContract, NoScanLeavesATraceInTheNext) {
-  // Full, odd, and with too little for a patch, a cell or anything.
-  const std::vector<std::vector<Point>> clouds = {random_cloud(20000, 1),
-                                                  corrupted_cloud(9000, 2),
-                                                  {},
-                                                  {{6, 2, -1.5f}},
-                                                  random_cloud(64, 3),
-                                                  std::vector<Point>(40, Point{6, 2, -1.2f}),
-                                                  std::vector<Point>(100, Point{nan, 0, 0}),
-                                                  std::vector<Point>(500, Point{10, 0, -900})};
-  Surface segmenter;
-  for (const std::vector<Point>& first : clouds) {
-    for (const std::vector<Point>& second : clouds) {
-      tests::segmented(segmenter, view_of(first));
-
-      EXPECT_TRUE(tests::is_same(tests::segmented(SurfaceConfig{}, view_of(second)),
-                                 tests::segmented(segmenter, view_of(second))))
-          << second.size() << " points after " << first.size();
-    }
-  }
-}
-
->>>>>>> 4d93abf (A method's stages are files: CZM, plane fits, patch judge, grids; patchwork does not depend on the frame's height)
 TEST(SurfaceContract, AResultThatAnotherMethodFilledIsReplaced) {
   const std::vector<Point> cloud = random_cloud(9000, 15);
   Segmentation result;

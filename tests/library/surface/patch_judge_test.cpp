@@ -6,12 +6,8 @@
 
 #include <cmath>
 
-<<<<<<< HEAD
-#include "library/surface/accepted_patches.hpp"
 #include "numbers.hpp"
 
-=======
->>>>>>> 4d93abf (A method's stages are files: CZM, plane fits, patch judge, grids; patchwork does not depend on the frame's height)
 namespace flagstone::surface {
 namespace {
 
