@@ -23,7 +23,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 using namespace flagstone::plane_fits::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): sets
 
-/// Labels of the points of a bin in their packed order, one byte for each place.
+/// Eq. (12): labels of the points of a bin in their packed order, one byte for each place; ground
+/// if in the final ground set.
 LabelCounts label_bin(const plane_fits::BinBatch& batch, std::size_t bin,
                       const plane_fits::GroundSet& set, std::uint8_t* HWY_RESTRICT labels) {
   const FloatTag d;

@@ -49,7 +49,8 @@ HWY_INLINE FloatVector turn_of(FloatVector x, FloatVector y) {
   return hn::Add(hn::Set(d, 0.5f), hn::CopySignToAbs(half, y));
 }
 
-/// Which ring holds rho^2: a walk down the tree. `few`: at most 16 rings, all tables in registers.
+/// Ring i of zone m, eqs. (2) and (3): which one holds rho^2, by a walk down the tree. `few`: at
+/// most 16 rings, all tables in registers.
 template <bool few>
 HWY_INLINE IntVector ring_of(FloatVector squared_range, const RingTree& tree) {
   const FloatTag d;
@@ -257,6 +258,7 @@ ConcentricZones::ConcentricZones(const PatchworkConfig& config) {
   grow_tree();
 }
 
+/// Eq. (2): the zones are their rings, from the inside out.
 void ConcentricZones::add_ring(const PatchworkConfig& config, std::size_t zone, std::size_t ring) {
   const float inner = std::sqrt(squared_radii_.back());
   const float outer = config.zones[zone].ring_radii[ring];

@@ -46,8 +46,8 @@ void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
   }
   sum_first_moments(batch, first_sets, moments_);
 
-  // G^(l+1), eq. (6): the points less than M_d above the plane of G^l, and not so far
-  // below it that they are noise.
+  // Planes, eq. (4), of sets that reach M_d above the plane before, eq. (6), and not so far below
+  // it that points there are noise.
   PlaneBatch& planes = result.judged;
   result.exists = fit_sets(batch, sets, all_of(batch), clock, planes);
   for (int l = 1; l < settings_.iterations; ++l) {
@@ -82,6 +82,7 @@ BinMask PlaneFit::fit_sets(const BinBatch& batch, const GroundSets& sets, BinMas
   return exists & wanted;
 }
 
+/// G^(l+1), eq. (6): d^l - d-hat_k < M_d is n . p_k < M_d - d^l.
 void PlaneFit::choose_next_sets(const PlaneBatch& planes, GroundSets& sets) const noexcept {
   for (std::size_t i = 0; i < batch_size; ++i) {
     sets[i] = {.normal_x = static_cast<float>(planes.normal[0][i]),
