@@ -6,7 +6,7 @@
 #include "allocation_meter.hpp"
 #include "cloud_properties.hpp"
 #include "files/io/pcd.hpp"
-#include "files/io/raw_points.hpp"
+#include "files/io/read_cloud.hpp"
 
 // The first two bytes say how many floats a point has, the rest is the file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

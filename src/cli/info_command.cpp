@@ -21,6 +21,7 @@
 #include "cli/print_error.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/read_cloud.hpp"
+#include "library/core/point_validity.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -42,9 +43,9 @@ Survey survey(CloudView cloud) {
   Survey found;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point p = cloud[i];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+    if (!is_finite(p)) {
       ++found.not_finite;
-    } else if (p.x == 0 && p.y == 0 && p.z == 0) {
+    } else if (is_missing_return(p)) {
       ++found.zero;
     } else {
       found.ranges.push_back(std::hypot(p.x, p.y));

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "files/io/file_name.hpp"
 #include "files/io/read_cloud.hpp"
+#include "files/io/text.hpp"
 
 namespace flagstone::cli {
 namespace fs = std::filesystem;

@@ -10,7 +10,6 @@
 #include "cli/scan_inputs.hpp"
 #include "cli/scan_report.hpp"
 #include "cli/surface_files.hpp"
-#include "files/io/cloud_reader.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/read_cloud.hpp"
 #include "lab/eval/method_runner.hpp"

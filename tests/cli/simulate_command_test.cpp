@@ -19,8 +19,8 @@
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
 #include "files/io/file_contents.hpp"
-#include "files/io/height_files.hpp"
 #include "files/io/label_files.hpp"
+#include "files/io/npy.hpp"
 #include "files/io/status_matchers.hpp"
 #include "files/io/temporary_folder.hpp"
 

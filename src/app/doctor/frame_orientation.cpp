@@ -16,10 +16,10 @@ namespace {
 
 using mount::dot;
 
-constexpr std::array<Vector3f, 6> axes{
+constexpr std::array<Vector3f, 6> frame_axes{
     {{0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {0, -1, 0}, {1, 0, 0}, {-1, 0, 0}}};
 
-/// Other axes than z must be this much more sure.
+/// Other frame_axes than z must be this much more sure.
 constexpr float bonus_of_z = 1.3f;
 
 MountDecision estimate_for(std::span<const Vector3f> places, double metres, const Vector3f& axis,
@@ -67,7 +67,7 @@ float share_above(std::span<const Vector3f> places, double metres,
 
 float worth(std::span<const Vector3f> places, double metres, const FrameOrientation& orientation) {
   if (!orientation.is_found()) return 0;
-  const float bonus = orientation.axis == axes[0] ? bonus_of_z : 1;
+  const float bonus = orientation.axis == frame_axes[0] ? bonus_of_z : 1;
   constexpr float least_above = 0.25f;
   const float above = share_above(places, metres, orientation);
   return above < least_above ? 0 : bonus * orientation.decision.confidence * above;
@@ -116,14 +116,14 @@ double FrameOrientation::tilt() const noexcept {
 }
 
 FrameOrientation find_stance(std::span<const Vector3f> places, double metres) {
-  const FrameOrientation usual = stance_for(places, metres, axes[0], 0);
+  const FrameOrientation usual = stance_for(places, metres, frame_axes[0], 0);
   FrameOrientation best = usual;
-  for (const Vector3f& axis : std::span(axes).subspan(1)) {
+  for (const Vector3f& axis : std::span(frame_axes).subspan(1)) {
     take_if_better(stance_for(places, metres, axis, 0), places, metres, best);
   }
   if (worth(places, metres, best) > 0) return with_level(places, metres, best);
   constexpr float usual_height = 1.8f;
-  for (const Vector3f& axis : axes) {
+  for (const Vector3f& axis : frame_axes) {
     const std::optional<float> level = strongest_level(places, metres, axis);
     if (!level) continue;
     take_if_better(stance_for(places, metres, axis, *level + usual_height), places, metres, best);

@@ -3,10 +3,12 @@
 #include "files/io/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <pthread.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <system_error>
 #include <utility>
@@ -36,11 +38,37 @@ Status find_target(const fs::path& path, fs::path& target) {
   const fs::file_status status = fs::status(target, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     return Status(StatusCode::unwritable,
-                  fs::is_directory(status) ? "is a folder (name a file)"
-                                           : "is no regular file (name one, or one not there yet)");
+                  fs::is_directory(status)
+                      ? "is a folder (name a file)"
+                      : "is not a regular file (choose a regular file or a new path)");
   }
   return {};
 }
+
+/// While it lives, a write beyond the limit of a file's size (ulimit -f) fails as on a full disk.
+/// The signal that comes with it, which would end the process, is blocked for this thread and taken
+/// away.
+class FileSizeSignalBlocked {
+ public:
+  FileSizeSignalBlocked() {
+    ::sigemptyset(&signal_);
+    ::sigaddset(&signal_, SIGXFSZ);
+    ::pthread_sigmask(SIG_BLOCK, &signal_, &before_);
+  }
+  FileSizeSignalBlocked(const FileSizeSignalBlocked&) = delete;
+  FileSizeSignalBlocked& operator=(const FileSizeSignalBlocked&) = delete;
+  FileSizeSignalBlocked(FileSizeSignalBlocked&&) = delete;
+  FileSizeSignalBlocked& operator=(FileSizeSignalBlocked&&) = delete;
+  ~FileSizeSignalBlocked() {
+    const timespec now{};
+    if (::sigismember(&before_, SIGXFSZ) == 0) ::sigtimedwait(&signal_, nullptr, &now);
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+ private:
+  sigset_t signal_{};
+  sigset_t before_{};
+};
 
 /// A new file beside the one to be written, removed at the end of its life unless it was put in
 /// place.
@@ -65,6 +93,7 @@ class TemporaryFile {
   Status fill_and_put_in_place(std::span<const std::byte> bytes, const fs::path& target) {
     if (number_ < 0) return unwritable("cannot be created in its folder", error_);
     FileDescriptor file(number_);
+    const FileSizeSignalBlocked signal_blocked;
     while (!bytes.empty()) {
       const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
       if (written < 0 && errno == EINTR) continue;

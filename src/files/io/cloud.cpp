@@ -8,9 +8,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "files/io/field_type.hpp"
 #include "files/io/message.hpp"
-#include "files/io/row_layout.hpp"
+#include "files/io/rows.hpp"
 
 namespace flagstone::io {
 namespace {

@@ -13,11 +13,10 @@
 #include <vector>
 
 #include "files/io/atomic_file.hpp"
-#include "files/io/field_type.hpp"
-#include "files/io/file_name.hpp"
 #include "files/io/load_bytes.hpp"
 #include "files/io/message.hpp"
-#include "files/io/npy_header.hpp"
+#include "files/io/npy.hpp"
+#include "files/io/rows.hpp"
 #include "files/io/text.hpp"
 
 namespace flagstone::io {

@@ -6,20 +6,172 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include "files/io/ascii_rows.hpp"
-#include "files/io/binary_rows.hpp"
-#include "files/io/field_type.hpp"
 #include "files/io/message.hpp"
-#include "files/io/ply_header.hpp"
-#include "files/io/row_layout.hpp"
+#include "files/io/rows.hpp"
 #include "files/io/text.hpp"
 
 namespace flagstone::io {
 namespace {
+
+/// How the numbers of a PLY file are stored.
+enum class PlyData { ascii, binary_little_endian, binary_big_endian };
+
+/// One property of an element: a number, or a list of them with its length before it.
+struct PlyProperty {
+  std::string_view name;  ///< in the text the header was read from
+  FieldType type = FieldType::float32;
+  std::optional<FieldType> length_type;  ///< of a list
+  std::size_t offset = 0;                ///< of its line in the file
+};
+
+/// A kind of element, `count` of which are in the file.
+struct PlyElement {
+  std::string_view name;
+  std::size_t count = 0;
+  std::vector<PlyProperty> properties;
+  std::size_t offset = 0;  ///< of its line in the file
+};
+
+/// What the header of a PLY file says, not checked against the file's size.
+struct PlyHeader {
+  PlyData data = PlyData::ascii;
+  std::vector<PlyElement> elements;
+  std::size_t size = 0;  ///< bytes of the header: where the first element begins
+};
+
+std::optional<FieldType> type_named(std::string_view name) {
+  using enum FieldType;
+  static constexpr std::array<std::pair<std::string_view, FieldType>, 16> names{
+      {{"char", int8},
+       {"uchar", uint8},
+       {"short", int16},
+       {"ushort", uint16},
+       {"int", int32},
+       {"uint", uint32},
+       {"float", float32},
+       {"double", float64},
+       {"int8", int8},
+       {"uint8", uint8},
+       {"int16", int16},
+       {"uint16", uint16},
+       {"int32", int32},
+       {"uint32", uint32},
+       {"float32", float32},
+       {"float64", float64}}};
+  const auto* const found =
+      std::ranges::find(names, name, &std::pair<std::string_view, FieldType>::first);
+  if (found == names.end()) return std::nullopt;
+  return found->second;
+}
+
+/// Reads the header line by line.
+class PlyHeaderReader {
+ public:
+  PlyHeaderReader(std::string_view text, PlyHeader& out) : text_(text), out_(out) {}
+
+  Status read() {
+    std::size_t offset = 0;
+    if (words_of(next_line(text_, offset), 2) != std::vector<std::string_view>{"ply"}) {
+      return bad_byte(0, "the file does not begin with a line 'ply'");
+    }
+    while (true) {
+      if (offset == text_.size()) {
+        return bad_byte(offset, "the file ends within the PLY header (end_header must close it)");
+      }
+      const std::size_t begin = offset;
+      const auto words = words_of(next_line(text_, offset), longest_line);
+      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words[0] == "end_header") break;
+      if (Status status = read_line(begin, words); !status.ok()) return status;
+    }
+    out_.size = offset;
+    if (!has_format_) return bad_byte(0, "the PLY header has no line 'format'");
+    return {};
+  }
+
+ private:
+  using Words = std::vector<std::string_view>;
+  static constexpr std::size_t longest_line = 6;  // "property list TYPE TYPE NAME" and one too many
+
+  Status read_line(std::size_t begin, const Words& words) {
+    if (words[0] == "format") return read_format(begin, words);
+    if (words[0] == "element") return read_element(begin, words);
+    if (words[0] == "property") return read_property(begin, words);
+    return bad_byte(
+        begin, "{} is no line of a PLY header (format, element, property, comment, end_header)",
+        quote(words[0]));
+  }
+
+  Status read_format(std::size_t begin, const Words& words) {
+    constexpr std::array<std::string_view, 3> formats{"ascii", "binary_little_endian",
+                                                      "binary_big_endian"};
+    const auto* const found =
+        words.size() == 3 ? std::ranges::find(formats, words[1]) : formats.end();
+    if (has_format_ || found == formats.end() || words[2] != "1.0") {
+      return bad_byte(begin,
+                      "one line 'format ascii 1.0' is allowed, or binary_little_endian or "
+                      "binary_big_endian instead of ascii");
+    }
+    out_.data = static_cast<PlyData>(found - formats.begin());
+    has_format_ = true;
+    return {};
+  }
+
+  Status read_element(std::size_t begin, const Words& words) {
+    const auto count = words.size() == 3 ? whole_number<std::size_t>(words[2]) : std::nullopt;
+    if (!count) {
+      return bad_byte(begin,
+                      "an element line is 'element NAME COUNT', COUNT a whole number from 0");
+    }
+    if (std::ranges::find(out_.elements, words[1], &PlyElement::name) != out_.elements.end()) {
+      return bad_byte(begin, "element {} occurs twice", quote(words[1]));
+    }
+    if (out_.elements.size() == most_elements) {
+      return bad_byte(begin, "more than {} elements", most_elements);
+    }
+    out_.elements.push_back({words[1], *count, {}, begin});
+    return {};
+  }
+
+  Status read_property(std::size_t begin, const Words& words) {
+    if (out_.elements.empty()) return bad_byte(begin, "a property before the first element");
+    std::vector<PlyProperty>& properties = out_.elements.back().properties;
+    if (properties.size() == max_fields) {
+      return bad_byte(begin, "more than {} properties in an element", max_fields);
+    }
+    const bool is_list = words.size() == 5 && words[1] == "list";
+    if (!is_list && words.size() != 3) {
+      return bad_byte(begin,
+                      "a property line is 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+    }
+    const auto type = type_named(words[words.size() - 2]);
+    const auto length_type = is_list ? type_named(words[2]) : std::nullopt;
+    if (!type || (is_list && !(length_type && is_integer(*length_type)))) {
+      return bad_byte(begin,
+                      "{} is no type of a property (char, uchar, short, ushort, int, uint, float, "
+                      "double; list lengths are integers)",
+                      quote(type ? words[2] : words[words.size() - 2]));
+    }
+    properties.push_back({words.back(), *type, length_type, begin});
+    return {};
+  }
+
+  static constexpr std::size_t most_elements = 64;  // names are compared each with each
+
+  std::string_view text_;
+  PlyHeader& out_;
+  bool has_format_ = false;
+};
+
+/// Reads the header at the start of `text`. bad_file. Throws std::bad_alloc.
+Status read_ply_header(std::string_view text, PlyHeader& out) {
+  return PlyHeaderReader(text, out).read();
+}
 
 constexpr std::string_view vertex_name = "vertex";
 

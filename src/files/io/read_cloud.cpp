@@ -4,16 +4,73 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
+#include <utility>
 
-#include "files/io/cloud_reader.hpp"
-#include "files/io/file_name.hpp"
+#include "files/io/load_bytes.hpp"
+#include "files/io/message.hpp"
 #include "files/io/npy.hpp"
 #include "files/io/pcd.hpp"
 #include "files/io/ply.hpp"
-#include "files/io/raw_points.hpp"
+#include "files/io/rows.hpp"
+#include "files/io/text.hpp"
 
 namespace flagstone::io {
+namespace {
+
+/// Are these whole points?
+Status check_size(std::size_t size, std::size_t floats_per_point) {
+  if (floats_per_point < 3 || floats_per_point > max_fields) {
+    return invalid("{} floats a point (allowed: 3 to {}; set it with --columns)", floats_per_point,
+                   max_fields);
+  }
+  const std::size_t stride = floats_per_point * sizeof(float);
+  const std::size_t rest = size % stride;
+  if (rest == 0) return {};
+  return bad_byte(size - rest,
+                  "{} bytes are not a whole number of points of {} floats, {} bytes each (say "
+                  "how many floats a point has with --columns, or the file is cut off)",
+                  size, floats_per_point, stride);
+}
+
+}  // namespace
+
+Status read_raw_points(std::span<const std::byte> bytes, std::size_t floats_per_point, Cloud& out) {
+  return within_memory([&] {
+    if (Status status = check_size(bytes.size(), floats_per_point); !status.ok()) return status;
+    return adopt_raw_points({bytes.begin(), bytes.end()}, floats_per_point, out);
+  });
+}
+
+Status adopt_raw_points(std::vector<std::byte> bytes, std::size_t floats_per_point, Cloud& out) {
+  return within_memory([&] {
+    if (Status status = check_size(bytes.size(), floats_per_point); !status.ok()) return status;
+    return Cloud::from_rows(unnamed_fields(floats_per_point, FieldType::float32), std::move(bytes),
+                            out);
+  });
+}
+
+Status write_raw_points(const Cloud& cloud, std::vector<std::byte>& out) {
+  return within_memory([&] {
+    const auto fields = cloud.fields();
+    for (const Field& field : fields) {
+      if (field.type != FieldType::float32) {
+        return invalid("field {} is {}: raw files hold float32 only (write PCD, PLY or NPY)",
+                       quote(field.name), to_string(field.type));
+      }
+    }
+    constexpr std::array<std::string_view, 3> first_three{"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (fields.size() <= i || fields[i].name != first_three[i]) {
+        return invalid("raw files need x, y and z as first fields (write PCD, PLY or NPY)");
+      }
+    }
+    out.assign(cloud.bytes().begin(), cloud.bytes().end());
+    return Status();
+  });
+}
+
 std::optional<CloudFormat> format_of(const std::filesystem::path& path) noexcept {
   const std::string_view name = file_name(path);
   if (ends_with(name, ".bin")) return CloudFormat::raw;
@@ -48,6 +105,42 @@ Status read_cloud(const std::filesystem::path& path, const ReadOptions& options,
   Status status = reader.read(path);
   if (status.ok()) out = reader.release();
   return status;
+}
+
+namespace {
+
+std::size_t usual_floats(const std::filesystem::path& path) {
+  return ends_with(file_name(path), ".pcd.bin") ? 5 : 4;  // nuScenes, KITTI
+}
+
+}  // namespace
+
+Status CloudReader::read(const std::filesystem::path& path) {
+  Status status = load(path);
+  if (!status.ok()) {
+    cloud_ = {};
+    file_size_ = 0;
+  }
+  return status;
+}
+
+Status CloudReader::load(const std::filesystem::path& path) {
+  const std::optional<CloudFormat> format = format_of(path);
+  if (!format) {
+    return refuse(path, "no format has this ending (allowed: .bin, .pcd.bin, .pcd, .ply, .npy)");
+  }
+  const int columns = options_.columns;
+  if (columns != 0 && (columns < 3 || columns > static_cast<int>(max_fields))) {
+    return refuse(path, "--columns takes 3 to 1024 floats a point, or 0: by the name");
+  }
+  // Raw points borrowed the memory of their file; other formats left it here.
+  if (bytes_.capacity() == 0) bytes_ = cloud_.release_rows();
+  if (Status status = load_bytes(path, bytes_); !status.ok()) return status;
+  file_size_ = bytes_.size();
+  const std::size_t floats = columns == 0 ? usual_floats(path) : static_cast<std::size_t>(columns);
+  return with_path(path, *format == CloudFormat::raw
+                             ? adopt_raw_points(std::exchange(bytes_, {}), floats, cloud_)
+                             : parse_cloud(bytes_, *format, floats, cloud_));
 }
 
 }  // namespace flagstone::io

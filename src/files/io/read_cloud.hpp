@@ -6,11 +6,25 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "files/io/cloud.hpp"
 #include "flagstone/status.hpp"
 
 namespace flagstone::io {
+
+/// Reads points that are `floats_per_point` (3 to max_fields) little-endian 32-bit floats each and
+/// nothing else, x, y and z first: KITTI's .bin with 4, nuScenes' .pcd.bin with 5.
+/// bad_file, invalid_argument, out_of_memory. Never throws; `out` is only changed on success.
+Status read_raw_points(std::span<const std::byte> bytes, std::size_t floats_per_point, Cloud& out);
+
+/// The same without a copy: the bytes become the cloud's rows.
+Status adopt_raw_points(std::vector<std::byte> bytes, std::size_t floats_per_point, Cloud& out);
+
+/// Writes the rows as they are. invalid_argument where a field is not a float32 or x, y and z are
+/// not the first three; out_of_memory. Never throws.
+Status write_raw_points(const Cloud& cloud, std::vector<std::byte>& out);
 
 /// The point cloud formats. docs/formats.md says what each may hold.
 enum class CloudFormat {
@@ -43,5 +57,32 @@ Status read_cloud(const std::filesystem::path& path, const ReadOptions& options,
 /// The same for bytes in memory; the message has no path.
 Status parse_cloud(std::span<const std::byte> bytes, CloudFormat format,
                    std::size_t floats_per_point, Cloud& out);
+
+/// Reads one cloud after another into memory that it keeps: once that has grown to the largest
+/// file, raw points are read where they stay and nothing is allocated for them. One per thread.
+class CloudReader {
+ public:
+  explicit CloudReader(const ReadOptions& options = {}) : options_(options) {}
+
+  /// As read_cloud(), into cloud(), which has no points and no fields after a failure.
+  Status read(const std::filesystem::path& path);
+
+  /// What was read last. Valid until the next read().
+  [[nodiscard]] const Cloud& cloud() const noexcept { return cloud_; }
+
+  /// The same, to keep.
+  [[nodiscard]] Cloud release() noexcept { return std::exchange(cloud_, {}); }
+
+  /// How many bytes the last file had; 0 after a failure.
+  [[nodiscard]] std::size_t file_size() const noexcept { return file_size_; }
+
+ private:
+  Status load(const std::filesystem::path& path);
+
+  ReadOptions options_;
+  Cloud cloud_;
+  std::vector<std::byte> bytes_;  // of a file; lent to the cloud while that holds raw points
+  std::size_t file_size_ = 0;
+};
 
 }  // namespace flagstone::io

@@ -4,8 +4,10 @@
 
 #include <charconv>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -37,5 +39,14 @@ std::optional<T> whole_number(std::string_view word) noexcept {
 constexpr bool is_blank(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
+
+/// The last part of `path`, which must outlive it.
+std::string_view file_name(const std::filesystem::path& path) noexcept;
+
+/// The last part of `path` in lower case.
+std::string lower_case_name(const std::filesystem::path& path);
+
+/// Whether `name` ends with `ending`, which is in lower case, in any case.
+bool ends_with(std::string_view name, std::string_view ending) noexcept;
 
 }  // namespace flagstone::io

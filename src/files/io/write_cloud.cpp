@@ -11,7 +11,7 @@
 #include "files/io/npy.hpp"
 #include "files/io/pcd.hpp"
 #include "files/io/ply.hpp"
-#include "files/io/raw_points.hpp"
+#include "files/io/read_cloud.hpp"
 
 namespace flagstone::io {
 namespace {

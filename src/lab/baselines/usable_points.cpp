@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "lab/baselines/usable_points.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "library/core/point_validity.hpp"
 
 namespace flagstone::baselines {
 
@@ -22,10 +21,9 @@ void UsablePoints::gather(CloudView cloud, std::span<Label> labels) noexcept {
   std::size_t n = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point p = cloud[i];
-    const bool finite = p.x * 0 + p.y * 0 + p.z * 0 == 0;  // infinity * 0 and NaN are NaN
-    if (!finite || (p.x == 0 && p.y == 0 && p.z == 0)) {
+    if (!is_valid(p)) {
       labels[i] = Label::invalid;
-    } else if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > max_coordinate) {
+    } else if (!is_within_limit(p)) {
       labels[i] = Label::out_of_range;
     } else {
       x[n] = p.x;

@@ -12,8 +12,8 @@
 #include <system_error>
 #include <utility>
 
-#include "files/io/height_files.hpp"
 #include "files/io/message.hpp"
+#include "files/io/npy.hpp"
 #include "lab/eval/method_runner.hpp"
 #include "library/core/stopwatch.hpp"
 

@@ -10,14 +10,13 @@
 
 #include "counted_allocation.hpp"
 #include "files/io/bytes.hpp"
-#include "files/io/cloud_reader.hpp"
 #include "files/io/compress_lzf.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/npy.hpp"
 #include "files/io/pcd.hpp"
 #include "files/io/ply.hpp"
-#include "files/io/raw_points.hpp"
+#include "files/io/read_cloud.hpp"
 #include "files/io/temporary_folder.hpp"
 
 namespace flagstone::io {

@@ -100,9 +100,9 @@ TEST(WriteFile, DoesNotReplaceAPipeOrDevice) {
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
 
   EXPECT_THAT(write_file(folder / "pipe", "x"),
-              fails(StatusCode::unwritable, HasSubstr("no regular file")));
+              fails(StatusCode::unwritable, HasSubstr("not a regular file")));
   EXPECT_THAT(write_file("/dev/full", "x"),
-              fails(StatusCode::unwritable, HasSubstr("no regular file")));
+              fails(StatusCode::unwritable, HasSubstr("not a regular file")));
 
   EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
   EXPECT_EQ(folder.entries(), 1);

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "files/io/cloud_reader.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 
 #include "files/io/bytes.hpp"
 #include "files/io/file_contents.hpp"
+#include "files/io/read_cloud.hpp"
 #include "files/io/status_matchers.hpp"
 #include "files/io/temporary_folder.hpp"
 #include "files/io/text.hpp"

@@ -4,17 +4,15 @@
 
 #include <sys/resource.h>
 
-#include <csignal>
-
 namespace flagstone::io {
 
-/// Lets the system refuse to write more than so many bytes to any file, as a full disk does.
+/// Lets the system refuse to write more than so many bytes to any file, as a full disk does, and
+/// end the process with SIGXFSZ if it is not told otherwise.
 /// Programs that are started meanwhile are limited too.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
     ::getrlimit(RLIMIT_FSIZE, &before_);
-    signal_ = std::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{bytes, before_.rlim_max};
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
@@ -22,14 +20,10 @@ class FileSizeLimit {
   FileSizeLimit& operator=(const FileSizeLimit&) = delete;
   FileSizeLimit(FileSizeLimit&&) = delete;
   FileSizeLimit& operator=(FileSizeLimit&&) = delete;
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, signal_);
-  }
+  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
 
  private:
   rlimit before_{};
-  void (*signal_)(int) = nullptr;
 };
 
 }  // namespace flagstone::io

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "files/io/file_contents.hpp"
-#include "files/io/npy_header.hpp"
+#include "files/io/npy.hpp"
 
 namespace flagstone::io {
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "files/io/height_files.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>

@@ -173,6 +173,25 @@ TEST(NpyHeader, RefusesOtherTypes) {
   }
 }
 
+TEST(NpyHeader, RefusesBooleansAsCoordinates) {
+  EXPECT_THAT(error_of(dictionary("'|b1'", "(2, 3)"), 6),
+              is_bad_at(dictionary_at + 10, "the array is of booleans"));
+  EXPECT_THAT(error_of(dictionary("[('x', '<f4'), ('y', '<f4'), ('z', '|b1')]", "(1,)"), 9),
+              is_bad_at(dictionary_at + 10, "field 'z' is of booleans"));
+}
+
+TEST(Npy, ReadsBooleansBesideTheCoordinates) {
+  Cloud cloud;
+  EXPECT_THAT(
+      read_npy(npy_file(dictionary("[('x', '<f4'), ('y', '<f4'), ('z', '<f4'), ('moves', '|b1')]",
+                                   "(1,)"),
+                        Bytes(13)),
+               cloud),
+      is_ok());
+  ASSERT_EQ(cloud.fields().size(), 4U);
+  EXPECT_EQ(cloud.fields()[3].type, FieldType::uint8);
+}
+
 TEST(NpyHeader, RefusesNestedRecords) {
   EXPECT_THAT(error_of(dictionary("[('x', [('a', '<f4')])]", "(1,)")),
               fails(StatusCode::bad_file, HasSubstr("a type such as")));

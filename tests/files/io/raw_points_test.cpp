@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "files/io/raw_points.hpp"
-
 #include <gtest/gtest.h>
 
 #include <utility>
 
 #include "files/io/bytes.hpp"
+#include "files/io/read_cloud.hpp"
 #include "files/io/status_matchers.hpp"
 
 namespace flagstone::io {

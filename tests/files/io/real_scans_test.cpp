@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "files/io/bytes.hpp"
-#include "files/io/field_type.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/load_bytes.hpp"
 #include "files/io/npy.hpp"
 #include "files/io/pcd.hpp"
 #include "files/io/ply.hpp"
 #include "files/io/read_cloud.hpp"
+#include "files/io/rows.hpp"
 #include "files/io/status_matchers.hpp"
 #include "files/io/text.hpp"
 
