@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +17,10 @@ from flagstone._points import PointsLike, columns_of
 
 @dataclass(frozen=True)
 class Score:
-    """How many points a method found right and wrong, ground being what is looked for.
+    """How labels compare with the reference classes: counts of points, and ratios from 0 to 1.
+
+    Without ground in the reference only the accuracy is defined, without points labelled ground the precision is not
+    defined either: ratios that are not defined are NaN.
 
     Attributes:
         true_positives: Ground that was labelled ground.
@@ -33,17 +37,18 @@ class Score:
     @property
     def precision(self) -> float:
         """Share of ground among what was labelled ground, 0 to 1."""
-        return _share(self.true_positives, self.true_positives + self.false_positives)
+        return self._of_ground(self.true_positives, self.true_positives + self.false_positives)
 
     @property
     def recall(self) -> float:
         """Share of the ground that was labelled ground, 0 to 1."""
-        return _share(self.true_positives, self.true_positives + self.false_negatives)
+        return self._of_ground(self.true_positives, self.true_positives + self.false_negatives)
 
     @property
     def f1(self) -> float:
         """Harmonic mean of precision and recall, 0 to 1."""
-        return _share(2 * self.true_positives, 2 * self.true_positives + self.false_positives + self.false_negatives)
+        both = 2 * self.true_positives
+        return self._of_ground(both, both + self.false_positives + self.false_negatives)
 
     @property
     def accuracy(self) -> float:
@@ -54,7 +59,10 @@ class Score:
     @property
     def iou(self) -> float:
         """Intersection over union of ground, 0 to 1."""
-        return _share(self.true_positives, self.true_positives + self.false_positives + self.false_negatives)
+        return self._of_ground(self.true_positives, self.true_positives + self.false_positives + self.false_negatives)
+
+    def _of_ground(self, part: int, whole: int) -> float:
+        return _share(part, whole if self.true_positives + self.false_negatives else 0)
 
 
 def score(labels: npt.ArrayLike, classes: npt.ArrayLike, points: PointsLike, *, protocol: str = "patchwork") -> Score:
@@ -68,7 +76,7 @@ def score(labels: npt.ArrayLike, classes: npt.ArrayLike, points: PointsLike, *, 
             are not scored.
 
     Returns:
-        Counts of points, with precision, recall, F1, accuracy and IoU. A share whose denominator is zero is 1.
+        Counts of points, with precision, recall, F1, accuracy and IoU; NaN if they are not defined.
 
     Raises:
         TypeError: Labels or classes are no integers.
@@ -80,7 +88,7 @@ def score(labels: npt.ArrayLike, classes: npt.ArrayLike, points: PointsLike, *, 
 
 
 def _share(part: int, whole: int) -> float:
-    return 1.0 if whole == 0 else part / whole
+    return math.nan if whole == 0 else part / whole
 
 
 def _whole(name: str, values: npt.ArrayLike, most: int) -> npt.NDArray[Any]:

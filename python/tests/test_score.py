@@ -23,9 +23,12 @@ def test_points_are_counted_by_label_and_class() -> None:
     assert score.f1 == pytest.approx(4 / 7)
 
 
-def test_a_share_of_nothing_is_one() -> None:
-    score = flagstone.score([0], [CAR], np.zeros((1, 3), np.float32))
-    assert (score.precision, score.recall, score.f1, score.iou) == (1, 1, 1, 1)
+def test_without_ground_only_the_accuracy_is_defined() -> None:
+    for label, accuracy in ((0, 1.0), (1, 0.0)):
+        score = flagstone.score([label], [CAR], np.zeros((1, 3), np.float32))
+        assert np.isnan([score.precision, score.recall, score.f1, score.iou]).all() and score.accuracy == accuracy
+    missed = flagstone.score([0], [ROAD], np.zeros((1, 3), np.float32))
+    assert np.isnan(missed.precision) and (missed.recall, missed.f1, missed.iou) == (0, 0, 0)
 
 
 def test_protocols_differ_in_vegetation_and_in_what_is_scored() -> None:
