@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
@@ -18,24 +19,23 @@
 #include <string>
 #include <vector>
 
+#include "app/evaluate.hpp"
+#include "app/worst_scans.hpp"
 #include "cli/eval_methods.hpp"
-#include "cli/evaluation.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/print_error.hpp"
-#include "cli/result_files.hpp"
-#include "cli/scan_pictures.hpp"
+#include "cli/evaluation_options.hpp"
+#include "cli/terminal.hpp"
 #include "files/io/message.hpp"
 #include "files/render/rendering_available.hpp"
 #include "lab/eval/results_export.hpp"
 #include "lab/eval/results_text.hpp"
+#include "lab/report/eval_report.hpp"
 
 namespace flagstone::cli {
 namespace {
 
 struct EvalOptions {
-  EvaluationOptions evaluation;
+  app::EvaluationOptions evaluation;
   EvalMethods methods;
-  ResultFiles files;
   std::size_t pictures = 0;
   std::string output = "flagstone-eval";
   bool speed = false;
@@ -57,7 +57,7 @@ void print_tables(const eval::Results& results, bool speed) {
       "Protocol {}, {}; percent. Means over scans, std: sample standard deviation, ±95%: half "
       "width of the\n95 % interval of the mean (Student's t, scans taken for independent). "
       "F1/area: each 0.5 m cell of each scan counts once. Hz: with {}.\n\n{}\n",
-      results.protocol, scans_text(results),
+      results.protocol, app::scans_text(results),
       results.threads == 1 ? "one thread" : fmt::format("{} threads at work", results.threads),
       eval::accuracy_table(results, style));
   fmt::print("F1 by horizontal range, over all points of a band\n\n{}\n",
@@ -82,23 +82,29 @@ int evaluate(const EvalOptions& options) {
       options.pictures > 0 && !rendering_available.ok()) {
     throw std::invalid_argument("--images: " + rendering_available.message());
   }
-  EvaluationOptions how = options.evaluation;
+  app::EvaluationOptions how = options.evaluation;
   if (options.speed) how.threads = 1;
-  Evaluation evaluation(how, options.methods.resolve(), options.files.checkpoint());
-  options.files.prepare();
-  if (options.pictures > 0) make_folder(options.output);
-  const eval::Results results = evaluation.run();
+  how.settings_files = {options.methods.config_file, options.methods.sensor};
+  app::Evaluation evaluation(how, options.methods.resolve());
+  if (options.pictures > 0) app::make_folder(options.output);
+  catch_interrupts();
+  ProgressBar bar;
+  const app::RunCallbacks callbacks = bar.callbacks();
+  const eval::Results results = evaluation.run(callbacks);
+  bar.clear();
   if (results.scans == 0) return 1;
 
   print_tables(results, options.speed);
   if (evaluation.was_interrupted()) return 1;
-  const auto json = [&] { return eval::to_json(results); };
   constexpr auto replace = nlohmann::json::error_handler_t::replace;  // file names may not be UTF-8
-  write_result(options.files.json, [&] { return json().dump(2, ' ', false, replace) + "\n"; });
-  write_result(options.files.csv, [&] { return eval::to_csv(results); });
+  write_result(how.files.json,
+               [&] { return eval::to_json(results).dump(2, ' ', false, replace) + "\n"; });
+  write_result(how.files.csv, [&] { return eval::to_csv(results); });
   const std::vector<report::ReportPicture> pictures =
-      draw_worst_scans(evaluation, results, options.pictures, options.output);
-  write_result(options.files.html, [&] { return report::eval_report(json(), pictures); });
+      app::draw_worst_scans(evaluation, results, options.pictures, options.output, callbacks,
+                            [](const auto& file) { fmt::print("drew {}\n", io::printable(file)); });
+  write_result(how.files.html,
+               [&] { return report::eval_report(eval::to_json(results), pictures); });
   evaluation.remove_checkpoint();
   if (interrupted()) {
     print_error(fmt::format("interrupted, {} of {} pictures are drawn", pictures.size(),
@@ -116,15 +122,14 @@ void add_eval_command(CLI::App& app, int& exit_code) {
       "eval",
       "Score methods on labelled scans.\n\n"
       "Example:  flagstone eval SemanticKITTI --protocol patchwork --methods table1 --every 10\n");
-  options->evaluation.add_to(*command);
+  add_evaluation_options(*command, options->evaluation);
   options->methods.add_to(*command);
-  options->files.add_to(*command);
   command
       ->add_option("--images", options->pictures,
-                   "Draw the N worst scans, methods side by side, into the folder of --output")
+                   "Draw the N worst scans, methods side by side, into the directory of --output")
       ->check(CLI::Range(0, 1000))
       ->type_name("N");
-  command->add_option("-o,--output", options->output, "Folder for pictures; made if missing")
+  command->add_option("-o,--output", options->output, "Directory for images (created if missing)")
       ->capture_default_str()
       ->type_name("DIR");
   command->add_flag("--speed", options->speed,

@@ -1,39 +1,46 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/evaluation.hpp"
+#include "app/evaluate.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/Option.hpp>
-#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 #include "app/config/config_toml.hpp"
-#include "cli/interrupt.hpp"
-#include "cli/print_error.hpp"
-#include "cli/progress.hpp"
-#include "cli/thread_pool.hpp"
+#include "app/output_plan.hpp"
+#include "files/io/atomic_file.hpp"
 #include "files/io/message.hpp"
 #include "flagstone/version.hpp"
 #include "lab/eval/checkpoint.hpp"
 #include "lab/eval/protocol.hpp"
 #include "lab/eval/scan_evaluator.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 namespace fs = std::filesystem;
 
 namespace {
 
+/// What cannot be written is not the user's mistake in the way a wrong option is.
 void throw_if_bad(const Status& status) {
-  if (!status.ok()) throw std::invalid_argument(status.message());
+  if (status.ok()) return;
+  if (status.code() == StatusCode::unwritable || status.code() == StatusCode::out_of_memory) {
+    throw std::runtime_error(status.message());
+  }
+  throw std::invalid_argument(status.message());
+}
+
+void check_limits(const EvaluationOptions& options) {
+  if (options.every < 1 || options.every > max_every) {
+    throw std::invalid_argument(
+        fmt::format("--every: {} is out of range (expected 1 to {})", options.every, max_every));
+  }
 }
 
 /// The last folder of a path, "kitti" for "data/kitti/".
@@ -83,45 +90,25 @@ void check_ids(const eval::Protocol& protocol, const std::vector<eval::LabelledS
 
 }  // namespace
 
-void EvaluationOptions::add_to(CLI::App& command) {
-  command
-      .add_option("datasets", datasets,
-                  "SemanticKITTI trees (sequences/NN), folders with velodyne/ and labels/, or "
-                  "nuScenes-lidarseg files")
-      ->required()
-      ->type_name("DATASET...");
-  command
-      .add_option("--protocol", protocol,
-                  "Which classes are ground: patchwork, patchwork++, lidarseg, simulation, or a "
-                  ".toml or .json file")
-      ->capture_default_str()
-      ->type_name("NAME|FILE");
-  command.add_option("--sequences", sequences, "Sequences to take, e.g. 05,10. Default: all")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("LIST");
-  command.add_option("--every", every, "Take one scan in N of each sequence")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str()
-      ->type_name("N");
-  command
-      .add_option("--columns", columns,
-                  "Floats a point in .bin files. Default: 5 for .pcd.bin, else 4")
-      ->check(CLI::Range(3, 1024))
-      ->type_name("N");
-  command.add_option("--threads", threads, "Scans worked on at once. Default: all cores")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N");
-  command.add_flag("--resume", resume,
-                   "Go on with an interrupted run: scans kept beside the results file are not done "
-                   "again");
+fs::path ResultFiles::checkpoint() const {
+  for (const std::string& file : {json, csv, html}) {
+    if (!file.empty()) return file + ".checkpoint";
+  }
+  return {};
 }
 
-Evaluation::Evaluation(EvaluationOptions options, std::vector<eval::Method> methods,
-                       fs::path checkpoint)
+bool write_result(const std::string& file, const std::function<std::string()>& text) {
+  if (file.empty()) return false;
+  const Status status = io::write_file(file, std::string_view(text()));
+  if (!status.ok()) throw std::runtime_error(std::string(status.message()));
+  return true;
+}
+
+Evaluation::Evaluation(EvaluationOptions options, std::vector<eval::Method> methods)
     : options_(std::move(options)),
       methods_(std::move(methods)),
-      checkpoint_(std::move(checkpoint)) {
+      checkpoint_(options_.files.checkpoint()) {
+  check_limits(options_);
   throw_if_bad(eval::find_protocol(options_.protocol, protocol_));
   scans_ = list_scans(options_);
   check_ids(protocol_, scans_);
@@ -131,6 +118,32 @@ Evaluation::Evaluation(EvaluationOptions options, std::vector<eval::Method> meth
   if (options_.resume && checkpoint_.empty()) {
     throw std::invalid_argument(
         "--resume needs the results file that the interrupted run had: --json, --csv or --html");
+  }
+  check_files();
+}
+
+void Evaluation::check_files() const {
+  OutputPlan plan;
+  for (const std::string& dataset : options_.datasets) plan.reads_dataset(dataset);
+  for (const eval::Method& method : methods_) {
+    if (!method.labels.empty()) plan.reads_dataset(method.labels);
+  }
+  for (const std::string& file : options_.settings_files) plan.reads(file);
+  if (fs::path(options_.protocol).has_extension()) plan.reads(options_.protocol);
+  const ResultFiles& files = options_.files;
+  for (const std::string& file : {files.json, files.csv, files.html}) {
+    std::error_code error;
+    if (fs::is_directory(file, error)) {
+      throw std::invalid_argument(
+          fmt::format("{}: is a directory (expected a file)", io::printable(file)));
+    }
+    plan.writes(file);
+  }
+  plan.writes(checkpoint_);
+  plan.check();
+  for (const std::string& file : {files.json, files.csv, files.html}) {
+    const fs::path folder = fs::path(file).lexically_normal().parent_path();
+    if (!folder.empty()) make_folder(folder);
   }
 }
 
@@ -158,8 +171,7 @@ std::string Evaluation::fingerprint() const {
   return fmt::format("{:016x}", hash);
 }
 
-eval::Results Evaluation::run() {
-  catch_interrupts();
+eval::Results Evaluation::run(const RunCallbacks& callbacks) {
   std::vector<std::optional<eval::ScanOutcome>> outcomes(scans_.size());
   eval::Checkpoint checkpoint;
   if (!checkpoint_.empty()) {
@@ -177,43 +189,36 @@ eval::Results Evaluation::run() {
     if (!outcomes[i]) left.push_back(i);
   }
 
-  Progress progress(left.size());
-  progress.show(0);
-  std::mutex mutex;
-  std::size_t done = 0;
-  run_crew(left.size(), options_.threads, [&] {
-    auto evaluator = std::make_shared<eval::ScanEvaluator>(methods_, protocol_, read_options());
-    return [&, evaluator](std::size_t job) {
-      const eval::LabelledScan& scan = scans_[left[job]];
-      eval::ScanOutcome outcome = evaluator->run(scan);
-      const std::scoped_lock lock(mutex);
-      checkpoint.add(scan.name, outcome);
-      const auto report = [&](const std::optional<std::string>& error) {
-        if (!error) return;
-        progress.clear();
-        print_error(*error);
-      };
-      report(outcome.error);
-      for (const eval::MethodOutcome& method : outcome.methods) report(method.error);
-      outcomes[left[job]] = std::move(outcome);
-      progress.show(++done);
-    };
-  });
-  progress.clear();
+  const RunOutcome run = run_in_order(
+      left.size(), options_.threads, "scans", callbacks,
+      [&] {
+        auto evaluator = std::make_unique<eval::ScanEvaluator>(methods_, protocol_, read_options());
+        return [&, evaluator = std::move(evaluator)](std::size_t job) {
+          return evaluator->run(scans_[left[job]]);
+        };
+      },
+      [&](std::size_t job, eval::ScanOutcome&& outcome) {
+        checkpoint.add(scans_[left[job]].name, outcome);
+        if (outcome.error) callbacks.say(*outcome.error);
+        for (const eval::MethodOutcome& method : outcome.methods) {
+          if (method.error) callbacks.say(*method.error);
+        }
+        outcomes[left[job]] = std::move(outcome);
+      });
 
-  was_interrupted_ = done < left.size();
+  was_interrupted_ = run.done < left.size();
   if (was_interrupted_) {
-    const std::size_t reached = scans_.size() - left.size() + done;
-    print_error(fmt::format("interrupted, {} of {} scans are done; {}", reached, scans_.size(),
-                            checkpoint_.empty()
-                                ? "with --json FILE the next run could go on from here"
-                                : "the same command with --resume goes on from here"));
+    callbacks.say(fmt::format("interrupted, {} of {} scans are done; {}",
+                              scans_.size() - left.size() + run.done, scans_.size(),
+                              checkpoint_.empty()
+                                  ? "with --json FILE the next run could continue from here"
+                                  : "the same command with --resume continues from here"));
   }
   eval::Results results = eval::gather(methods_, scans_, outcomes);
   if (results.scans == 0) remove_checkpoint();  // it holds nothing to go on from
   results.protocol = protocol_.name;
   results.threads = static_cast<unsigned>(std::min<std::size_t>(
-      thread_count(options_.threads), std::max<std::size_t>(scans_.size(), 1)));
+      threads_or_cores(options_.threads), std::max<std::size_t>(scans_.size(), 1)));
   for (const std::string& dataset : options_.datasets) {
     results.datasets.push_back(dataset_name(dataset));
   }
@@ -230,4 +235,13 @@ std::string scans_text(const eval::Results& results) {
                      io::printable(fmt::format("{}", fmt::join(results.datasets, ", "))));
 }
 
-}  // namespace flagstone::cli
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw std::runtime_error(
+        fmt::format("{}: cannot be created: {}", io::printable(folder), error.message()));
+  }
+}
+
+}  // namespace flagstone::app

@@ -1,23 +1,58 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/sweep_results.hpp"
+#include "app/sweep.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 
+#include "app/config/config_toml.hpp"
+#include "files/io/message.hpp"
+#include "lab/baselines/settings.hpp"
 #include "lab/eval/results_export.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 namespace {
+
+/// The whole number that `text` is; 0 for anything else.
+int whole_number(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : 0;
+}
+
+void make_uniform_grid(const std::string& value, MethodConfig& config) {
+  auto* patchwork = std::get_if<PatchworkConfig>(&config);
+  const std::size_t times = value.find('x');
+  const int rings = whole_number(std::string_view(value).substr(0, times));
+  const int sectors =
+      times == std::string::npos ? 0 : whole_number(std::string_view(value).substr(times + 1));
+  if (patchwork == nullptr || rings < 1 || rings > 1000 || sectors < 1) {
+    throw std::invalid_argument(fmt::format(
+        "bins = {}: allowed: RINGSxSECTORS, e.g. 30x108, of patchwork and its relatives", value));
+  }
+  const float outer = patchwork->zones.back().ring_radii.back();
+  patchwork->zones = {{.ring_radii = equal_rings(patchwork->min_range, outer, rings),
+                       .sectors = sectors,
+                       .height_margin = -std::numeric_limits<float>::infinity()}};
+}
+
+/// Fig. 5 of the paper: bin sizes of the uniform grid and uprightness thresholds. The paper does
+/// not print its values; at 0 degrees uprightness refuses nothing.
+const std::vector<std::string> figure_5 = {"bins=10x36,15x54,20x72,30x108,45x162,60x216",
+                                           "uprightness.angle=0,15,30,45,60,75"};
 
 constexpr double percent = 100;
 
@@ -60,6 +95,46 @@ eval::Spread difference(const eval::MethodResult& a, const eval::MethodResult& b
 
 }  // namespace
 
+SweepAxis sweep_axis(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    throw std::invalid_argument(fmt::format(
+        "--param {}: allowed: KEY=VALUE,VALUE,..., e.g. --param distance_margin=0.1,0.125,0.15",
+        text));
+  }
+  if (io::printable(text) != text) {
+    throw std::invalid_argument(fmt::format("--param {}: holds what cannot be printed", text));
+  }
+  SweepAxis axis{.key = text.substr(0, equals), .values = {}};
+  std::size_t begin = equals + 1;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    axis.values.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return axis;
+}
+
+void apply_axis(const std::string& key, const std::string& value, MethodConfig& config) {
+  if (key == "bins") {
+    make_uniform_grid(value, config);
+  } else {
+    config::apply_toml(fmt::format("{} = {}", key, value), fmt::format("--param {}={}", key, value),
+                       config);
+  }
+}
+
+std::vector<SweepAxis> sweep_axes(const std::vector<std::string>& texts) {
+  std::vector<SweepAxis> axes;
+  for (const std::string& text : texts.empty() ? figure_5 : texts) axes.push_back(sweep_axis(text));
+  if (axes.size() > 2) throw std::invalid_argument("--param can be given once or twice");
+  if (axes.size() == 2 && axes[0].key == axes[1].key) {
+    throw std::invalid_argument(
+        fmt::format("--param names {} twice; give all its values at once", axes[0].key));
+  }
+  return axes;
+}
+
 std::vector<std::string> Sweep::values_at(std::size_t point) const {
   std::vector<std::string> values(axes.size());
   for (std::size_t a = axes.size(); a-- > 0;) {
@@ -67,6 +142,31 @@ std::vector<std::string> Sweep::values_at(std::size_t point) const {
     point /= axes[a].values.size();
   }
   return values;
+}
+
+std::vector<eval::Method> Sweep::points(const MethodConfig& base,
+                                        const MountSettings& mount) const {
+  std::size_t count = 1;
+  for (const SweepAxis& axis : axes) count *= axis.values.size();
+  constexpr std::size_t most = 10000;
+  if (count > most) {
+    throw std::invalid_argument(fmt::format("--param: {} points; allowed: up to {}", count, most));
+  }
+  std::vector<eval::Method> points;
+  for (std::size_t p = 0; p < count; ++p) {
+    const std::vector<std::string> values = values_at(p);
+    MethodConfig config = base;
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      if (axes[a].key != "bins") apply_axis(axes[a].key, values[a], config);
+    }
+    for (std::size_t a = 0; a < values.size(); ++a) {  // after what says where the rings begin
+      if (axes[a].key == "bins") apply_axis(axes[a].key, values[a], config);
+    }
+    MountSettings own_mount = mount;  // whose height may be what is swept over
+    own_mount.mount.sensor_height = sensor_height_of(config, mount.mount.sensor_height);
+    points.push_back(eval::method_of(method, std::move(config), own_mount));
+  }
+  return points;
 }
 
 std::string to_text(const Sweep& sweep) {
@@ -153,4 +253,4 @@ std::string winner_text(const Sweep& sweep) {
                             intervals > 1 ? "more than noise" : "no more than noise");
 }
 
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

@@ -14,7 +14,7 @@
 #include "lab/sim/geometry.hpp"
 #include "lab/sim/scan.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 
 /// What a simulated sequence is made from; the same gives the same bytes.
 struct SequenceOrigin {
@@ -31,9 +31,9 @@ struct SequenceOrigin {
 
 /// The files of a simulated sequence, laid out as SemanticKITTI's: velodyne/NNNNNN.bin,
 /// labels/NNNNNN.label, poses.txt, calib.txt, beside them ground/NNNNNN.ground.npy, the true height
-/// of the ground at each point, echoes/NNNNNN.echo.npy, what each is an echo of, and scene.json,
-/// which says what the sequence was made from. Every file is there whole or not at all. What fails
-/// throws std::runtime_error.
+/// of the ground at each point, returns/NNNNNN.return.npy, what each is a return of, and
+/// scene.json, which says what the sequence was made from. Every file is there whole or not at all.
+/// What fails throws std::runtime_error.
 class SimulatedSequence {
  public:
   explicit SimulatedSequence(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -44,7 +44,7 @@ class SimulatedSequence {
   /// folder already holds something else, or more frames than `origin` has.
   void begin(const SequenceOrigin& origin) const;
 
-  /// Are the scan, its labels, its ground and its echoes there, of sizes that fit each other?
+  /// Are the scan, its labels, its ground and its returns there, of sizes that fit each other?
   [[nodiscard]] bool has(std::size_t frame) const;
 
   /// `ground` is what sim::true_ground() gives for the scan.
@@ -59,10 +59,10 @@ class SimulatedSequence {
   [[nodiscard]] std::filesystem::path scan_file(std::size_t frame) const;
   [[nodiscard]] std::filesystem::path label_file(std::size_t frame) const;
   [[nodiscard]] std::filesystem::path ground_file(std::size_t frame) const;
-  [[nodiscard]] std::filesystem::path echo_file(std::size_t frame) const;
+  [[nodiscard]] std::filesystem::path return_file(std::size_t frame) const;
   void refuse_others(const SequenceOrigin& origin) const;
 
   std::filesystem::path folder_;
 };
 
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

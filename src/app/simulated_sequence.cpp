@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/simulated_sequence.hpp"
+#include "app/simulated_sequence.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-#include "cli/result_files.hpp"
+#include "app/evaluate.hpp"
 #include "files/io/atomic_file.hpp"
 #include "files/io/cloud.hpp"
 #include "files/io/label_files.hpp"
@@ -24,7 +24,7 @@
 #include "lab/sim/measurement.hpp"
 #include "lab/sim/mesh.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 namespace fs = std::filesystem;
 
 namespace {
@@ -96,13 +96,13 @@ Json class_json() {
   return classes;
 }
 
-// What the codes in echo files mean.
-Json echo_json() {
-  Json echoes = Json::object();
+// What the codes in return files mean.
+Json return_kinds_json() {
+  Json kinds = Json::object();
   for (std::size_t code = 0; code < sim::echo_kind_names.size(); ++code) {
-    echoes[std::to_string(code)] = sim::echo_kind_names[code];
+    kinds[std::to_string(code)] = sim::echo_kind_names[code];
   }
-  return echoes;
+  return kinds;
 }
 
 std::string scene_text(const SequenceOrigin& origin) {
@@ -117,10 +117,10 @@ std::string scene_text(const SequenceOrigin& origin) {
   scene["files"] = {{"scans", "velodyne/NNNNNN.bin"},
                     {"labels", "labels/NNNNNN.label"},
                     {"ground", "ground/NNNNNN.ground.npy"},
-                    {"echoes", "echoes/NNNNNN.echo.npy"},
+                    {"returns", "returns/NNNNNN.return.npy"},
                     {"poses", "poses.txt"}};
   scene["classes"] = class_json();
-  scene["echo_kinds"] = echo_json();
+  scene["return_kinds"] = return_kinds_json();
   return scene.dump(1) + '\n';
 }
 
@@ -192,11 +192,11 @@ void SimulatedSequence::begin(const SequenceOrigin& origin) const {
   make_folder(folder_ / "velodyne");
   make_folder(folder_ / "labels");
   make_folder(folder_ / "ground");
-  make_folder(folder_ / "echoes");
+  make_folder(folder_ / "returns");
 }
 
-fs::path SimulatedSequence::echo_file(std::size_t frame) const {
-  return folder_ / "echoes" / fmt::format("{:06}.echo.npy", frame);
+fs::path SimulatedSequence::return_file(std::size_t frame) const {
+  return folder_ / "returns" / fmt::format("{:06}.return.npy", frame);
 }
 
 bool SimulatedSequence::has(std::size_t frame) const {
@@ -206,7 +206,8 @@ bool SimulatedSequence::has(std::size_t frame) const {
   return scan > 0 && scan % scan_bytes == 0 &&
          size_of(label_file(frame)) == points * sizeof(std::uint32_t) &&
          size_of(ground_file(frame)) == io::height_file_size(points) &&
-         size_of(echo_file(frame)) == io::npy_header(io::FieldType::uint8, points).size() + points;
+         size_of(return_file(frame)) ==
+             io::npy_header(io::FieldType::uint8, points).size() + points;
 }
 
 void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan,
@@ -216,9 +217,9 @@ void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan,
   must(io::write_cloud(scan_file(frame), cloud));
   must(io::write_class_file(label_file(frame), scan.classes));
   must(io::write_npy_file(ground_file(frame), ground, std::array{ground.size()}));
-  std::string echoes = io::npy_header(io::FieldType::uint8, scan.echoes.size());
-  for (const sim::EchoKind kind : scan.echoes) echoes += static_cast<char>(kind);
-  must(io::write_file(echo_file(frame), echoes));
+  std::string returns = io::npy_header(io::FieldType::uint8, scan.echoes.size());
+  for (const sim::EchoKind kind : scan.echoes) returns += static_cast<char>(kind);
+  must(io::write_file(return_file(frame), returns));
 }
 
 void SimulatedSequence::write_poses(std::span<const sim::Frame> poses) const {
@@ -232,4 +233,4 @@ void SimulatedSequence::write_poses(std::span<const sim::Frame> poses) const {
   must(io::write_file(folder_ / "poses.txt", text));
 }
 
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/scan_pictures.hpp"
+#include "app/worst_scans.hpp"
 
 #include <fmt/format.h>
 
@@ -12,19 +12,17 @@
 #include <string>
 #include <utility>
 
-#include "cli/interrupt.hpp"
-#include "cli/result_files.hpp"
 #include "files/io/atomic_file.hpp"
 #include "files/io/message.hpp"
 #include "files/render/side_by_side.hpp"
 #include "lab/eval/scan_evaluator.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 namespace fs = std::filesystem;
 
 namespace {
 
-void throw_if_bad(const Status& status) {
+void throw_if_failed(const Status& status) {
   if (!status.ok()) throw std::runtime_error(status.message());
 }
 
@@ -49,7 +47,7 @@ std::vector<std::size_t> worst_first(const Evaluation& evaluation, const eval::R
 std::vector<std::byte> draw(eval::ScanEvaluator& evaluator, const Evaluation& evaluation,
                             const eval::LabelledScan& scan) {
   std::vector<std::vector<Label>> labels;
-  throw_if_bad(evaluator.label_all(scan, labels));
+  throw_if_failed(evaluator.label_all(scan, labels));
   std::vector<render::Panel> panels;
   for (std::size_t m = 0; m < labels.size(); ++m) {
     if (labels[m].size() != evaluator.cloud().size()) continue;  // said when it was evaluated
@@ -57,7 +55,7 @@ std::vector<std::byte> draw(eval::ScanEvaluator& evaluator, const Evaluation& ev
                       eval::scores_text(evaluator.truth().score(labels[m]).points), labels[m]});
   }
   std::vector<std::byte> png;
-  throw_if_bad(render::render_side_by_side(
+  throw_if_failed(render::render_side_by_side(
       evaluator.cloud(), evaluator.truth().truth(), panels,
       {.title = scan.name, .subtitle = fmt::format("protocol {}", evaluation.protocol().name)},
       png));
@@ -66,9 +64,10 @@ std::vector<std::byte> draw(eval::ScanEvaluator& evaluator, const Evaluation& ev
 
 }  // namespace
 
-std::vector<report::ReportPicture> draw_worst_scans(const Evaluation& evaluation,
-                                                    const eval::Results& results, std::size_t count,
-                                                    const fs::path& folder) {
+std::vector<report::ReportPicture> draw_worst_scans(
+    const Evaluation& evaluation, const eval::Results& results, std::size_t count,
+    const fs::path& folder, const RunCallbacks& callbacks,
+    const std::function<void(const fs::path&)>& drawn) {
   std::vector<report::ReportPicture> pictures;
   if (count == 0) return pictures;
   eval::ScanEvaluator evaluator(evaluation.methods(), evaluation.protocol(),
@@ -76,16 +75,16 @@ std::vector<report::ReportPicture> draw_worst_scans(const Evaluation& evaluation
   std::vector<std::size_t> order = worst_first(evaluation, results);
   order.resize(std::min(count, order.size()));
   for (const std::size_t i : order) {
-    if (interrupted()) break;
+    if (callbacks.stopped()) break;
     const eval::LabelledScan& scan = evaluation.scans()[i];
     std::vector<std::byte> png = draw(evaluator, evaluation, scan);
     const fs::path file = folder / (scan.name + ".png");
     make_folder(file.parent_path());
-    throw_if_bad(io::write_file(file, std::span<const std::byte>(png)));
-    fmt::print("drew {}\n", io::printable(file));
+    throw_if_failed(io::write_file(file, std::span<const std::byte>(png)));
+    drawn(file);
     pictures.push_back({scan.name, std::move(png)});
   }
   return pictures;
 }
 
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

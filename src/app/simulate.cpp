@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "app/simulate.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <mutex>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "app/simulated_sequence.hpp"
+#include "files/io/sensor_file.hpp"
+#include "flagstone/sensor.hpp"
+#include "lab/sim/drive.hpp"
+#include "lab/sim/noise.hpp"
+#include "lab/sim/scene.hpp"
+
+namespace flagstone::app {
+namespace {
+
+constexpr std::size_t drive_length = sim::frames_per_drive;
+
+/// An error that names those there are, each of which has a `name`.
+std::invalid_argument no_such(std::string_view option, std::string_view name, const auto& all) {
+  std::vector<std::string_view> names;
+  for (const auto& each : all) names.push_back(each.name);
+  return std::invalid_argument(
+      fmt::format("{}: there is no '{}'; choose {}", option, name, fmt::join(names, ", ")));
+}
+
+const sim::SceneKind& scene_named(const std::string& name) {
+  if (const sim::SceneKind* scene = sim::find_scene_kind(name)) return *scene;
+  throw no_such("--scene", name, sim::scene_kinds());
+}
+
+// SemanticKITTI's folders have two digits.
+void check_sequence(const std::string& name) {
+  const bool digits =
+      std::ranges::all_of(name, [](char letter) { return letter >= '0' && letter <= '9'; });
+  if (name.size() != 2 || !digits) {
+    throw std::invalid_argument(
+        fmt::format("--sequence: '{}' is no name of a sequence; give two digits, 00 to 99", name));
+  }
+}
+
+sim::Mounting mounting_of(const SimulateOptions& options, const Sensor& sensor) {
+  sim::Mounting mounting{.height = sensor.height};
+  if (options.sensor_height) mounting.height = *options.sensor_height;
+  if (!(mounting.height >= 0 && mounting.height <= max_simulated_height)) {
+    throw std::invalid_argument(
+        fmt::format("--sensor-height: {} is out of range (expected 0 to {} m)", mounting.height,
+                    max_simulated_height));
+  }
+  constexpr double most = max_simulated_tilt;
+  const std::string& text = options.tilt;
+  const char* end = text.data() + text.size();
+  const auto [comma, bad_pitch] = std::from_chars(text.data(), end, mounting.pitch);
+  const bool has_roll = bad_pitch == std::errc() && comma != end && *comma == ',';
+  const auto [rest, bad_roll] = std::from_chars(has_roll ? comma + 1 : end, end, mounting.roll);
+  if (!has_roll || bad_roll != std::errc() || rest != end || !(std::abs(mounting.pitch) <= most) ||
+      !(std::abs(mounting.roll) <= most)) {
+    throw std::invalid_argument(fmt::format(
+        "--tilt: '{}' is not PITCH,ROLL; give two numbers of degrees, -90 to 90, such as 15,-5",
+        text));
+  }
+  return mounting;
+}
+
+Sensor sensor_found(const std::string& name_or_file) {
+  Sensor sensor;
+  if (const Status status = io::find_sensor(name_or_file, sensor); !status.ok()) {
+    throw std::invalid_argument(fmt::format("--sensor: {}", status.message()));
+  }
+  return sensor;
+}
+
+SequenceOrigin origin_of(const SimulateOptions& options) {
+  const Sensor sensor = sensor_found(options.sensor);
+  const sim::NoiseLevel* level = sim::find_noise_level(options.noise);
+  if (level == nullptr) throw no_such("--noise", options.noise, sim::noise_levels());
+  sim::Noise noise = level->noise;
+  for (const std::string& name : options.weather) {
+    const sim::Weather* weather = sim::find_weather(name);
+    if (weather == nullptr) throw no_such("--weather", name, sim::weathers());
+    weather->add_to(noise);
+  }
+  return {.scene = options.scene,
+          .sensor = sensor,
+          .mounting = mounting_of(options, sensor),
+          .noise_name = options.noise,
+          .weather = options.weather,
+          .noise = noise,
+          .keep_no_returns = options.keep_no_returns,
+          .seed = options.seed,
+          .frames = options.frames};
+}
+
+/// Simulates the missing frames of a sequence on several threads. A frame depends on nothing but
+/// the origin and its number.
+class SequenceRun {
+ public:
+  SequenceRun(const SimulatedSequence& files, const sim::SceneKind& scene,
+              const SequenceOrigin& origin)
+      : files_(files),
+        scene_(scene),
+        origin_(origin),
+        worlds_((origin.frames + drive_length - 1) / drive_length) {
+    for (std::size_t frame = 0; frame < origin.frames; ++frame) {
+      if (files.has(frame)) continue;
+      missing_.push_back(frame);
+      ++worlds_[frame / drive_length].frames_left;
+    }
+  }
+
+  [[nodiscard]] std::size_t missing() const noexcept { return missing_.size(); }
+
+  RunOutcome run(unsigned threads, const RunCallbacks& callbacks) {
+    // Each thread begins with another drive, so that worlds are built side by side, and goes on
+    // with a frame of it; all help with the last drives.
+    const std::size_t side_by_side = threads_or_cores(threads);
+    std::ranges::sort(missing_, {}, [&](std::size_t frame) {
+      const std::size_t drive = frame / drive_length;
+      return std::tuple(drive / side_by_side, frame % drive_length, drive);
+    });
+    return run_in_order(
+        missing_.size(), threads, "scans", callbacks,
+        [&] {
+          return [&](std::size_t job) {
+            simulate(missing_[job]);
+            return true;
+          };
+        },
+        [](std::size_t, bool) {});
+  }
+
+  /// Of the sensor in the world of its drive, for every frame.
+  [[nodiscard]] std::vector<sim::Frame> poses() const {
+    std::vector<sim::Frame> poses;
+    for (std::size_t index = 0; index < worlds_.size(); ++index) {
+      const std::vector<sim::Frame> of_drive = drive(index).poses();
+      poses.insert(poses.end(), of_drive.begin(), of_drive.end());
+    }
+    poses.resize(origin_.frames);
+    return poses;
+  }
+
+ private:
+  /// Built by the first thread that needs it, taken down after the last of its frames.
+  struct World {
+    std::once_flag built;
+    std::unique_ptr<sim::Drive> drive;
+    std::unique_ptr<sim::Scene> scene;
+    std::atomic<std::size_t> frames_left = 0;
+  };
+
+  [[nodiscard]] sim::Drive drive(std::size_t index) const {
+    return {scene_, origin_.sensor, origin_.mounting, sim::drive_seed(origin_.seed, index)};
+  }
+
+  void simulate(std::size_t frame) {
+    World& world = worlds_[frame / drive_length];
+    std::call_once(world.built, [&] {
+      world.drive = std::make_unique<sim::Drive>(drive(frame / drive_length));
+      world.scene = std::make_unique<sim::Scene>(world.drive->scene());
+    });
+    const int stop = static_cast<int>(frame % drive_length);
+    const sim::SimulatedScan scan =
+        world.drive->scan(*world.scene, origin_.noise, stop, origin_.keep_no_returns);
+    files_.write(frame, scan, world.drive->ground_of(scan, stop));
+    if (--world.frames_left == 0) {
+      world.scene.reset();
+      world.drive.reset();
+    }
+  }
+
+  const SimulatedSequence& files_;
+  const sim::SceneKind& scene_;
+  const SequenceOrigin& origin_;
+  std::vector<World> worlds_;  // by drive
+  std::vector<std::size_t> missing_;
+};
+
+}  // namespace
+
+Simulation simulate(const SimulateOptions& options, const RunCallbacks& callbacks) {
+  const sim::SceneKind& scene = scene_named(options.scene);
+  check_sequence(options.sequence);
+  if (options.frames < 1 || options.frames > max_frames) {
+    throw std::invalid_argument(
+        fmt::format("--frames: {} is out of range (expected 1 to {})", options.frames, max_frames));
+  }
+  const SimulatedSequence files(std::filesystem::path(options.output) / "sequences" /
+                                options.sequence);
+  const SequenceOrigin origin = origin_of(options);
+  files.begin(origin);
+
+  SequenceRun sequence(files, scene, origin);
+  const RunOutcome run = sequence.run(options.threads, callbacks);
+  Simulation simulation{.folder = files.folder(),
+                        .sensor = origin.sensor.name,
+                        .drives = (options.frames + drive_length - 1) / drive_length,
+                        .simulated = run.done,
+                        .kept = options.frames - sequence.missing(),
+                        .interrupted = run.done < sequence.missing()};
+  if (simulation.interrupted) {
+    callbacks.say(fmt::format("interrupted, {} of {} frames are done; run it again for the rest",
+                              simulation.kept + simulation.simulated, options.frames));
+  } else {
+    files.write_poses(sequence.poses());
+  }
+  return simulation;
+}
+
+}  // namespace flagstone::app

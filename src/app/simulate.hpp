@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/run.hpp"
+
+namespace flagstone::app {
+
+/// @name Limits of SimulateOptions
+/// @{
+inline constexpr std::size_t max_frames = 100000;
+inline constexpr double max_simulated_height = 100;  ///< metres
+inline constexpr double max_simulated_tilt = 90;     ///< degrees
+/// @}
+
+struct SimulateOptions {
+  std::string output;                     ///< directory for sequences/NN
+  std::string scene;                      ///< name of a sim::SceneKind
+  std::string sensor = "hdl-64e";         ///< name or .toml file
+  std::optional<double> sensor_height{};  ///< metres above the ground; none: the sensor's usual one
+  std::string tilt = "0,0";               ///< pitch and roll, degrees
+  std::string noise = "default";          ///< name of a sim::NoiseLevel
+  std::vector<std::string> weather{"clear"};  ///< names of sim::Weather
+  bool keep_no_returns = false;               ///< write missing returns as points at (0, 0, 0)
+  std::size_t frames = 200;                   ///< 1 to max_frames
+  std::uint64_t seed = 1;
+  std::string sequence = "00";  ///< two digits
+  unsigned threads = 0;         ///< 0: all cores
+};
+
+/// What became of a simulation.
+struct Simulation {
+  std::filesystem::path folder;  ///< OUTPUT/sequences/NN
+  std::string sensor;            ///< name
+  std::size_t drives = 0;
+  std::size_t simulated = 0;  ///< frames
+  std::size_t kept = 0;       ///< frames that were there already
+  bool interrupted = false;   ///< the message says so; the same call continues
+};
+
+/// Writes a sequence of simulated scans with exact ground truth, see SimulatedSequence. Frames that
+/// are there already are kept. The same options give the same bytes with any number of threads.
+/// Throws std::invalid_argument with one line for wrong options and for a directory that contains
+/// something else, std::runtime_error if a file cannot be written.
+Simulation simulate(const SimulateOptions& options, const RunCallbacks& callbacks);
+
+}  // namespace flagstone::app
