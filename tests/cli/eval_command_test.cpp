@@ -28,6 +28,7 @@
 #include "files/io/npy.hpp"
 #include "files/io/temporary_folder.hpp"
 #include "flagstone/surface.hpp"
+#include "real_scans.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -510,14 +511,14 @@ TEST_F(EvalCommand, AFolderThatCannotBeMadeIsOneLineBeforeAnyWork) {
 
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_THAT(outcome.err, is_one_line_with("taken: cannot be made"));
+  EXPECT_THAT(outcome.err, is_one_line_with("taken: cannot be created"));
 }
 
 TEST_F(EvalCommand, ResultsThatCannotBeWrittenAreOneLineBeforeAnyWork) {
   const std::string file = path("results");
   const std::vector<std::pair<std::vector<std::string>, std::string>> misuses = {
-      {{"--json", path("kitti")}, "kitti: is a folder"},
-      {{"--json", file, "--csv", file}, "results: is named twice"},
+      {{"--json", path("kitti")}, "kitti: is a directory"},
+      {{"--json", file, "--csv", file}, "results"},
   };
   for (const auto& [arguments, said] : misuses) {
     std::vector<std::string> all = {"eval", path("kitti")};
@@ -531,6 +532,26 @@ TEST_F(EvalCommand, ResultsThatCannotBeWrittenAreOneLineBeforeAnyWork) {
   EXPECT_EQ(folder_.entries(), 1);
 }
 
+TEST_F(EvalCommand, AResultFileThatCannotBeWrittenIsNoUsageError) {
+  const Outcome outcome = run({"eval", path("kitti"), "--json", "/proc/results.json"});
+
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, is_one_line_with("/proc/results.json"));
+}
+
+TEST_F(EvalCommand, NoResultFileReplacesAnInput) {
+  const auto before = files_below(folder_.path());
+  for (const char* input : {"kitti/labels/a.label", "kitti/velodyne/b.bin"}) {
+    for (const char* option : {"--json", "--csv", "--html"}) {
+      const Outcome outcome = run({"eval", path("kitti"), option, path(input)});
+
+      EXPECT_EQ(outcome.exit_code, 2) << option;
+      EXPECT_THAT(outcome.err, is_one_line_with(path(input)));
+    }
+  }
+  EXPECT_EQ(files_below(folder_.path()), before);
+}
+
 TEST_F(EvalCommand, AFolderForPicturesThatCannotBeMadeIsOneLineBeforeAnyWork) {
   io::put_file(folder_ / "taken", "mine");
 
@@ -538,7 +559,7 @@ TEST_F(EvalCommand, AFolderForPicturesThatCannotBeMadeIsOneLineBeforeAnyWork) {
 
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_THAT(outcome.err, is_one_line_with("taken/drawn: cannot be made"));
+  EXPECT_THAT(outcome.err, is_one_line_with("taken/drawn: cannot be created"));
 }
 
 TEST_F(EvalCommand, SpeedStandsBesideThePapersOwn) {
@@ -734,6 +755,36 @@ TEST_F(EvalCommand, AScanWithoutGroundInTheGroundTruthCountsInTheAccuracyAlone) 
   EXPECT_EQ(after["methods"][0]["f1"], before["methods"][0]["f1"]);
   EXPECT_TRUE(after["methods"][0]["per_scan"][3]["f1"].is_null());
   EXPECT_THAT(io::contents_of(folder_ / "results.csv"), HasSubstr("surface,d,,,,"));
+}
+
+TEST(EvalOnRealScans, SequencesInTheDataSetsOwnLayoutAndAProtocolOfTheirOwn) {
+  const fs::path data = tests::real_scan_folder();
+  if (!fs::exists(data / "sequences") || !fs::exists(data / "pandaset")) {
+    GTEST_SKIP() << "no drives in " << data;
+  }
+  const io::TemporaryFolder folder;
+  const std::string file = (folder / "results.json").string();
+  const auto mean_f1 = [&](const std::vector<std::string>& arguments, std::size_t scans) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json results = json_of(file);
+    EXPECT_EQ(results["scans"], scans);
+    return results["methods"][0]["f1"]["mean"].get<double>();
+  };
+
+  EXPECT_GT(mean_f1({"eval", data.string(), "--sequences", "00,05", "--every", "8", "--methods",
+                     "surface", "--json", file},
+                    4),
+            0.9);
+  EXPECT_GT(mean_f1({"eval", (data / "pandaset").string(), "--protocol",
+                     (data / "pandaset/classes.json").string(), "--methods", "surface",
+                     "--sensor-height", "2.1", "--json", file},
+                    4),
+            0.9);
+  EXPECT_EQ(run({"sweep", (data / "sequences").string(), "--every", "10", "--method", "patchwork",
+                 "--param", "distance_margin=0.1,0.15", "--csv", (folder / "sweep.csv").string()})
+                .exit_code,
+            0);
 }
 
 }  // namespace

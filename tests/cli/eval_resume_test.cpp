@@ -94,7 +94,7 @@ TEST_F(EvalResume, AnInterruptedRunKeepsItsJournalAndGoesOnToTheSameResults) {
   EXPECT_LT(done, scans);
   EXPECT_THAT(stopped.err, is_one_line_with("interrupted, " + std::to_string(done) +
                                             " of 150 scans are done; the same command with "
-                                            "--resume goes on from here"));
+                                            "--resume continues from here"));
   EXPECT_THAT(stopped.out, HasSubstr(std::to_string(done) + " scans of kitti"));
   EXPECT_FALSE(fs::exists(folder_ / "results.json"));
 

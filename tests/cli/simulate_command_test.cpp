@@ -56,8 +56,8 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
   const fs::path sequence = folder / "out" / "sequences" / "07";
   EXPECT_THAT(
       names_below(folder / "out"),
-      ElementsAre("sequences/07/calib.txt", "sequences/07/echoes/000000.echo.npy",
-                  "sequences/07/echoes/000001.echo.npy", "sequences/07/ground/000000.ground.npy",
+      ElementsAre("sequences/07/calib.txt", "sequences/07/returns/000000.return.npy",
+                  "sequences/07/returns/000001.return.npy", "sequences/07/ground/000000.ground.npy",
                   "sequences/07/ground/000001.ground.npy", "sequences/07/labels/000000.label",
                   "sequences/07/labels/000001.label", "sequences/07/poses.txt",
                   "sequences/07/scene.json", "sequences/07/velodyne/000000.bin",
@@ -70,8 +70,8 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
     std::vector<float> ground;
     EXPECT_THAT(io::read_height_file(sequence / "ground" / (frame + ".ground.npy"), points, ground),
                 io::is_ok());
-    std::vector<std::uint32_t> echoes;
-    EXPECT_THAT(io::read_reference(sequence / "echoes" / (frame + ".echo.npy"), points, echoes),
+    std::vector<std::uint32_t> returns;
+    EXPECT_THAT(io::read_reference(sequence / "returns" / (frame + ".return.npy"), points, returns),
                 io::is_ok());
   }
   EXPECT_NE(files["velodyne/000000.bin"], files["velodyne/000001.bin"]);
@@ -120,9 +120,9 @@ TEST(SimulateCommand, SaysWhatEveryPointOfASensorInTheRainIsAnEchoOf) {
   auto files = files_below(sequence);
   const std::size_t points = files["velodyne/000000.bin"].size() / 16;
   EXPECT_EQ(points, 24'000U) << "one for every beam";
-  std::vector<std::uint32_t> echoes;
+  std::vector<std::uint32_t> returns;
   std::vector<std::uint32_t> classes;
-  ASSERT_THAT(io::read_reference(sequence / "echoes" / "000000.echo.npy", points, echoes),
+  ASSERT_THAT(io::read_reference(sequence / "returns" / "000000.return.npy", points, returns),
               io::is_ok());
   ASSERT_THAT(io::read_reference(sequence / "labels" / "000000.label", points, classes),
               io::is_ok());
@@ -130,8 +130,8 @@ TEST(SimulateCommand, SaysWhatEveryPointOfASensorInTheRainIsAnEchoOf) {
     constexpr std::uint32_t surface = 0;
     constexpr std::uint32_t none = 6;
     constexpr std::uint32_t outlier = 1;
-    EXPECT_EQ(classes[i] == outlier, echoes[i] != surface && echoes[i] != none);
-    EXPECT_EQ(classes[i] == 0, echoes[i] == none);
+    EXPECT_EQ(classes[i] == outlier, returns[i] != surface && returns[i] != none);
+    EXPECT_EQ(classes[i] == 0, returns[i] == none);
   }
   const auto scene = nlohmann::json::parse(files["scene.json"]);
   EXPECT_EQ(scene["sensor"]["rosette"], nlohmann::json::array({61.803, -38.197}));
@@ -140,7 +140,7 @@ TEST(SimulateCommand, SaysWhatEveryPointOfASensorInTheRainIsAnEchoOf) {
   EXPECT_EQ(scene["noise"]["rain_rate"], 0.02);
   EXPECT_EQ(scene["no_returns_kept"], true);
   EXPECT_EQ(scene["classes"]["40"], "road");
-  EXPECT_EQ(scene["files"]["echoes"], "echoes/NNNNNN.echo.npy");
+  EXPECT_EQ(scene["files"]["returns"], "returns/NNNNNN.return.npy");
 }
 
 TEST(SimulateCommand, TakesASensorFromAFile) {
@@ -171,7 +171,7 @@ TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
   fs::remove(resumed / "velodyne" / "000001.bin");
   fs::resize_file(resumed / "labels" / "000002.label", 1000);
   fs::remove(resumed / "ground" / "000003.ground.npy");
-  fs::resize_file(resumed / "echoes" / "000004.echo.npy", 200);
+  fs::resize_file(resumed / "returns" / "000004.return.npy", 200);
   const Outcome finished =
       simulate(folder / "resumed", "bumpy_field", {"--frames", "12", "--threads", "2"});
 
@@ -230,6 +230,9 @@ TEST(SimulateCommand, NumbersOutsideTheirRangeAreOneLine) {
                                                 {"--frames", "100001"},
                                                 {"--frames", "ten"},
                                                 {"--seed", "-1"},
+                                                {"--seed", "18446744073709551616"},  // 2^64
+                                                {"--seed", std::string(309, '9')},
+                                                {"--sensor-height", "nan"},
                                                 {"--threads", "0"},
                                                 {"--sequence", "7"},
                                                 {"--sensor", "hdl-65"},
@@ -294,7 +297,7 @@ TEST(SimulateCommand, AnOutputFolderThatCannotBeMadeIsOneLine) {
   const Outcome outcome = simulate(folder / "taken", "flat_street", {"--frames", "1"});
 
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, is_one_line_with("cannot be made"));
+  EXPECT_THAT(outcome.err, is_one_line_with("cannot be created"));
 }
 
 }  // namespace

@@ -68,18 +68,28 @@ Status add_velodyne(const fs::path& folder, const std::string& prefix, std::size
   return {};
 }
 
+/// The folder whose subfolders are sequences: `folder` itself or its sequences/; empty if neither.
+fs::path folder_of_sequences(const fs::path& folder) {
+  if (is_folder(folder / "sequences")) return folder / "sequences";
+  std::vector<fs::path> entries;
+  if (is_folder(folder / "velodyne") || !entries_of(folder, entries).ok()) return {};
+  const bool has_sequences = std::ranges::any_of(
+      entries, [](const fs::path& entry) { return is_folder(entry / "velodyne"); });
+  return has_sequences ? folder : fs::path();
+}
+
 Status add_tree(const fs::path& folder, const Selection& selection,
                 std::vector<LabelledScan>& scans) {
   std::vector<fs::path> sequences;
   if (selection.sequences.empty()) {
     std::vector<fs::path> entries;
-    if (Status status = entries_of(folder / "sequences", entries); !status.ok()) return status;
+    if (Status status = entries_of(folder, entries); !status.ok()) return status;
     std::ranges::copy_if(entries, std::back_inserter(sequences), [](const fs::path& sequence) {
       return is_folder(sequence / "velodyne") && is_folder(sequence / "labels");
     });
   } else {
     for (const std::string& name : selection.sequences) {
-      sequences.push_back(folder / "sequences" / name);
+      sequences.push_back(folder / name);
     }
   }
   if (sequences.empty()) {
@@ -119,8 +129,8 @@ Status list_dataset(const fs::path& folder, const Selection& selection,
                     std::vector<LabelledScan>& scans) {
   if (!is_folder(folder)) return io::refuse(folder, "no such folder");
   const std::size_t every = std::max<std::size_t>(selection.every, 1);
-  if (is_folder(folder / "sequences")) {
-    return add_tree(folder, {selection.sequences, every}, scans);
+  if (const fs::path tree = folder_of_sequences(folder); !tree.empty()) {
+    return add_tree(tree, {selection.sequences, every}, scans);
   }
   if (!selection.sequences.empty()) {
     return io::refuse(folder, fmt::format("has no sequences/ to pick {} from",

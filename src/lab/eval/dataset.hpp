@@ -27,8 +27,8 @@ struct Selection {
 
 /// Lists the labelled scans of a folder, sequence by sequence, each in the order of its names:
 /// - a SemanticKITTI tree, `sequences/NN/velodyne/*.bin` with `sequences/NN/labels/*.label`, which
-///   is what the simulator writes too; sequences without labels are passed over unless they are
-///   asked for by name;
+///   is what the simulator writes too, or its folder `sequences` itself; sequences without labels
+///   are skipped unless they are selected by name;
 /// - a folder with `velodyne/` and `labels/`;
 /// - nuScenes-lidarseg files beside each other, `NAME.pcd.bin` and `NAME_lidarseg.bin`.
 /// `ground/NAME.ground.npy` beside `velodyne/` tells where the ground is, as the simulator knows

@@ -57,6 +57,14 @@ TEST_F(Dataset, ASemanticKittiTreeIsListedSequenceBySequence) {
   EXPECT_THAT(names(), ElementsAre("00/000007", "05/000000", "05/000001"));
 }
 
+TEST_F(Dataset, TheFolderOfSequencesItselfMayBeNamed) {
+  put_pairs("05", {"000001", "000000"});
+  put_pairs("00", {"000007"});
+
+  EXPECT_THAT(names(), ElementsAre("00/000007", "05/000000", "05/000001"));
+  EXPECT_THAT(names({.sequences = {"00"}}), ElementsAre("00/000007"));
+}
+
 TEST_F(Dataset, TrueGroundIsFoundBesideTheLabels) {
   put_pairs("sequences/00", {"000000", "000001"});
   put("sequences/00/ground/000001.ground.npy");
