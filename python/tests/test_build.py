@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 import importlib
+import json
 import sys
 from pathlib import Path
 
@@ -8,10 +9,12 @@ import pytest
 
 pytest.importorskip("scikit_build_core")
 
+REPOSITORY = Path(__file__).resolve().parents[2]
+
 
 @pytest.fixture
 def backend(monkeypatch):
-    monkeypatch.syspath_prepend(str(Path(__file__).resolve().parents[1]))
+    monkeypatch.syspath_prepend(str(REPOSITORY / "python"))
     yield importlib.import_module("build_backend")
     sys.modules.pop("build_backend")
 
@@ -47,3 +50,11 @@ def test_without_a_terminal_nothing_is_announced(backend, tmp_path):
 def test_the_hooks_of_scikit_build_core_are_all_there(backend):
     build = importlib.import_module("scikit_build_core.build")
     assert all(hasattr(backend, hook) for hook in build.__all__)
+
+
+def test_warnings_are_errors_for_tests_but_not_for_users():
+    presets = json.loads((REPOSITORY / "CMakePresets.json").read_text())["configurePresets"]
+    variables = {preset["name"]: preset["cacheVariables"] for preset in presets}
+    assert variables["test"]["FLAGSTONE_WARNINGS_AS_ERRORS"] == "ON"
+    assert "FLAGSTONE_WARNINGS_AS_ERRORS" not in variables["release"]
+    assert "WARNINGS_AS_ERRORS" not in (REPOSITORY / "pyproject.toml").read_text()
