@@ -162,11 +162,12 @@ def check(path, found):
 # --- the command line ---------------------------------------------------------------------------------------
 
 
-def main(description, page, results_file, tables, measure, names=(), can_try=False, draw=None):
+def main(description, page, results_file, tables, measure, names=(), can_try=False, draw=None, verify=None):
     """The command line of a study whose `tables(results)` stand in a page.
 
     `measure(options)` returns results that JSON can hold, of the measurements in `names` that were asked for. `draw`
-    makes pictures from the results.
+    makes pictures from the results. `verify(results, flagstone)` returns what is stale in results that other settings
+    were measured with than those of the command.
     """
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
@@ -180,7 +181,11 @@ def main(description, page, results_file, tables, measure, names=(), can_try=Fal
         try_command = commands.add_parser("try", parents=[measured], help="measure, print the tables")
         try_command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="of the method")
     commands.add_parser("page", help="write the page from the results")
-    commands.add_parser("check", help="fail if the page's tables are not those of the results")
+    check_command = commands.add_parser("check", help="fail if the page's tables are not those of the results")
+    if verify:
+        check_command.add_argument(
+            "--flagstone", type=pathlib.Path, help="fail too if its settings are not those that were measured"
+        )
     options = parser.parse_args()
 
     results = json.loads(results_file.read_text()) if results_file.exists() else {}
@@ -199,6 +204,8 @@ def main(description, page, results_file, tables, measure, names=(), can_try=Fal
         results |= found
         results_file.write_text(json.dumps(results, indent=1) + "\n")
     if options.command == "check":
+        if verify and options.flagstone and (stale := verify(results, options.flagstone.resolve())):
+            sys.exit(f"{results_file.name} was measured with other settings, run the study again: {'; '.join(stale)}")
         check(page, tables(results))
     page.write_text(filled(page.read_text(), tables(results)))
     if draw:

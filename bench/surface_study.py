@@ -124,14 +124,17 @@ class Study(Runs):
 
     def surface_defaults(self):
         """The settings of `surface` but for the sensor's height: key -> (value, meaning with unit)."""
-        import tomllib  # from Python 3.11 on; tables are written and checked with less
+        return surface_settings(self, "".join(f" --set {setting}" for setting in self.settings))
 
-        overriding = "".join(f" --set {setting}" for setting in self.settings)
-        text = self.call(f"flagstone config --method surface{overriding}")
-        values = flat(tomllib.loads(text))
-        meanings = dict(zip(values, re.findall(r"^\w+ = \S+  # (.*)$", text, flags=re.MULTILINE)))
-        values.pop("sensor_height")
-        return {key: (value, meanings[key]) for key, value in values.items()}
+
+def surface_settings(runs, options=""):
+    import tomllib  # from Python 3.11 on; tables are written and checked with less
+
+    text = runs.call(f"flagstone config --method surface{options}")
+    values = flat(tomllib.loads(text))
+    meanings = dict(zip(values, re.findall(r"^\w+ = \S+  # (.*)$", text, flags=re.MULTILINE)))
+    values.pop("sensor_height")
+    return {key: (value, meanings[key]) for key, value in values.items()}
 
 
 def flat(values, prefix=""):
@@ -672,5 +675,17 @@ def measure(options):
     return results
 
 
+def changed_defaults(results, flagstone):
+    """Settings of `surface` whose defaults are not those that were measured."""
+    with tempfile.TemporaryDirectory(prefix="flagstone-defaults-") as place:
+        defaults = surface_settings(Runs(pathlib.Path(place), flagstone))
+    measured = {row["setting"]: row["default"] for row in results["settings"]["rows"]}
+    return [
+        f"{key} is {defaults[key][0] if key in defaults else 'unknown'}, measured with {measured.get(key)}"
+        for key in {**defaults, **measured}
+        if key not in defaults or defaults[key][0] != measured.get(key)
+    ]
+
+
 if __name__ == "__main__":
-    main(__doc__, PAGE, RESULTS, tables, measure, MEASUREMENTS, can_try=True)
+    main(__doc__, PAGE, RESULTS, tables, measure, MEASUREMENTS, can_try=True, verify=changed_defaults)

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "lab/sim/geometry.hpp"
@@ -66,5 +67,11 @@ class Traffic {
   std::vector<Stop> route_;
   std::vector<Mover> movers_;
 };
+
+/// The traffic as what moves in a Landscape.
+inline std::function<Mesh(const Ground&, int stop)> moving(Traffic traffic) {
+  return
+      [traffic = std::move(traffic)](const Ground& on, int stop) { return traffic.at(on, stop); };
+}
 
 }  // namespace flagstone::sim

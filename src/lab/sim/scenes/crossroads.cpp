@@ -478,8 +478,7 @@ Landscape crossroads(std::uint64_t seed) {
                 Random own = random;
                 return Furnisher(shape, on, own).take();
               },
-          .moving = [traffic = std::move(traffic)](const Ground& on,
-                                                   int stop) { return traffic.at(on, stop); }};
+          .moving = moving(std::move(traffic))};
 }
 
 }  // namespace flagstone::sim

@@ -234,8 +234,7 @@ Landscape embankment(std::uint64_t seed) {
       .route = std::move(route),
       .furnish = [road, random](const Ground& on) { return furnish_embankment(*road, on, random); },
       .steps = std::move(known),
-      .moving = [traffic = std::move(traffic)](const Ground& on,
-                                               int stop) { return traffic.at(on, stop); }};
+      .moving = moving(std::move(traffic))};
 }
 
 }  // namespace flagstone::sim

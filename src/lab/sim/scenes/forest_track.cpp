@@ -170,8 +170,7 @@ Landscape forest_track(std::uint64_t seed) {
           .route = std::move(route),
           .furnish = [track = std::move(track),
                       random](const Ground& on) { return furnish_forest(track, on, random); },
-          .moving = [walkers = std::move(walkers)](const Ground& on,
-                                                   int stop) { return walkers.at(on, stop); }};
+          .moving = moving(std::move(walkers))};
 }
 
 }  // namespace flagstone::sim

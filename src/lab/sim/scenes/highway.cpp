@@ -286,8 +286,7 @@ Landscape highway(std::uint64_t seed) {
           .route = std::move(route),
           .furnish = [road = std::move(road),
                       random](const Ground& on) { return furnish_highway(road, on, random); },
-          .moving = [traffic = std::move(traffic)](const Ground& on,
-                                                   int stop) { return traffic.at(on, stop); }};
+          .moving = moving(std::move(traffic))};
 }
 
 }  // namespace flagstone::sim

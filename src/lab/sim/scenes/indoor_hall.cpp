@@ -287,8 +287,7 @@ Landscape indoor_hall(std::uint64_t seed) {
                 Random own = random;
                 return Furnisher(hall, on, own).take();
               },
-          .moving = [traffic = std::move(traffic)](const Ground& on,
-                                                   int stop) { return traffic.at(on, stop); }};
+          .moving = moving(std::move(traffic))};
 }
 
 }  // namespace flagstone::sim

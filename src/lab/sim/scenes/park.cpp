@@ -202,8 +202,7 @@ Landscape park(std::uint64_t seed) {
           .route = std::move(route),
           .furnish = [park = std::move(park),
                       random](const Ground& on) { return furnish_park(park, on, random); },
-          .moving = [walkers = std::move(walkers)](const Ground& on,
-                                                   int stop) { return walkers.at(on, stop); }};
+          .moving = moving(std::move(walkers))};
 }
 
 }  // namespace flagstone::sim

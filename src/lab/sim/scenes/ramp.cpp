@@ -312,8 +312,7 @@ Landscape ramp(std::uint64_t seed) {
                 Random own = random;
                 return Builder(park, on, own).take();
               },
-          .moving = [traffic = std::move(traffic)](const Ground& on,
-                                                   int stop) { return traffic.at(on, stop); }};
+          .moving = moving(std::move(traffic))};
 }
 
 }  // namespace flagstone::sim

@@ -321,8 +321,7 @@ Landscape tunnel(std::uint64_t seed) {
           .route = std::move(route),
           .furnish = [drawn = std::move(drawn),
                       random](const Ground& on) { return furnish_tunnel(drawn, on, random); },
-          .moving = [traffic = std::move(traffic)](const Ground& on,
-                                                   int stop) { return traffic.at(on, stop); }};
+          .moving = moving(std::move(traffic))};
 }
 
 }  // namespace flagstone::sim

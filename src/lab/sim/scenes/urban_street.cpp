@@ -229,8 +229,7 @@ Landscape urban_street(std::uint64_t seed) {
           .route = std::move(route),
           .furnish = [town = std::move(town), path,
                       random](const Ground& on) { return furnish_town(town, on, path, random); },
-          .moving = [traffic = std::move(traffic)](const Ground& on,
-                                                   int stop) { return traffic.at(on, stop); }};
+          .moving = moving(std::move(traffic))};
 }
 
 }  // namespace flagstone::sim
