@@ -123,14 +123,16 @@ class Study(Runs):
         return [self.known[command] for command in commands]
 
     def surface_defaults(self):
-        """The settings of `surface` but for the sensor's height: key -> (value, meaning with unit)."""
+        """Those of `surface` that hold throughout."""
         return surface_settings(self, "".join(f" --set {setting}" for setting in self.settings))
 
 
 def surface_settings(runs, options=""):
+    """The settings of `surface` but for the sensor's height: key -> (value, meaning with unit)."""
     import tomllib  # from Python 3.11 on; tables are written and checked with less
 
     text = runs.call(f"flagstone config --method surface{options}")
+    text = text.partition("\n[mount]")[0]  # how the sensor is mounted belongs to no method
     values = flat(tomllib.loads(text))
     meanings = dict(zip(values, re.findall(r"^\w+ = \S+  # (.*)$", text, flags=re.MULTILINE)))
     values.pop("sensor_height")
