@@ -29,7 +29,7 @@
 
 #include "clouds.hpp"
 #include "lab/bench/allocation_count.hpp"
-#include "lab/bench/timed_method.hpp"
+#include "lab/bench/candidates.hpp"
 #include "lab/eval/results_export.hpp"
 #include "library/core/simd_target.hpp"
 #include "terminal.hpp"

@@ -25,9 +25,8 @@
 #include "files/io/message.hpp"
 #include "files/io/read_cloud.hpp"
 #include "lab/bench/benchmark.hpp"
-#include "lab/bench/results_json.hpp"
-#include "lab/bench/results_text.hpp"
-#include "lab/bench/timed_method.hpp"
+#include "lab/bench/candidates.hpp"
+#include "lab/bench/results.hpp"
 #include "library/core/simd_target.hpp"
 
 namespace flagstone::cli {
@@ -39,7 +38,7 @@ struct BenchOptions {
   MethodOptions method;
   bench::BenchmarkSettings settings;
   bool peers = false;
-  bench::PeerPlaces places;
+  bench::ExternalToolPaths places;
   bool json = false;
 };
 
@@ -71,7 +70,7 @@ bench::TimedConfig timed_config(const MethodOptions& options, MountSettings& mou
 int bench(const BenchOptions& options) {
   bench::BenchmarkSettings settings = options.settings;
   settings.config = timed_config(options.method, settings.mount);
-  if (options.peers) settings.peers = options.places;
+  if (options.peers) settings.external_tools = options.places;
   const std::vector<ScanInput> inputs = find_scans(options.scans);
   const std::vector<io::Cloud> clouds = read_scans(inputs, options.columns);
   if (clouds.empty()) return 1;
@@ -109,7 +108,8 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       "bench",
       "Time surface or Patchwork on scans, stage by stage, beside other programs.\n\n"
       "Example:  flagstone bench scans/ --compare\n\n"
-      "Scans are taken in rotation. The bare pass reads x, y and z of every point and writes one\n"
+      "Scans are taken in rotation. The read baseline reads x, y and z of every point and writes "
+      "one\n"
       "byte a point. Ratios are medians of times of the same scan and round.\n");
   command
       ->add_option("scans", options->scans,
@@ -140,7 +140,9 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       "--compare", options->peers,
       "Time pypatchworkpp, Open3D's and PCL's plane RANSAC on the same points too, as far as they "
       "are installed");
-  command->add_option("--python", options->places.python, "Python that has the peers' packages")
+  command
+      ->add_option("--python", options->places.python,
+                   "Python that has the packages of the other implementations")
       ->needs(peers)
       ->capture_default_str()
       ->type_name("COMMAND");

@@ -72,7 +72,7 @@ TEST(Bench, JsonHasTheTimesOfSegmentFloorAndEveryStage) {
       EXPECT_TRUE(bench["stages"][stage][figure].is_number()) << stage << " " << figure;
     }
   }
-  EXPECT_EQ(bench["peers"], json::object());
+  EXPECT_EQ(bench["external_tools"], json::object());
   EXPECT_EQ(bench["target"], "scalar");
   EXPECT_EQ(bench["allocations"], 0);
   EXPECT_GT(bench["bytes_held"].get<double>(), 3000);
@@ -102,7 +102,7 @@ TEST(Bench, PatchworkIsTimedWithItsOwnSettingsAndStages) {
   EXPECT_GT(ground_with("distance_margin=1"), ground_with("distance_margin=0.1"));
 }
 
-TEST(Bench, WithoutJsonPrintsATableOfContestantsAndOneOfStages) {
+TEST(Bench, WithoutJsonPrintsATableOfCandidatesAndOneOfStages) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
 
@@ -110,7 +110,7 @@ TEST(Bench, WithoutJsonPrintsATableOfContestantsAndOneOfStages) {
 
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, HasSubstr("1 scan of 4000 points (mean) in rotation, 2 rounds"));
-  for (const char* row : {"segment ", "bare pass", "segment, scalar build"}) {
+  for (const char* row : {"segment ", "read baseline", "segment, scalar build"}) {
     EXPECT_THAT(outcome.out, ContainsRegex(std::string("\n") + row));
   }
   for (const std::string& stage : stages) {
@@ -156,7 +156,7 @@ TEST(Bench, APeerIsMeasuredByItsOwnClockAndAMissingOneIsLeftOutByName) {
   const Outcome outcome = run(arguments);
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const json peers = json::parse(outcome.out)["peers"];
+  const json peers = json::parse(outcome.out)["external_tools"];
   const json& peer = peers["pypatchworkpp-patchwork"];
   EXPECT_EQ(peer["median_ms"], 5);
   EXPECT_EQ(peer["p99_ms"], 5);
@@ -180,8 +180,9 @@ TEST(Bench, APeerThatFailsIsLeftOutAndTheOthersGoOn) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const json bench = json::parse(outcome.out);
   EXPECT_EQ(bench["rounds"], 300);
-  EXPECT_EQ(bench["peers"]["pypatchworkpp-patchwork"]["left_out"], "its worker ended too early");
-  EXPECT_EQ(bench["peers"]["pypatchworkpp-patchwork"]["samples"], 1);
+  EXPECT_EQ(bench["external_tools"]["pypatchworkpp-patchwork"]["left_out"],
+            "its worker ended too early");
+  EXPECT_EQ(bench["external_tools"]["pypatchworkpp-patchwork"]["samples"], 1);
 }
 
 TEST(Bench, WithoutWorkerOrPythonPeersAreLeftOut) {
@@ -196,10 +197,12 @@ TEST(Bench, WithoutWorkerOrPythonPeersAreLeftOut) {
       run({"bench", scan, "--rounds", "1", "--json", "--compare", "--python", "no-such-python",
            "--compare-worker", (folder / "worker.sh").string()});
 
-  EXPECT_THAT(json::parse(no_worker.out)["peers"]["open3d-ransac"]["left_out"].get<std::string>(),
-              HasSubstr("none.py: no such file"));
-  EXPECT_THAT(json::parse(no_python.out)["peers"]["open3d-ransac"]["left_out"].get<std::string>(),
-              HasSubstr("no-such-python cannot be started"));
+  EXPECT_THAT(
+      json::parse(no_worker.out)["external_tools"]["open3d-ransac"]["left_out"].get<std::string>(),
+      HasSubstr("none.py: no such file"));
+  EXPECT_THAT(
+      json::parse(no_python.out)["external_tools"]["open3d-ransac"]["left_out"].get<std::string>(),
+      HasSubstr("no-such-python cannot be started"));
 }
 
 TEST(Bench, InterruptedItPrintsWhatWasMeasured) {

@@ -11,15 +11,23 @@
 
 #include "flagstone/cloud_view.hpp"
 #include "lab/bench/allocation_count.hpp"
-#include "lab/bench/contestant.hpp"
+#include "lab/bench/candidates.hpp"
 #include "lab/bench/pinned_core.hpp"
-#include "lab/bench/rotation.hpp"
-#include "lab/bench/timed_bare_pass.hpp"
-#include "lab/bench/timed_segment.hpp"
 #include "library/core/simd_target.hpp"
 #include "library/core/stopwatch.hpp"
 
 namespace flagstone::bench {
+
+std::vector<std::size_t> order_of_round(std::size_t candidates, std::size_t round) {
+  std::vector<std::size_t> order(candidates);
+  for (std::size_t i = 0; i < candidates; ++i) {
+    const std::size_t step = round % 2 == 0 ? i : candidates - i;
+    // Two rounds, one each way, begin with the same candidate.
+    order[i] = (round / 2 + step) % candidates;
+  }
+  return order;
+}
+
 namespace {
 
 constexpr double seconds_by_default = 10;
@@ -38,9 +46,9 @@ struct TargetReset {
 
 /// Who takes part.
 struct Entrant {
-  std::unique_ptr<Contestant> contestant;  // none once it failed
-  std::function<void(std::size_t round, std::size_t scan, const Visit&)> note;
-  PeerResult* peer = nullptr;  // none for ours
+  std::unique_ptr<Candidate> candidate;  // none once it failed
+  std::function<void(std::size_t round, std::size_t scan, const Trial&)> note;
+  ExternalToolResult* tool = nullptr;  // none for ours
 };
 
 std::vector<CloudView> views_of(std::span<const io::Cloud> scans) {
@@ -72,14 +80,14 @@ class Benchmark {
       results_.core = pinned_->core();
     }
     enter_ours();
-    if (settings.peers) enter_peers(*settings.peers);
+    if (settings.external_tools) enter_external_tools(*settings.external_tools);
   }
 
   Results run() {
     const std::size_t rounds = warm_up();
     for (std::size_t round = 0; round < rounds && !watch_.stop(); ++round) {
-      // Between rounds of peers it would not be known how long the rest takes.
-      if (has_peers(round)) watch_.progress(round, rounds);
+      // Between rounds of external tools it would not be known how long the rest takes.
+      if (has_external_tools(round)) watch_.progress(round, rounds);
       results_.rounds = round + 1;
       run_round(round);
     }
@@ -91,24 +99,24 @@ class Benchmark {
     auto segment = segmenter(results_.target, TimedSegment::Stages::not_timed);
     const TimedSegment* const timed = segment.get();
     enter(
-        std::move(segment), [this, timed](std::size_t round, std::size_t scan, const Visit& visit) {
-          add(results_.segment, round, scan, visit);
+        std::move(segment), [this, timed](std::size_t round, std::size_t scan, const Trial& trial) {
+          add(results_.segment, round, scan, trial);
           if (results_.allocations) {
             results_.allocations = std::max(results_.allocations.value_or(0), timed->allocations());
           }
         });
-    enter(std::make_unique<TimedBarePass>(views_, results_.target),
-          [this](auto round, auto scan, const Visit& visit) {
-            add(results_.floor, round, scan, visit);
+    enter(std::make_unique<TimedReadBaseline>(views_, results_.target),
+          [this](auto round, auto scan, const Trial& trial) {
+            add(results_.floor, round, scan, trial);
           });
     enter(segmenter("scalar", TimedSegment::Stages::not_timed),
-          [this](auto round, auto scan, const Visit& visit) {
-            add(results_.scalar, round, scan, visit);
+          [this](auto round, auto scan, const Trial& trial) {
+            add(results_.scalar, round, scan, trial);
           });
     enter(segmenter(results_.target, TimedSegment::Stages::timed),
-          [this](std::size_t round, std::size_t scan, const Visit& visit) {
+          [this](std::size_t round, std::size_t scan, const Trial& trial) {
             for (StageResult& stage : results_.stages) {
-              const double seconds = visit.stages[static_cast<std::size_t>(stage.stage)];
+              const double seconds = trial.stages[static_cast<std::size_t>(stage.stage)];
               stage.times.add(round, scan, 1000 * seconds);
             }
           });
@@ -120,7 +128,8 @@ class Benchmark {
     const std::size_t held_before = allocation_count().bytes;
     auto made = std::make_unique<TimedSegment>(views_, settings_.config, settings_.mount,
                                                settings_.threads, target, stages);
-    for (std::size_t scan = 0; scan < scans_.size() && !watch_.stop(); ++scan) made->visit(scan);
+    for (std::size_t scan = 0; scan < scans_.size() && !watch_.stop(); ++scan)
+      made->run_trial(scan);
     if (!results_.bytes_held && allocations_are_counted()) {
       results_.bytes_held = allocation_count().bytes - held_before;
       results_.allocations = 0;
@@ -128,87 +137,89 @@ class Benchmark {
     return made;
   }
 
-  void enter_peers(const PeerPlaces& places) {
-    const auto known = known_peers(places, sensor_height(settings_.config));
-    results_.peers.reserve(known.size());  // they are pointed to
-    for (const PeerCommand& command : known) {
-      results_.peers.push_back({command.name, Measured(scans_.size()), command.missing});
-      PeerResult& result = results_.peers.back();
+  void enter_external_tools(const ExternalToolPaths& places) {
+    const auto known = known_external_tools(places, sensor_height(settings_.config));
+    results_.external_tools.reserve(known.size());  // they are pointed to
+    for (const ExternalToolCommand& command : known) {
+      results_.external_tools.push_back({command.name, Measured(scans_.size()), command.missing});
+      ExternalToolResult& result = results_.external_tools.back();
       if (!command.missing.empty() || watch_.stop()) continue;
       try {
-        auto peer = std::make_unique<Peer>(command);
-        peer->take(scans_);
-        enter(std::move(peer), [&result](auto round, auto scan, const Visit& visit) {
-          add(result.measured, round, scan, visit);
+        auto tool = std::make_unique<ExternalTool>(command);
+        tool->take(scans_);
+        enter(std::move(tool), [&result](auto round, auto scan, const Trial& trial) {
+          add(result.measured, round, scan, trial);
         });
-        entrants_.back().peer = &result;
-      } catch (const PeerError& error) {
+        entrants_.back().tool = &result;
+      } catch (const ExternalToolError& error) {
         result.left_out = error.what();
       }
     }
   }
 
   template <class Note>
-  void enter(std::unique_ptr<Contestant> contestant, Note note) {
-    entrants_.push_back({std::move(contestant), std::move(note)});
+  void enter(std::unique_ptr<Candidate> candidate, Note note) {
+    entrants_.push_back({std::move(candidate), std::move(note)});
   }
 
-  static void add(Measured& measured, std::size_t round, std::size_t scan, const Visit& visit) {
-    measured.times.add(round, scan, visit.milliseconds);
-    measured.ground[scan] = visit.ground;
+  static void add(Measured& measured, std::size_t round, std::size_t scan, const Trial& trial) {
+    measured.times.add(round, scan, trial.milliseconds);
+    measured.ground[scan] = trial.ground;
   }
 
   /// Has everybody take all scans; how many rounds to make.
   std::size_t warm_up() {
     const auto seconds_of = [&](std::size_t begin, std::size_t end) {
       Stopwatch stopwatch;
-      for (std::size_t i = begin; i < end; ++i) visit_all(entrants_[i], std::nullopt);
+      for (std::size_t i = begin; i < end; ++i) try_all(entrants_[i], std::nullopt);
       return stopwatch.lap() / 1000;
     };
     seconds_of(0, ours_);
     const double own = seconds_of(0, ours_);
-    const double peers = seconds_of(ours_, entrants_.size());
+    const double tools = seconds_of(ours_, entrants_.size());
     drop_failed();
     if (own <= 0) return 0;  // interrupted
     // Both take about as long then.
-    rounds_per_peer_round_ = static_cast<std::size_t>(std::clamp(peers / own, 1.0, 1e6));
+    rounds_per_tool_round_ = static_cast<std::size_t>(std::clamp(tools / own, 1.0, 1e6));
     if (settings_.rounds != 0) return settings_.rounds;
-    const double each = own + peers / static_cast<double>(rounds_per_peer_round_);
+    const double each = own + tools / static_cast<double>(rounds_per_tool_round_);
     return static_cast<std::size_t>(
         std::clamp(seconds_by_default / each, fewest_rounds, most_rounds));
   }
 
-  /// Do peers take part in this round? Without any, every round is as good as one of theirs.
-  [[nodiscard]] bool has_peers(std::size_t round) const {
-    return round % rounds_per_peer_round_ == 0;
+  /// Do external tools take part in this round? Without any, every round is as good as one of
+  /// theirs.
+  [[nodiscard]] bool has_external_tools(std::size_t round) const {
+    return round % rounds_per_tool_round_ == 0;
   }
 
   void run_round(std::size_t round) {
-    const bool with_peers = has_peers(round);
-    // Rounds with peers and those without are counted apart, so that each kind sees every order.
-    const std::size_t peer_rounds = round / rounds_per_peer_round_;
-    const std::size_t turn = with_peers ? peer_rounds : round - peer_rounds - 1;
-    for (const std::size_t i : order_of_round(with_peers ? entrants_.size() : ours_, turn)) {
-      visit_all(entrants_[i], round);
+    const bool with_tools = has_external_tools(round);
+    // Rounds with external tools and those without are counted apart, so that each kind sees every
+    // order.
+    const std::size_t tool_rounds = round / rounds_per_tool_round_;
+    const std::size_t turn = with_tools ? tool_rounds : round - tool_rounds - 1;
+    for (const std::size_t i : order_of_round(with_tools ? entrants_.size() : ours_, turn)) {
+      try_all(entrants_[i], round);
     }
     drop_failed();
   }
 
-  /// Outside of rounds it is not noted. A peer that fails says so in its result.
-  void visit_all(Entrant& entrant, std::optional<std::size_t> round) {
+  /// Outside of rounds it is not noted. An external tool that fails says so in its result.
+  void try_all(Entrant& entrant, std::optional<std::size_t> round) {
     try {
       for (std::size_t scan = 0; scan < scans_.size() && !watch_.stop(); ++scan) {
-        const Visit visit = entrant.contestant->visit(scan);
-        if (round) entrant.note(*round, scan, visit);
+        const Trial trial = entrant.candidate->run_trial(scan);
+        if (round) entrant.note(*round, scan, trial);
       }
-    } catch (const PeerError& error) {
-      if (!watch_.stop()) entrant.peer->left_out = error.what();
-      entrant.contestant = nullptr;
+    } catch (const ExternalToolError& error) {
+      if (!watch_.stop()) entrant.tool->left_out = error.what();
+      entrant.candidate = nullptr;
     }
   }
 
   void drop_failed() {
-    std::erase_if(entrants_, [](const Entrant& entrant) { return entrant.contestant == nullptr; });
+    std::erase_if(entrants_, [](const Entrant& entrant) { return entrant.candidate == nullptr; });
   }
 
   std::span<const io::Cloud> scans_;
@@ -218,9 +229,9 @@ class Benchmark {
   std::vector<CloudView> views_;
   Results results_;
   std::unique_ptr<PinnedCore> pinned_;
-  std::vector<Entrant> entrants_;  // ours, then peers
+  std::vector<Entrant> entrants_;  // ours, then external tools
   std::size_t ours_ = 0;
-  std::size_t rounds_per_peer_round_ = 1;
+  std::size_t rounds_per_tool_round_ = 1;
 };
 
 }  // namespace

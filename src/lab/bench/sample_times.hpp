@@ -8,7 +8,7 @@
 
 namespace flagstone::bench {
 
-/// What one contestant took for each scan of each round, in milliseconds; there are rounds, or
+/// What one candidate took for each scan of each round, in milliseconds; there are rounds, or
 /// parts of them, in which it was not asked.
 class SampleTimes {
  public:

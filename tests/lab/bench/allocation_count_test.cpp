@@ -8,7 +8,7 @@
 #include <new>
 #include <vector>
 
-#include "lab/bench/timed_segment.hpp"
+#include "lab/bench/candidates.hpp"
 #include "library/core/simd_target.hpp"
 #include "random_cloud.hpp"
 
@@ -52,9 +52,9 @@ TEST(AllocationCount, TheFirstScanAllocatesAndTheSecondDoesNot) {
   for (const TimedConfig& config : {TimedConfig(PatchworkConfig{}), TimedConfig(SurfaceConfig{})}) {
     TimedSegment segment(views, config, MountSettings{}, 1, simd_target());
 
-    segment.visit(0);
+    segment.run_trial(0);
     const std::size_t first = segment.allocations();
-    segment.visit(0);
+    segment.run_trial(0);
     use_simd_target("");
 
     EXPECT_GT(first, 0U) << method_name(config);

@@ -34,7 +34,7 @@ io::Cloud cloud_of(std::size_t points, std::uint32_t seed) {
 
 const BenchmarkWatch nobody = {.progress = [](auto, auto) {}, .stop = [] { return false; }};
 
-TEST(Benchmark, TimesEveryContestantOnEveryScanOfEveryRound) {
+TEST(Benchmark, TimesEveryCandidateOnEveryScanOfEveryRound) {
   const std::vector<io::Cloud> scans = {cloud_of(2000, 1), cloud_of(3000, 2), cloud_of(1000, 3)};
 
   const Results results = run_benchmark(scans, {.rounds = 4}, nobody);
@@ -46,7 +46,7 @@ TEST(Benchmark, TimesEveryContestantOnEveryScanOfEveryRound) {
     EXPECT_GT(measured->times.median(), 0);
   }
   for (const StageResult& stage : results.stages) EXPECT_EQ(stage.times.count(), 12U);
-  EXPECT_TRUE(results.peers.empty());
+  EXPECT_TRUE(results.external_tools.empty());
 }
 
 class BenchmarkOf : public testing::TestWithParam<std::string_view> {

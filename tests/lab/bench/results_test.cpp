@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
+#include "lab/bench/results.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,9 +9,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include "lab/bench/results_json.hpp"
-#include "lab/bench/results_text.hpp"
 
 namespace flagstone::bench {
 namespace {
@@ -33,11 +32,11 @@ Results example(std::string_view method = "patchwork") {
     results.scalar.times.add(0, scan, 1.6);
     for (StageResult& stage : results.stages) stage.times.add(0, scan, 0.05);
   }
-  Measured peer(2);
-  peer.times.add(0, 0, 8);
-  peer.ground = {400, std::nullopt};
-  results.peers.push_back({"there", peer, ""});
-  results.peers.push_back({"gone", Measured(2), "No module named 'gone'"});
+  Measured tool(2);
+  tool.times.add(0, 0, 8);
+  tool.ground = {400, std::nullopt};
+  results.external_tools.push_back({"there", tool, ""});
+  results.external_tools.push_back({"gone", Measured(2), "No module named 'gone'"});
   return results;
 }
 
@@ -54,9 +53,9 @@ TEST(Results, JsonHoldsTimesRatiosAndWhyAPeerIsLeftOut) {
   EXPECT_EQ(json["ratio_to_scalar"], 0.25);
   EXPECT_EQ(json["stages"]["gather"]["median_ms"], 0.05);
   EXPECT_EQ(json["stages"]["gather"]["ratio"], 0.5);
-  EXPECT_EQ(json["peers"]["there"]["ratio"], 20);
-  EXPECT_EQ(json["peers"]["there"]["ground"], 0.4);
-  EXPECT_EQ(json["peers"]["gone"]["left_out"], "No module named 'gone'");
+  EXPECT_EQ(json["external_tools"]["there"]["ratio"], 20);
+  EXPECT_EQ(json["external_tools"]["there"]["ground"], 0.4);
+  EXPECT_EQ(json["external_tools"]["gone"]["left_out"], "No module named 'gone'");
   EXPECT_EQ(json["target"], "avx2");
   EXPECT_EQ(json["allocations"], 2);
   EXPECT_EQ(json["core"], 3);
@@ -98,7 +97,7 @@ TEST(Results, TextOfSurfaceNamesItAndHasARowForEveryStage) {
   }
 }
 
-TEST(Results, TextHasARowForEveryContestantAndStage) {
+TEST(Results, TextHasARowForEveryCandidateAndStage) {
   const std::string text = to_text(example());
 
   EXPECT_THAT(text, HasSubstr("Patchwork with avx2, 1 thread; 2 scans of 2000 points (mean) in "
@@ -106,7 +105,7 @@ TEST(Results, TextHasARowForEveryContestantAndStage) {
   EXPECT_THAT(text, HasSubstr("pinned to core 3"));
   EXPECT_THAT(text, ContainsRegex("segment +0.400 +0.400 +5.0 +4.00 +1.000 +25.00 +2\n"));
   EXPECT_THAT(text,
-              ContainsRegex("bare pass \\(floor\\) +0.100 +0.100 +20.0 +1.00 +0.250 +- +2\n"));
+              ContainsRegex("read baseline \\(floor\\) +0.100 +0.100 +20.0 +1.00 +0.250 +- +2\n"));
   EXPECT_THAT(text, ContainsRegex("there +8.000 +8.000 +0.1 +80.00 +20.000 +40.00 +1\n"));
   for (const char* stage : {"bin", "group", "gather", "seed", "moments", "solve", "label"}) {
     EXPECT_THAT(text,

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "lab/bench/rotation.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
 #include <utility>
+
+#include "lab/bench/benchmark.hpp"
 
 namespace flagstone::bench {
 namespace {
@@ -24,13 +24,13 @@ TEST(Rotation, EachBeginsInTurnOnceForwardsAndOnceBackwards) {
 }
 
 TEST(Rotation, EveryoneTakesPartOnceInEveryRound) {
-  for (std::size_t contestants = 1; contestants < 9; ++contestants) {
+  for (std::size_t candidates = 1; candidates < 9; ++candidates) {
     for (std::size_t round = 0; round < 20; ++round) {
-      const auto order = order_of_round(contestants, round);
+      const auto order = order_of_round(candidates, round);
       const std::set<std::size_t> distinct(order.begin(), order.end());
-      EXPECT_EQ(order.size(), contestants);
-      EXPECT_EQ(distinct.size(), contestants);
-      EXPECT_LT(*distinct.rbegin(), contestants);
+      EXPECT_EQ(order.size(), candidates);
+      EXPECT_EQ(distinct.size(), candidates);
+      EXPECT_LT(*distinct.rbegin(), candidates);
     }
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "lab/bench/bare_pass.hpp"
+#include "lab/bench/read_baseline.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -68,39 +68,39 @@ class GuardedMemory {
   std::size_t size_;
 };
 
-class BarePass : public testing::TestWithParam<std::string> {
+class ReadBaseline : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { use_simd_target(GetParam()); }
   void TearDown() override { use_simd_target(""); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Targets, BarePass, testing::ValuesIn(simd_targets()),
+INSTANTIATE_TEST_SUITE_P(Targets, ReadBaseline, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-TEST_P(BarePass, MarksPointsHigherThanTheirXAndYInAnyLayout) {
+TEST_P(ReadBaseline, MarksPointsHigherThanTheirXAndYInAnyLayout) {
   for (const std::size_t floats : {3U, 4U, 5U}) {
     const std::vector<float> rows = rows_of(3001, floats);
     const CloudView cloud(rows.data(), 3001, floats);
     std::vector<std::uint8_t> bytes(cloud.size(), 7);
 
-    bare_pass(cloud, bytes);
+    read_baseline(cloud, bytes);
 
     EXPECT_EQ(bytes, expected_bytes(cloud)) << floats << " floats a point";
     EXPECT_EQ(std::set(bytes.begin(), bytes.end()), (std::set<std::uint8_t>{0, 1}));
   }
 }
 
-TEST_P(BarePass, ReadsPlanarStorageToo) {
+TEST_P(ReadBaseline, ReadsPlanarStorageToo) {
   const std::vector<float> values = rows_of(100, 3);
   const CloudView cloud(values.data(), 100, {.stride = 4, .x = 0, .y = 400, .z = 800});
   std::vector<std::uint8_t> bytes(100, 7);
 
-  bare_pass(cloud, bytes);
+  read_baseline(cloud, bytes);
 
   EXPECT_EQ(bytes, expected_bytes(cloud));
 }
 
-TEST_P(BarePass, ReadsAndWritesNothingPastTheEndWhateverTheNumberOfPoints) {
+TEST_P(ReadBaseline, ReadsAndWritesNothingPastTheEndWhateverTheNumberOfPoints) {
   for (const std::size_t floats : {3U, 4U}) {
     for (std::size_t points = 0; points < 70; ++points) {
       // The last row ends with its z: a fourth float would lie in the forbidden page.
@@ -112,7 +112,7 @@ TEST_P(BarePass, ReadsAndWritesNothingPastTheEndWhateverTheNumberOfPoints) {
       const CloudView cloud(reinterpret_cast<const float*>(input.start()), points, floats);
       const std::span bytes(reinterpret_cast<std::uint8_t*>(output.start()), points);
 
-      bare_pass(cloud, bytes);
+      read_baseline(cloud, bytes);
 
       EXPECT_EQ(std::vector(bytes.begin(), bytes.end()), expected_bytes(cloud)) << points;
     }

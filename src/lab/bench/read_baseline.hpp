@@ -14,6 +14,6 @@ namespace flagstone::bench {
 ///
 /// `bytes` holds cloud.size() of them. Works with the instruction set in use (core/simd_target.hpp)
 /// where x, y and z lie packed, 3 or 4 floats a point, else in plain C++; the bytes are the same.
-void bare_pass(CloudView cloud, std::span<std::uint8_t> bytes) noexcept;
+void read_baseline(CloudView cloud, std::span<std::uint8_t> bytes) noexcept;
 
 }  // namespace flagstone::bench

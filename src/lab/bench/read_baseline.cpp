@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "lab/bench/bare_pass.hpp"
+#include "lab/bench/read_baseline.hpp"
 
 #include <array>
 #include <cstddef>
 
 // Highway compiles this file once for each instruction set.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "lab/bench/bare_pass.cpp"
+#define HWY_TARGET_INCLUDE "lab/bench/read_baseline.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -103,7 +103,7 @@ namespace flagstone::bench {
 HWY_EXPORT(pass_of_4);
 HWY_EXPORT(pass_of_3);
 
-void bare_pass(CloudView cloud, std::span<std::uint8_t> bytes) noexcept {
+void read_baseline(CloudView cloud, std::span<std::uint8_t> bytes) noexcept {
   const CloudLayout& layout = cloud.layout();
   const bool is_packed =
       layout.x == 0 && layout.y == sizeof(float) && layout.z == 2 * sizeof(float);

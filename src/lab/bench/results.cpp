@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "lab/bench/results_text.hpp"
+#include "lab/bench/results.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,82 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "lab/eval/method.hpp"
 #include "lab/eval/results_export.hpp"
 
 namespace flagstone::bench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json times_json(const SampleTimes& times) {
+  return {{"median_ms", times.median()}, {"p99_ms", times.percentile_99()}};
+}
+
+Json segment_json(const Results& results, const Measured& measured) {
+  Json json = times_json(measured.times);
+  json["points_per_second"] = measured.times.points_per_second(results.points);
+  json["ground"] = ground_share(results, measured);
+  return json;
+}
+
+Json stages_json(const Results& results) {
+  Json json = Json::object();
+  for (const StageResult& stage : results.stages) {
+    Json& entry = json[to_string(stage.stage)];
+    entry = times_json(stage.times);
+    entry["ratio"] = stage.times.ratio_to(results.floor.times);
+  }
+  return json;
+}
+
+Json external_tools_json(const Results& results) {
+  Json json = Json::object();
+  for (const ExternalToolResult& tool : results.external_tools) {
+    Json& entry = json[tool.name];
+    if (!tool.left_out.empty()) entry["left_out"] = tool.left_out;
+    if (tool.measured.times.count() == 0) continue;
+    entry.update(segment_json(results, tool.measured));
+    entry["ratio"] = tool.measured.times.ratio_to(results.segment.times);
+    entry["samples"] = tool.measured.times.count();
+  }
+  return json;
+}
+
+}  // namespace
+
+Json to_json(const Results& results) {
+  Json json;
+  json["method"] = results.method;
+  json["segment"] = segment_json(results, results.segment);
+  json["floor"] = times_json(results.floor.times);
+  json["ratio_to_floor"] = results.segment.times.ratio_to(results.floor.times);
+  json["scalar"] = segment_json(results, results.scalar);
+  json["ratio_to_scalar"] = results.segment.times.ratio_to(results.scalar.times);
+  json["stages"] = stages_json(results);
+  json["external_tools"] = external_tools_json(results);
+  json["target"] = results.target;
+  json["allocations"] = or_null(results.allocations);
+  json["bytes_held"] = or_null(results.bytes_held);
+  json["points"] = results.points;
+  json["rounds"] = results.rounds;
+  json["threads"] = results.threads;
+  json["core"] = or_null(results.core);
+  json["machine"] = eval::machine_name();
+  json["date"] = eval::today();
+  return json;
+}
+
 namespace {
 
 /// A number in a column; "-" where there is none.
@@ -56,15 +126,15 @@ std::string row(const Results& results, std::string_view name, const Measured& m
       times.count());
 }
 
-std::string contestants(const Results& results) {
+std::string candidates(const Results& results) {
   std::string text =
       fmt::format("{:<27}{:>10}{:>10}{:>12}{:>9}{:>11}{:>10}{:>9}\n", "", "median ms", "p99 ms",
                   "Mpoints/s", "x floor", "x segment", "ground %", "samples");
   text += row(results, "segment", results.segment);
-  text += row(results, "bare pass (floor)", results.floor, false);
+  text += row(results, "read baseline (floor)", results.floor, false);
   text += row(results, "segment, scalar build", results.scalar);
-  for (const PeerResult& peer : results.peers) {
-    if (peer.measured.times.count() > 0) text += row(results, peer.name, peer.measured);
+  for (const ExternalToolResult& tool : results.external_tools) {
+    if (tool.measured.times.count() > 0) text += row(results, tool.name, tool.measured);
   }
   return text;
 }
@@ -99,8 +169,8 @@ std::string memory(const Results& results) {
 
 std::string left_out(const Results& results) {
   std::string text;
-  for (const PeerResult& peer : results.peers) {
-    if (!peer.left_out.empty()) text += fmt::format("{} left out: {}\n", peer.name, peer.left_out);
+  for (const ExternalToolResult& tool : results.external_tools) {
+    if (!tool.left_out.empty()) text += fmt::format("{} left out: {}\n", tool.name, tool.left_out);
   }
   return text;
 }
@@ -108,7 +178,7 @@ std::string left_out(const Results& results) {
 }  // namespace
 
 std::string to_text(const Results& results) {
-  return fmt::format("{}\n{}\n{}\n{}{}", heading(results), contestants(results), stages(results),
+  return fmt::format("{}\n{}\n{}\n{}{}", heading(results), candidates(results), stages(results),
                      memory(results), left_out(results));
 }
 
