@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 from pathlib import Path
 
@@ -43,13 +42,4 @@ def simulated(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder of a simulated drive of two scans: sequences/00/velodyne/000000.bin and so on."""
     folder = tmp_path_factory.mktemp("simulated")
     run_command("simulate", "--scene", "flat_street", "--sensor", "vlp-16", "--frames", "2", "--output", folder)
-    return folder
-
-
-@pytest.fixture(scope="session")
-def data() -> Path:
-    """Folder of real labelled scans; without it the test is skipped."""
-    folder = Path(os.environ.get("FLAGSTONE_DATA", Path(__file__).parents[3] / "shared" / "data"))
-    if not (folder / "index.csv").exists():
-        pytest.skip(f"no scans at {folder}: FLAGSTONE_DATA says where they are")
     return folder

@@ -261,10 +261,3 @@ def test_labels_are_those_of_the_command(simulated: Path, tmp_path: Path) -> Non
         for file in sorted(scans.iterdir()):
             labels = segmenter.segment(flagstone.io.read(file)).labels
             assert labels.astype("<u4").tobytes() == (folder / file.with_suffix(".label").name).read_bytes()
-
-
-def test_real_scans_have_the_labels_of_the_command(data: Path, tmp_path: Path) -> None:
-    file = data / "kitti" / "velodyne" / "08-000000.bin"
-    subprocess.run([_command.path(), "segment", file, "--output", tmp_path], check=True, capture_output=True)
-    labels = flagstone.Surface().segment(np.fromfile(file, np.float32).reshape(-1, 4)).labels
-    assert labels.astype("<u4").tobytes() == (tmp_path / "08-000000.label").read_bytes()
