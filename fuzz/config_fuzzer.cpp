@@ -10,7 +10,7 @@
 
 #include "app/config/config_toml.hpp"
 #include "cloud_properties.hpp"
-#include "flagstone/make_segmenter.hpp"
+#include "flagstone/baselines.hpp"
 #include "random_cloud.hpp"
 #include "text_properties.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 /// Whether the method takes these settings; if not, its reason is one line.
 bool is_allowed(const MethodConfig& config) {
   try {
-    check(config);
+    config.check();
   } catch (const std::invalid_argument& error) {
     fuzz::check_line(error.what());
     return false;
@@ -32,7 +32,8 @@ bool is_allowed(const MethodConfig& config) {
 void check_round_trip(std::string_view method, const MethodConfig& config) {
   const std::string text = config::to_toml(config);
   MethodConfig again = default_config(method);
-  config::apply_toml(text, "written", again);
+  MountSettings mount;
+  config::apply_toml(text, "written", again, mount);
   fuzz::require(config::to_toml(again) == text, "settings read back as they were");
 }
 
@@ -52,12 +53,14 @@ void segment(std::string_view method, const MethodConfig& config) {
 // the method works with them.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
+  register_baselines();
   if (size == 0) return 0;
   const std::string_view method = method_names()[data[0] % method_names().size()];
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   MethodConfig config = default_config(method);
   try {
-    config::apply_toml(text, "fuzz.toml", config);
+    MountSettings mount;
+    config::apply_toml(text, "fuzz.toml", config, mount);
   } catch (const std::invalid_argument& error) {
     fuzz::check_line(error.what());
     return 0;

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "cloud_properties.hpp"
+#include "flagstone/baselines.hpp"
 #include "flagstone/gravity_aligned_segmenter.hpp"
-#include "flagstone/make_segmenter.hpp"
 #include "flagstone/mount.hpp"
 #include "flagstone/patchwork.hpp"
 #include "flagstone/surface.hpp"
@@ -102,6 +102,7 @@ Segmenters made_segmenters(std::size_t choice) {
     return {std::make_unique<Patchwork>(config), std::make_unique<Patchwork>(config, 3)};
   }
   if (choice >= patchwork_count + surface_count) {
+    register_baselines();
     return {make_segmenter(baselines.at(choice - patchwork_count - surface_count)), nullptr};
   }
   const SurfaceConfig config = surface_config(choice - patchwork_count);

@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <flagstone/make_segmenter.hpp>
+#include <flagstone/baselines.hpp>
 #include <flagstone/segmentation.hpp>
 #include <limits>
 #include <map>
@@ -290,6 +290,7 @@ int run(std::string_view names, unsigned drives) {
 }  // namespace flagstone::performance
 
 int main(int argc, char** argv) {
+  flagstone::register_baselines();
   const std::string_view methods = argc > 1 ? argv[1] : "patchwork,surface";
   const std::string_view count = argc > 2 ? argv[2] : "5";
   unsigned drives = 0;

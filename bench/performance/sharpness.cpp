@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <flagstone/make_segmenter.hpp>
+#include <flagstone/baselines.hpp>
 #include <flagstone/segmentation.hpp>
 #include <memory>
 #include <stdexcept>
@@ -188,6 +188,7 @@ int run(const std::string& method, unsigned drives) {
 }  // namespace flagstone::performance
 
 int main(int argc, char** argv) {
+  flagstone::register_baselines();
   const std::string method = argc > 1 ? argv[1] : "surface";
   const std::string_view count = argc > 2 ? argv[2] : "5";
   unsigned drives = 0;

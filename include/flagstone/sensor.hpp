@@ -50,7 +50,8 @@ struct Sensor {
   /// value out of range.
   void check() const;
 
-  /// The known sensor of that name. Throws std::invalid_argument naming those there are.
+  /// The known sensor of that name, in upper or lower case. Throws std::invalid_argument naming
+  /// those there are.
   static const Sensor& named(std::string_view name);
 
   /// The sensors that are known by name, those of folder sensors/.

@@ -12,7 +12,6 @@ import numpy as np
 
 from flagstone import _core
 from flagstone._points import PointsLike, columns_of
-from flagstone._toml import to_toml
 from flagstone.segmentation import Segmentation
 
 if TYPE_CHECKING:
@@ -63,7 +62,7 @@ class Segmenter:
             preset=preset,
             sensor="" if sensor is None else os.fspath(sensor),
             config_file="" if config is None else os.fspath(config),
-            settings=to_toml(settings),
+            settings=settings,
             sensor_height=sensor_height,
             tilt=tilt,
             threads=threads,

@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "app/config/method_choice.hpp"
 #include "bindings.hpp"
 #include "flagstone/label.hpp"
-#include "flagstone/make_segmenter.hpp"
 #include "flagstone/patch.hpp"
 #include "flagstone/sensor.hpp"
-#include "lab/baselines/settings.hpp"
+#include "library/core/setting.hpp"
 
 namespace nb = nanobind;
 
@@ -31,7 +31,7 @@ nb::tuple tuple_of(const std::vector<double>& numbers) {
 
 nb::list names_of_methods() {
   nb::list names;
-  for (const std::string_view name : method_names()) names.append(str_of(name));
+  for (const std::string_view name : config::method_names()) names.append(str_of(name));
   return names;
 }
 
@@ -80,9 +80,9 @@ const char* type_of(const Setting& setting) {
 
 /// For every setting of a method: key, type, meaning, what is allowed.
 nb::list settings(const std::string& method) {
-  MethodConfig config = default_config(method);
+  MethodConfig config = config::resolve_one({.methods = {method}}).config;
   nb::list list;
-  for (const Setting& setting : settings_of(config)) {
+  for (const Setting& setting : config.settings()) {
     const bool is_range = setting.value.index() != 2 && setting.value.index() != 5;
     const std::string allowed = is_range ? to_string(setting.allowed) : "";
     list.append(nb::make_tuple(str_of(setting.key), type_of(setting), str_of(setting.meaning),

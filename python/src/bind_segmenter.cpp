@@ -20,8 +20,8 @@
 
 #include "bindings.hpp"
 #include "flagstone/gravity_aligned_segmenter.hpp"
-#include "lab/baselines/settings.hpp"
 #include "library/core/thread_pool.hpp"
+#include "library/methods/method.hpp"
 #include "library/mount/mount_settings.hpp"
 #include "method.hpp"
 #include "points.hpp"
@@ -53,8 +53,8 @@ bool mostly_out_of_range(const Segmentation& segmentation) {
 /// even if another thread of the parent was segmenting.
 class SharedSegmenter {
  public:
-  SharedSegmenter(const MethodChoice& choice, unsigned threads)
-      : method_(choice.method), threads_(threads), config_(resolve(choice, mount_settings_)) {
+  SharedSegmenter(config::ResolvedMethod method, unsigned threads)
+      : method_(std::move(method)), threads_(threads) {
     make();
   }
 
@@ -75,14 +75,13 @@ class SharedSegmenter {
     segmenter_->reset();
   }
 
-  [[nodiscard]] MethodConfig config() const { return config_; }
-  [[nodiscard]] MountSettings mount_settings() const { return mount_settings_; }
+  [[nodiscard]] const config::ResolvedMethod& method() const { return method_; }
 
  private:
   void make() {
-    const float height = sensor_height_of(config_, mount_settings_.mount.sensor_height);
-    segmenter_ = std::make_unique<GravityAlignedSegmenter>(make_method(method_, config_, threads_),
-                                                           height, mount_settings_);
+    const auto& [name, config, mount] = method_;
+    segmenter_ = std::make_unique<GravityAlignedSegmenter>(
+        config.make(threads_), sensor_height_of(config, mount.mount.sensor_height), mount);
   }
 
   /// If a thread that the child process does not have was segmenting during the fork, its lock is
@@ -134,10 +133,8 @@ class SharedSegmenter {
   }
 
   std::unique_ptr<std::mutex> turn_ = std::make_unique<std::mutex>();
-  std::string method_;
+  config::ResolvedMethod method_;
   unsigned threads_;
-  MountSettings mount_settings_;
-  MethodConfig config_;
   std::unique_ptr<GravityAlignedSegmenter> segmenter_;
   std::shared_ptr<SpareResults> spare_ = std::make_shared<SpareResults>();
   std::unique_ptr<std::vector<float>> copy_ = std::make_unique<std::vector<float>>();
@@ -201,11 +198,10 @@ nb::list list_of(const std::vector<Zone>& zones) {
 }
 
 nb::dict settings_dict(const SharedSegmenter& segmenter) {
-  MethodConfig config = segmenter.config();
-  MountSettings mount = segmenter.mount_settings();
+  auto [name, config, mount] = segmenter.method();
   nb::dict settings;
-  add_settings(settings_of(config), settings);
-  if (const auto* patchwork = std::get_if<PatchworkConfig>(&config)) {
+  add_settings(config.settings(), settings);
+  if (const auto* patchwork = config.get_if<PatchworkConfig>()) {
     settings["zones"] = list_of(patchwork->zones);
   }
   add_settings(settings_of(mount), settings);
@@ -230,8 +226,6 @@ std::uintptr_t address_of(nb::handle x, nb::handle y, nb::handle z) {
 
 void bind_segmenter(nb::module_& module) {
   pthread_atfork(nullptr, nullptr, [] { forks.fetch_add(1, std::memory_order_relaxed); });
-  using Height = std::variant<std::monostate, float, std::string>;
-  using Tilt = std::variant<std::monostate, std::array<float, 3>, std::string>;
   module.def("address_of", &address_of, nb::arg("x"), nb::arg("y"), nb::arg("z"),
              nb::sig("def address_of(x: object, y: object, z: object) -> int"));
   module.def("address_of_rows", &address_of_rows, nb::arg("array").none(),
@@ -240,16 +234,17 @@ void bind_segmenter(nb::module_& module) {
       .def(
           "__init__",
           [](SharedSegmenter* self, std::string method, std::string preset, std::string sensor,
-             std::string config_file, std::string settings, Height sensor_height, Tilt tilt,
-             std::int64_t threads) {
-            new (self) SharedSegmenter({.method = std::move(method),
-                                        .preset = std::move(preset),
-                                        .sensor = std::move(sensor),
-                                        .config_file = std::move(config_file),
-                                        .settings = std::move(settings),
-                                        .sensor_height = std::move(sensor_height),
-                                        .tilt = std::move(tilt)},
-                                       checked_threads(threads));
+             std::string config_file, const nb::dict& settings, const Height& sensor_height,
+             const Tilt& tilt, std::int64_t threads) {
+            const unsigned checked = checked_threads(threads);
+            const config::MethodChoice choice = {.methods = {std::move(method)},
+                                                 .preset = std::move(preset),
+                                                 .sensor = std::move(sensor),
+                                                 .config_file = std::move(config_file),
+                                                 .settings = {{.table = value_of(settings)}},
+                                                 .mount = mount_choice(sensor_height, tilt),
+                                                 .option_prefix = ""};
+            new (self) SharedSegmenter(config::resolve_one(choice), checked);
           },
           nb::kw_only(), nb::arg("method"), nb::arg("preset"), nb::arg("sensor"),
           nb::arg("config_file"), nb::arg("settings"), nb::arg("sensor_height").none(),

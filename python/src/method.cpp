@@ -4,111 +4,90 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 
-#include "app/config/config_file.hpp"
-#include "app/config/config_toml.hpp"
-#include "app/config/sensor_settings.hpp"
-#include "files/io/sensor_file.hpp"
-#include "flagstone/patchwork.hpp"
-#include "flagstone/surface.hpp"
-#include "lab/baselines/settings.hpp"
+namespace nb = nanobind;
 
 namespace flagstone::python {
 namespace {
 
-std::optional<Sensor> chosen_sensor(const MethodChoice& choice) {
-  const std::optional<std::string> in_file = config::sensor_named_in_file(choice.config_file);
-  if (choice.sensor.empty() && !in_file) return std::nullopt;
-  if (!choice.sensor.empty() && in_file) {
-    throw std::invalid_argument(fmt::format("sensor={:?}: {} names a sensor too; give one of them",
-                                            choice.sensor, choice.config_file));
-  }
-  if (choice.preset != "default") {
-    throw std::invalid_argument(fmt::format(
-        "a sensor beside preset={:?}: settings start from one or the other", choice.preset));
-  }
-  Sensor sensor;
-  const Status status = io::find_sensor(in_file ? *in_file : choice.sensor, sensor);
-  if (!status.ok()) throw std::invalid_argument("sensor: " + status.message());
-  return sensor;
+std::string name_of_type(nb::handle object) {
+  return nb::cast<std::string>(nb::str(object.type().attr("__name__")));
 }
 
-void apply_height(const MethodChoice& choice, MethodConfig& config, MountSettings& mount) {
-  float otherwise = mount.mount.sensor_height;
-  if (const auto* metres = std::get_if<float>(&choice.sensor_height)) {
-    config::set_sensor_height(*metres, config);
-    mount.height = HeightSource::fixed;
-    otherwise = *metres;
-  } else if (const auto* word = std::get_if<std::string>(&choice.sensor_height)) {
-    if (*word != "estimate" && *word != "track") {
-      throw std::invalid_argument(fmt::format(
-          "sensor_height = {:?} is neither metres nor \"estimate\" nor \"track\"", *word));
-    }
-    mount.height = *word == "track" ? HeightSource::track : HeightSource::estimate;
-  }
-  mount.mount.sensor_height = sensor_height_of(config, otherwise);
+bool is_truth_value(nb::handle object) {
+  if (PyBool_Check(object.ptr())) return true;
+  const std::string name = name_of_type(object);
+  return name == "bool_" || name == "bool";  // NumPy's
 }
 
-void apply_tilt(const MethodChoice& choice, MountSettings& mount) {
-  if (const auto* up = std::get_if<std::array<float, 3>>(&choice.tilt)) {
-    mount.tilt = TiltSource::fixed;
-    mount.mount.up = *up;
-  } else if (const auto* word = std::get_if<std::string>(&choice.tilt)) {
-    if (*word != "estimate" && *word != "off") {
-      throw std::invalid_argument(fmt::format(
-          "tilt = {:?} is neither \"off\" nor \"estimate\" nor where up is, (x, y, z)", *word));
-    }
-    mount.tilt = *word == "off" ? TiltSource::off : TiltSource::estimate;
-  }
+/// Too large ones become the largest there are, which no setting may be.
+std::int64_t whole_number(nb::handle object) {
+  const nb::object whole = nb::steal(PyNumber_Index(object.ptr()));
+  if (!whole.is_valid()) throw nb::python_error();
+  int overflow = 0;
+  const long long number = PyLong_AsLongLongAndOverflow(whole.ptr(), &overflow);
+  if (overflow == 0) return number;
+  return overflow > 0 ? std::numeric_limits<std::int64_t>::max()
+                      : std::numeric_limits<std::int64_t>::min();
 }
 
-MethodConfig overlaid(const MethodChoice& choice, MethodConfig config, MountSettings& mount) {
-  mount = {};
-  if (!choice.config_file.empty()) config::apply_file(choice.config_file, config, mount);
-  config::apply_toml(choice.settings, "", config, mount);
-  apply_height(choice, config, mount);
-  apply_tilt(choice, mount);
-  return config;
+config::Value::Table table_of(nb::handle mapping, const std::string& key) {
+  config::Value::Table table;
+  for (const nb::handle item : nb::list(mapping.attr("items")())) {
+    const std::string name = nb::cast<std::string>(nb::str(item[0]));
+    table.push_back({name, value_of(item[1], key.empty() ? name : key + "." + name)});
+  }
+  return table;
 }
 
 }  // namespace
 
-MethodConfig resolve(const MethodChoice& choice, MountSettings& mount) {
-  const bool has_presets = choice.method == "patchwork" || choice.method.starts_with("czm");
-  if (!has_presets && choice.preset != "default") {
-    throw std::invalid_argument(
-        fmt::format("preset = {:?}: method {} has none; presets are of patchwork and czm+...",
-                    choice.preset, choice.method));
+config::Value value_of(nb::handle object, const std::string& key) {
+  if (is_truth_value(object)) return {.held = PyObject_IsTrue(object.ptr()) == 1};
+  if (PyLong_Check(object.ptr())) return {.held = whole_number(object)};
+  if (nb::isinstance<nb::str>(object)) return {.held = nb::cast<std::string>(object)};
+  if (nb::hasattr(object, "items")) return {.held = table_of(object, key)};
+  const bool is_bytes = PyBytes_Check(object.ptr()) != 0;
+  if (!is_bytes && PySequence_Check(object.ptr()) != 0) {
+    config::Value::List list;
+    for (const nb::handle element : nb::list(nb::borrow(object))) {
+      list.push_back(value_of(element, key));
+    }
+    return {.held = std::move(list)};
   }
-  const std::optional<Sensor> sensor = chosen_sensor(choice);
-  const auto settings_at = [&](const Sensor& at) {
-    return overlaid(choice, default_config(choice.method, at), mount);
-  };
-  MethodConfig config =
-      sensor
-          ? config::settings_at_own_height(*sensor, settings_at)
-          : overlaid(choice, default_config(choice.method, PatchworkConfig::preset(choice.preset)),
-                     mount);
-  check(config);
-  mount.check();
-  return config;
+  if (PyIndex_Check(object.ptr()) != 0) return {.held = whole_number(object)};
+  if (nb::hasattr(object, "__float__")) {
+    const double number = PyFloat_AsDouble(object.ptr());
+    if (number == -1 && PyErr_Occurred() != nullptr) throw nb::python_error();
+    return {.held = number};
+  }
+  throw nb::type_error(fmt::format("{} is a {}; settings are numbers, truth values, texts, lists "
+                                   "and dicts",
+                                   key, name_of_type(object))
+                           .c_str());
 }
 
-std::unique_ptr<Segmenter> make_method(const std::string& name, const MethodConfig& config,
-                                       unsigned threads) {
-  if (name == "patchwork") {
-    return std::make_unique<Patchwork>(std::get<PatchworkConfig>(config), threads);
+config::MountChoice mount_choice(const Height& sensor_height, const Tilt& tilt) {
+  config::MountChoice mount;
+  const auto named = [](const char* argument, const auto& read) {
+    try {
+      read();
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("{}: {}", argument, error.what()));
+    }
+  };
+  if (const auto* metres = std::get_if<float>(&sensor_height)) mount.set_height(*metres);
+  if (const auto* word = std::get_if<std::string>(&sensor_height)) {
+    named("sensor_height", [&] { mount.set_height(std::string_view(*word)); });
   }
-  if (name == "surface") {
-    return std::make_unique<Surface>(std::get<SurfaceConfig>(config), threads);
+  if (const auto* up = std::get_if<std::array<float, 3>>(&tilt)) mount.set_tilt(*up);
+  if (const auto* word = std::get_if<std::string>(&tilt)) {
+    named("tilt", [&] { mount.set_tilt(std::string_view(*word)); });
   }
-  if (threads != 1) {
-    throw std::invalid_argument(fmt::format(
-        "threads = {}: method {} has one; surface and patchwork have more", threads, name));
-  }
-  return make_segmenter(name, config);
+  return mount;
 }
 
 }  // namespace flagstone::python

@@ -141,13 +141,13 @@ def test_it_is_shown_as_a_table(evaluation: flagstone.Evaluation, simulated: Pat
     ("arguments", "message"),
     [
         ({"protocol": "kitti"}, 'no protocol is named "kitti"; there are patchwork'),
-        ({"methods": "surfaces"}, 'no method is named "surfaces"'),
-        ({"sensor_height": "high"}, "sensor_height: high is no number of metres"),
+        ({"methods": "surfaces"}, "no method is named 'surfaces'"),
+        ({"sensor_height": "high"}, "sensor-height: high is no number of metres"),
         ({"tilt": "left"}, "tilt: left is not off, estimate or where up is"),
         ({"sensor": "hdl-65"}, "sensor: "),
         ({"every": 0}, "every: Value 0 not in range 1 to 1000000"),
         ({"sequences": ["77"]}, "77"),
-        ({"settings": {"surface": {"margin": 1}}}, "margin is no setting; 'flagstone config --method NAME' prints all"),
+        ({"settings": {"surface": {"margin": 1}}}, "no setting 'margin' .did you mean 'point.margin'"),
         ({"settings": {"roof": {"margin": 1}}}, "settings roof"),
     ],
 )

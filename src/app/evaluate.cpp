@@ -113,7 +113,7 @@ Evaluation::Evaluation(EvaluationOptions options, std::vector<eval::Method> meth
   scans_ = list_scans(options_);
   check_ids(protocol_, scans_);
   for (const eval::Method& method : methods_) {
-    if (method.config) check(*method.config);
+    if (method.config) method.config->check();
   }
   if (options_.resume && checkpoint_.empty()) {
     throw std::invalid_argument(

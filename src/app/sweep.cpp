@@ -20,8 +20,8 @@
 
 #include "app/config/config_toml.hpp"
 #include "files/io/message.hpp"
-#include "lab/baselines/settings.hpp"
 #include "lab/eval/results_export.hpp"
+#include "library/methods/method.hpp"
 
 namespace flagstone::app {
 namespace {
@@ -34,7 +34,7 @@ int whole_number(std::string_view text) {
 }
 
 void make_uniform_grid(const std::string& value, MethodConfig& config) {
-  auto* patchwork = std::get_if<PatchworkConfig>(&config);
+  auto* patchwork = config.get_if<PatchworkConfig>();
   const std::size_t times = value.find('x');
   const int rings = whole_number(std::string_view(value).substr(0, times));
   const int sectors =
@@ -119,8 +119,9 @@ void apply_axis(const std::string& key, const std::string& value, MethodConfig& 
   if (key == "bins") {
     make_uniform_grid(value, config);
   } else {
+    MountSettings unused;
     config::apply_toml(fmt::format("{} = {}", key, value), fmt::format("--param {}={}", key, value),
-                       config);
+                       config, unused);
   }
 }
 

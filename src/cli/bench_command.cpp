@@ -35,7 +35,7 @@ namespace {
 struct BenchOptions {
   std::vector<std::string> scans;
   int columns = 0;
-  MethodOptions method;
+  config::MethodChoice method;
   bench::BenchmarkSettings settings;
   bool peers = false;
   bench::ExternalToolPaths places;
@@ -61,15 +61,17 @@ std::vector<io::Cloud> read_scans(const std::vector<ScanInput>& inputs, int colu
 }
 
 /// The settings of the method that is timed. --method lets no other through.
-bench::TimedConfig timed_config(const MethodOptions& options, MountSettings& mount) {
-  const MethodConfig config = options.resolve(mount);
-  if (const auto* const surface = std::get_if<SurfaceConfig>(&config)) return *surface;
-  return std::get<PatchworkConfig>(config);
+bench::TimedConfig timed_config(const MethodConfig& config) {
+  if (const auto* const surface = config.get_if<SurfaceConfig>()) return *surface;
+  return *config.get_if<PatchworkConfig>();
 }
 
 int bench(const BenchOptions& options) {
   bench::BenchmarkSettings settings = options.settings;
-  settings.config = timed_config(options.method, settings.mount);
+  const config::ResolvedMethod method = config::resolve_one(options.method);
+  settings.config = timed_config(method.config);
+  settings.mount = method.mount;
+  config::check_threads(method.mount, settings.threads);
   if (options.peers) settings.external_tools = options.places;
   const std::vector<ScanInput> inputs = find_scans(options.scans);
   const std::vector<io::Cloud> clouds = read_scans(inputs, options.columns);
@@ -116,7 +118,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
                    "Scans, or folders of them (.bin, .pcd.bin, .pcd, .ply, .npy)")
       ->required()
       ->type_name("SCAN...");
-  options->method.add_to(*command, bench::timed_methods);
+  add_method_options(*command, options->method, bench::timed_methods);
   command
       ->add_option("--columns", options->columns,
                    "Floats a point in .bin files. Default: 5 for .pcd.bin, else 4")

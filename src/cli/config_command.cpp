@@ -9,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 
 #include "app/config/config_toml.hpp"
 #include "cli/method_options.hpp"
@@ -19,34 +18,31 @@ namespace flagstone::cli {
 namespace {
 
 /// Where the settings come from, as comment lines.
-std::string header_of(const MethodOptions& options, const MethodConfig& config) {
-  const std::optional<Sensor> sensor = options.chosen_sensor();
-  std::string text = fmt::format("# flagstone, method {}", options.method);
+std::string header_of(const config::MethodChoice& choice, const config::ResolvedMethod& method) {
+  const std::optional<Sensor> sensor = config::chosen_sensor(choice);
+  const bool has_presets = method.name == "patchwork" || method.name.starts_with("czm");
+  std::string text = fmt::format("# flagstone, method {}", method.name);
   if (!sensor) {
-    return text + (options.starts_from_preset() ? fmt::format(", from preset {}\n", options.preset)
-                                                : "\n");
+    return text + (has_presets ? fmt::format(", from preset {}\n", choice.preset) : "\n");
   }
   text += fmt::format(", derived from sensor {}\n", sensor->name);
-  const auto* patchwork = std::get_if<PatchworkConfig>(&config);
-  return patchwork != nullptr && options.starts_from_preset()
-             ? text + derivation_text(*sensor, *patchwork)
-             : text;
+  return has_presets ? text + derivation_text(*sensor, *method.config.get_if<PatchworkConfig>())
+                     : text;
 }
 
 }  // namespace
 
 void add_config_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<MethodOptions>();
+  auto choice = std::make_shared<config::MethodChoice>();
   CLI::App* command = app.add_subcommand(
       "config",
       "Print every setting, commented, as TOML that --config reads back.\n\n"
       "Example:  flagstone config --method patchwork --sensor os0-128 > mine.toml\n");
-  options->add_to(*command);
-  command->callback([options, &exit_code] {
-    MountSettings mount;
-    const MethodConfig config = options->resolve(mount);
-    fmt::print("{}\n{}{}", header_of(*options, config), config::to_toml(config),
-               config::to_toml(mount));
+  add_method_options(*command, *choice);
+  command->callback([choice, &exit_code] {
+    const config::ResolvedMethod method = config::resolve_one(*choice);
+    fmt::print("{}\n{}{}", header_of(*choice, method), config::to_toml(method.config),
+               config::to_toml(method.mount));
     exit_code = 0;
   });
 }

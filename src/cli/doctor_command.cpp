@@ -28,7 +28,7 @@
 #include "cli/scan_inputs.hpp"
 #include "files/io/atomic_file.hpp"
 #include "files/io/read_cloud.hpp"
-#include "lab/baselines/settings.hpp"
+#include "library/methods/method.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -37,7 +37,7 @@ struct DoctorOptions {
   std::vector<std::string> scans;
   std::size_t max_scans = 5;
   std::string output;
-  MethodOptions method;
+  config::MethodChoice method;
   int columns = 0;
   bool json = false;
   bool toml = false;
@@ -56,21 +56,19 @@ std::vector<std::string> chosen_scans(const std::vector<std::string>& paths, std
   return chosen;
 }
 
-doctor::Expected expected_of(MethodConfig config) {
+doctor::Expected expected_of(const MethodConfig& config) {
   doctor::Expected expected;
-  for (const Setting& setting : settings_of(config)) {
-    if (setting.key == "sensor_height") expected.sensor_height = *std::get<float*>(setting.value);
-  }
-  if (const auto* surface = std::get_if<SurfaceConfig>(&config)) {
+  expected.sensor_height = sensor_height_of(config, expected.sensor_height);
+  if (const auto* surface = config.get_if<SurfaceConfig>()) {
     expected.max_range = surface->max_range;
   }
   return expected;
 }
 
 int examine_scans(const DoctorOptions& options) {
-  DoctorReport report{.files = {}, .method = options.method.method, .diagnosis = {}};
-  MountSettings mount;
-  const doctor::Expected expected = expected_of(options.method.resolve(mount));
+  const config::ResolvedMethod method = config::resolve_one(options.method);
+  DoctorReport report{.files = {}, .method = method.name, .diagnosis = {}};
+  const doctor::Expected expected = expected_of(method.config);
   const std::vector<std::string> scans = chosen_scans(options.scans, options.max_scans);
 
   catch_interrupts();
@@ -133,7 +131,7 @@ void add_doctor_command(CLI::App& app, int& exit_code) {
       ->add_option("-o,--output", options->output,
                    "Write the settings that fit to this file, for --config")
       ->type_name("FILE");
-  options->method.add_to(*command);
+  add_method_options(*command, options->method);
   command
       ->add_option("--columns", options->columns,
                    "Floats a point in .bin files. Default: 5 for .pcd.bin, else 4")

@@ -84,7 +84,7 @@ int evaluate(const EvalOptions& options) {
   }
   app::EvaluationOptions how = options.evaluation;
   if (options.speed) how.threads = 1;
-  how.settings_files = {options.methods.config_file, options.methods.sensor};
+  how.settings_files = {options.methods.choice.config_file, options.methods.choice.sensor};
   app::Evaluation evaluation(how, options.methods.resolve());
   if (options.pictures > 0) app::make_folder(options.output);
   catch_interrupts();

@@ -254,7 +254,7 @@ Status ScanWorker::draw_birds_eye(const ScanInput& input, ScanReport& report,
   render::BirdsEye options;
   options.title = input.file.filename().string();
   options.subtitle = subtitle(report);
-  options.zones = std::get_if<PatchworkConfig>(&job_.config);
+  options.zones = job_.config.get_if<PatchworkConfig>();
   options.tint_patches = job_.tint_patches;
   options.reference = truth;
   const fs::path picture = with_suffix(job_.output / input.output_stem, ".png");

@@ -51,7 +51,7 @@ class ScanWorker {
   explicit ScanWorker(const ScanJob& job)
       : job_(job),
         reader_(job.read),
-        runner_(job.method, job.config, job.mount),
+        runner_(job.config, job.mount),
         label_writer_(job.label_map) {}
 
   /// Never throws: what goes wrong with this scan is in the report. The file of `later`, a scan

@@ -39,7 +39,7 @@ namespace {
 struct SegmentOptions {
   std::vector<std::string> scans;
   std::string output;
-  MethodOptions method;
+  config::MethodChoice method;
   OutputFormat format = OutputFormat::label;
   io::LabelMap label_map = io::LabelMap::flagstone;
   int columns = 0;
@@ -125,11 +125,11 @@ class Reporter {
 };
 
 void check_tint(const SegmentOptions& options, const MethodConfig& config) {
-  if (!options.tint_patches || std::holds_alternative<PatchworkConfig>(config)) return;
+  if (!options.tint_patches || config.get_if<PatchworkConfig>() != nullptr) return;
   throw std::invalid_argument(
       fmt::format("--color-patches: method {} has no zones to tint; --method patchwork has, r_gpf "
                   "and czm+... too",
-                  options.method.method));
+                  options.method.methods.front()));
 }
 
 void check_surface(const SegmentOptions& options, const MethodConfig& config) {
@@ -139,12 +139,12 @@ void check_surface(const SegmentOptions& options, const MethodConfig& config) {
     throw std::invalid_argument(
         fmt::format("--surface-resolution {}: not within 0.1 to 10 metres a cell", resolution));
   }
-  if (std::holds_alternative<SurfaceConfig>(config)) return;
+  if (config.get_if<SurfaceConfig>() != nullptr) return;
   for (const auto& [asked, option] :
        {std::pair{options.heights, "--heights"}, std::pair{options.surface, "--surface"}}) {
     if (!asked) continue;
     throw std::invalid_argument(fmt::format("{}: method {} makes no surface; --method surface does",
-                                            option, options.method.method));
+                                            option, options.method.methods.front()));
   }
 }
 
@@ -157,20 +157,10 @@ void check_pictures(const SegmentOptions& options) {
     print_error("--surface: grids without maps: " + rendering_available.message());
 }
 
-/// What is tracked goes from scan to scan, in their order.
-void check_threads(const SegmentOptions& options, const MountSettings& mount) {
-  if (!mount.tracks() || options.threads <= 1) return;
-  throw std::invalid_argument(
-      fmt::format("--threads {}: with a tracked sensor height scans are segmented one after the "
-                  "other; leave it out, or use --sensor-height estimate",
-                  options.threads));
-}
-
 int segment(const SegmentOptions& options) {
-  MountSettings mount;
-  const MethodConfig config = options.method.resolve(mount);
-  check_threads(options, mount);
-  ScanJob job{.method = options.method.method,
+  const auto [name, config, mount] = config::resolve_one(options.method);
+  config::check_threads(mount, options.threads);
+  ScanJob job{.method = name,
               .config = config,
               .mount = mount,
               .told = {},
@@ -238,7 +228,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
   command->add_option("-o,--output", options->output, "Folder for what is written; made if missing")
       ->required()
       ->type_name("DIR");
-  options->method.add_to(*command);
+  add_method_options(*command, options->method);
   const std::map<std::string, OutputFormat> formats = {
       {"label", OutputFormat::label}, {"u8", OutputFormat::u8},   {"npy", OutputFormat::npy},
       {"pcd", OutputFormat::pcd},     {"ply", OutputFormat::ply}, {"split", OutputFormat::split}};

@@ -25,14 +25,13 @@ namespace {
 
 struct SweepOptions {
   app::EvaluationOptions evaluation;
-  MethodOptions method;
+  config::MethodChoice method{.methods = {"r_gpf+u"}};
   std::vector<std::string> axes;
 };
 
 int sweep(const SweepOptions& options) {
-  app::Sweep sweep{.method = options.method.method, .axes = app::sweep_axes(options.axes)};
-  MountSettings mount;
-  const MethodConfig base = options.method.resolve(mount);
+  const auto [name, base, mount] = config::resolve_one(options.method);
+  app::Sweep sweep{.method = name, .axes = app::sweep_axes(options.axes)};
   app::EvaluationOptions how = options.evaluation;
   how.settings_files = {options.method.config_file, options.method.sensor};
   app::Evaluation evaluation(how, sweep.points(base, mount));
@@ -61,7 +60,6 @@ int sweep(const SweepOptions& options) {
 
 void add_sweep_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SweepOptions>();
-  options->method.method = "r_gpf+u";
   CLI::App* command =
       app.add_subcommand("sweep",
                          "Score a method over a grid of settings.\n\n"
@@ -71,7 +69,7 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
                          "Without --param: the paper's Fig. 5, bin sizes of the uniform grid and "
                          "uprightness angles.\n");
   add_evaluation_options(*command, options->evaluation);
-  options->method.add_to(*command);
+  add_method_options(*command, options->method);
   command
       ->add_option("--param", options->axes,
                    "A setting and its values; given twice, a grid. The setting 'bins' takes "

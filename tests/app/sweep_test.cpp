@@ -13,6 +13,7 @@
 
 #include "app/config/same_config.hpp"
 #include "cli/command_process.hpp"
+#include "flagstone/baselines.hpp"
 
 namespace flagstone::app {
 namespace {
@@ -54,6 +55,7 @@ TEST(SweepAxis, WithoutKeyOrValuesIsRefusedWithAnExample) {
 }
 
 TEST(SweepAxis, SetsOneSettingOfAnyMethod) {
+  register_baselines();
   MethodConfig patchwork = PatchworkConfig{};
   MethodConfig gpf = GpfConfig{};
 
@@ -62,8 +64,8 @@ TEST(SweepAxis, SetsOneSettingOfAnyMethod) {
 
   PatchworkConfig expected;
   expected.uprightness.angle = 30;
-  EXPECT_TRUE(is_same(std::get<PatchworkConfig>(patchwork), expected));
-  EXPECT_EQ(std::get<GpfConfig>(gpf).segments, 5);
+  EXPECT_TRUE(is_same(*patchwork.get_if<PatchworkConfig>(), expected));
+  EXPECT_EQ(gpf.get_if<GpfConfig>()->segments, 5);
 }
 
 TEST(SweepAxis, BinsMakeOneZoneOfEqualRingsOutToWhereTheLastZoneEnded) {
@@ -72,7 +74,7 @@ TEST(SweepAxis, BinsMakeOneZoneOfEqualRingsOutToWhereTheLastZoneEnded) {
 
   apply_axis("bins", "4x36", config);
 
-  const auto& made = std::get<PatchworkConfig>(config);
+  const auto& made = *config.get_if<PatchworkConfig>();
   ASSERT_EQ(made.zones.size(), 1U);
   EXPECT_EQ(made.zones[0].sectors, 36);
   const auto& radii = made.zones[0].ring_radii;
@@ -90,7 +92,7 @@ TEST(SweepAxis, TheGridOfThePaperIsThatOfRGpf) {
 
   apply_axis("bins", "30x108", config);
 
-  EXPECT_TRUE(is_same(std::get<PatchworkConfig>(config), r_gpf_config()));
+  EXPECT_TRUE(is_same(*config.get_if<PatchworkConfig>(), r_gpf_config()));
 }
 
 TEST(SweepAxis, BinsThatAreNoGridAreRefused) {
@@ -102,12 +104,13 @@ TEST(SweepAxis, BinsThatAreNoGridAreRefused) {
 }
 
 TEST(SweepAxis, BinsOfAMethodWithoutZonesAreRefused) {
+  register_baselines();
   EXPECT_THAT(refusal_of_value("bins", "30x108", GpfConfig{}), HasSubstr("of patchwork"));
 }
 
 TEST(SweepAxis, WhatIsNoSettingOrNoValueNamesTheOption) {
   EXPECT_THAT(refusal_of_value("seed_cuont", "3"),
-              AllOf(HasSubstr("--param seed_cuont=3"), HasSubstr("is no setting")));
+              AllOf(HasSubstr("--param seed_cuont=3"), HasSubstr("no setting 'seed_cuont' (did you mean 'seed_count'?)")));
   EXPECT_THAT(refusal_of_value("seed_count", "many"), HasSubstr("--param seed_count=many"));
   EXPECT_THAT(refusal_of_value("seed_count", ""), HasSubstr("--param seed_count="));
 }

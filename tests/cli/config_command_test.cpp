@@ -24,7 +24,7 @@ PatchworkConfig printed_config(std::vector<std::string> arguments) {
   MethodConfig config = PatchworkConfig{};
   MountSettings mount;
   config::apply_toml(outcome.out, "config", config, mount);
-  return std::get<PatchworkConfig>(config);
+  return *config.get_if<PatchworkConfig>();
 }
 
 TEST(ConfigCommand, PrintsTheSettingsOfSurfaceUnlessAnotherMethodIsNamed) {

@@ -7,18 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "app/config/config_toml.hpp"
+#include "app/config/method_choice.hpp"
 #include "app/doctor/advice.hpp"
 #include "app/doctor/examination.hpp"
 #include "app/doctor/faults.hpp"
 #include "app/doctor/street_scan.hpp"
-#include "cli/method_options.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
 #include "flagstone/gravity_aligned_segmenter.hpp"
-#include "flagstone/make_segmenter.hpp"
-#include "lab/baselines/settings.hpp"
 #include "lab/eval/score.hpp"
+#include "library/methods/method.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -26,12 +24,11 @@ namespace {
 using doctor::Fault;
 using doctor::street_scan;
 
-/// F1 of the street's scan, percent, as `points` have it, by these options.
-double f1_of(const std::vector<Point>& points, const MethodOptions& options) {
-  MountSettings mount;
-  const MethodConfig config = options.resolve(mount);
+/// F1 of the street's scan, percent, as `points` have it, with these settings.
+double f1_of(const std::vector<Point>& points, const config::MethodChoice& choice) {
+  const auto [name, config, mount] = config::resolve_one(choice);
   const float height = sensor_height_of(config, mount.mount.sensor_height);
-  GravityAlignedSegmenter segmenter(make_segmenter(options.method, config), height, mount);
+  GravityAlignedSegmenter segmenter(config.make(), height, mount);
   Segmentation result;
   EXPECT_TRUE(segmenter.segment(CloudView(std::span<const Point>(points)), result).ok());
   return 100 * eval::compare(result.labels(), doctor::street_truth()).f1();
@@ -62,11 +59,8 @@ TEST_P(DoctorRepair, BringsF1BackToThatOfTheScanWithoutTheFault) {
   io::put_file(file, doctor::to_toml(diagnosis.advice.value_or(doctor::Advice())));
 
   for (const std::string method : {"surface", "patchwork"}) {
-    MethodOptions options;
-    options.method = method;
-    const double fine = f1_of(street_scan(), options);
-    options.config_file = file;
-    const double repaired = f1_of(points, options);
+    const double fine = f1_of(street_scan(), {.methods = {method}});
+    const double repaired = f1_of(points, {.methods = {method}, .config_file = file});
 
     EXPECT_GT(repaired, fine - 0.5) << method;
   }

@@ -711,7 +711,7 @@ TEST_F(LabelsMadeElsewhere, MissingOnesCostOneLineAndLeaveTheScanToTheOthers) {
 
 TEST_F(EvalCommand, WrongUsageIsOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> misuses = {
-      {{"--methods", "magic"}, "no method is named \"magic\""},
+      {{"--methods", "magic"}, "no method is named 'magic'"},
       {{"--methods", "none"}, "no method to evaluate"},
       {{"--protocol", "kitti"}, "patchwork, patchwork++, lidarseg, simulation"},
       {{"--protocol", "nowhere.toml"}, "nowhere.toml"},
@@ -719,7 +719,7 @@ TEST_F(EvalCommand, WrongUsageIsOneLine) {
       {{"--every", "0"}, "--every"},
       {{"--threads", "0"}, "--threads"},
       {{"--labels", "peer"}, "NAME=DIR"},
-      {{"--set", "patchwork.seed_cuont=3"}, "seed_cuont is no setting"},
+      {{"--set", "patchwork.seed_cuont=3"}, "no setting 'seed_cuont'"},
       {{"--set", "patchwork.distance_margin=-1"}, "distance_margin = -1"},
       {{"--set", "surface.distance_margin=1"}, "but of --method patchwork"},
       {{"--methods", "surface", "--preset", "paper"}, "none of them is among --methods"},

@@ -14,7 +14,8 @@
 #include "app/config/same_config.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
-#include "lab/baselines/settings.hpp"
+#include "flagstone/baselines.hpp"
+#include "library/core/setting.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -34,13 +35,39 @@ const eval::Method& named(const std::vector<eval::Method>& methods, const std::s
 }
 
 const PatchworkConfig& patchwork_of(const eval::Method& method) {
-  return std::get<PatchworkConfig>(method.config.value());
+  return *method.config->get_if<PatchworkConfig>();
 }
 
-/// What is said where `methods` come to nothing.
-std::string refusal(const EvalMethods& methods) {
+/// Options as a user writes them.
+struct Options {
+  std::vector<std::string> names = {"surface", "patchwork"};
+  std::string preset = "default";
+  std::string sensor{};
+  std::string config_file{};
+  std::vector<std::string> settings{};
+  config::MountChoice mount{};
+  std::vector<std::string> labels{};
+  io::LabelMap label_map = io::LabelMap::flagstone;
+
+  [[nodiscard]] std::vector<eval::Method> resolve() const {
+    EvalMethods methods{.choice = {.methods = names,
+                                   .preset = preset,
+                                   .sensor = sensor,
+                                   .config_file = config_file,
+                                   .mount = mount},
+                        .labels = labels,
+                        .label_map = label_map};
+    for (const std::string& setting : settings) {
+      methods.choice.settings.push_back(config::parse_setting_of_method(setting));
+    }
+    return methods.resolve();
+  }
+};
+
+/// What is said where `options` come to nothing.
+std::string refusal(const Options& options) {
   try {
-    static_cast<void>(methods.resolve());
+    static_cast<void>(options.resolve());
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -49,7 +76,7 @@ std::string refusal(const EvalMethods& methods) {
 
 TEST(EvalMethods, Table1IsThePapersNineRowsInItsOrder) {
   std::vector<std::string> titles;
-  for (const eval::Method& method : EvalMethods{.names = {"table1"}}.resolve()) {
+  for (const eval::Method& method : Options{.names = {"table1"}}.resolve()) {
     titles.push_back(method.title);
   }
 
@@ -58,25 +85,25 @@ TEST(EvalMethods, Table1IsThePapersNineRowsInItsOrder) {
 }
 
 TEST(EvalMethods, AllIsEveryMethodThereIs) {
-  const auto all = method_names();
+  const auto all = config::method_names();
 
-  EXPECT_EQ(names_of(EvalMethods{.names = {"all"}}.resolve()),
+  EXPECT_EQ(names_of(Options{.names = {"all"}}.resolve()),
             std::vector<std::string>(all.begin(), all.end()));
 }
 
 TEST(EvalMethods, AreThoseListedInThatOrderEachOnce) {
-  EXPECT_THAT(names_of(EvalMethods{.names = {"gpf", "patchwork", "ransac", "gpf"}}.resolve()),
+  EXPECT_THAT(names_of(Options{.names = {"gpf", "patchwork", "ransac", "gpf"}}.resolve()),
               ElementsAre("gpf", "patchwork", "ransac"));
-  const auto names = names_of(EvalMethods{.names = {"patchwork", "table1", "gpf"}}.resolve());
+  const auto names = names_of(Options{.names = {"patchwork", "table1", "gpf"}}.resolve());
   EXPECT_EQ(names.size(), 10U);
   EXPECT_EQ(names.front(), "patchwork");
 }
 
 TEST(EvalMethods, ASettingOfAMethodIsThatMethodsAlone) {
   const auto methods =
-      EvalMethods{.names = {"all"}, .settings = {"gpf.segments=5", "czm+u.seed_count=7"}}.resolve();
+      Options{.names = {"all"}, .settings = {"gpf.segments=5", "czm+u.seed_count=7"}}.resolve();
 
-  EXPECT_EQ(std::get<GpfConfig>(*named(methods, "gpf").config).segments, 5);
+  EXPECT_EQ(named(methods, "gpf").config->get_if<GpfConfig>()->segments, 5);
   EXPECT_EQ(patchwork_of(named(methods, "czm+u")).seed_count, 7);
   EXPECT_EQ(patchwork_of(named(methods, "czm+u+e")).seed_count, PatchworkConfig{}.seed_count);
   EXPECT_EQ(patchwork_of(named(methods, "patchwork")).seed_count, PatchworkConfig{}.seed_count);
@@ -84,7 +111,7 @@ TEST(EvalMethods, ASettingOfAMethodIsThatMethodsAlone) {
 
 TEST(EvalMethods, PatchworksSettingsReachTheAblationAndNotRGpf) {
   const auto methods =
-      EvalMethods{.names = {"all"}, .settings = {"patchwork.distance_margin=0.31"}}.resolve();
+      Options{.names = {"all"}, .settings = {"patchwork.distance_margin=0.31"}}.resolve();
 
   for (const char* name : {"patchwork", "czm+u", "czm+u+e", "czm+u+e+f"}) {
     EXPECT_EQ(patchwork_of(named(methods, name)).distance_margin, 0.31f) << name;
@@ -97,9 +124,9 @@ TEST(EvalMethods, PresetAndFileAreWherePatchworksSettingsStart) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "mine.toml", "seed_count = 11\n");
 
-  const auto methods = EvalMethods{.names = {"patchwork", "czm+u"},
-                                   .preset = "paper",
-                                   .config_file = (folder / "mine.toml").string()}
+  const auto methods = Options{.names = {"patchwork", "czm+u"},
+                               .preset = "paper",
+                               .config_file = (folder / "mine.toml").string()}
                            .resolve();
 
   for (const eval::Method& method : methods) {
@@ -111,7 +138,7 @@ TEST(EvalMethods, PresetAndFileAreWherePatchworksSettingsStart) {
 
 TEST(EvalMethods, TheAblationHasTheTermsThatItsNameListsWhateverPatchworkHas) {
   const auto methods =
-      EvalMethods{.names = {"all"}, .settings = {"patchwork.elevation.enabled=false"}}.resolve();
+      Options{.names = {"all"}, .settings = {"patchwork.elevation.enabled=false"}}.resolve();
 
   EXPECT_FALSE(patchwork_of(named(methods, "patchwork")).elevation.enabled);
   EXPECT_FALSE(patchwork_of(named(methods, "czm+u")).elevation.enabled);
@@ -123,8 +150,8 @@ TEST(EvalMethods, TheAblationHasTheTermsThatItsNameListsWhateverPatchworkHas) {
 TEST(EvalMethods, TheSensorsHeightReachesEveryMethodThatHasOne) {
   std::vector<std::string> without;
   for (eval::Method& method :
-       EvalMethods{.names = {"all"}, .mount = {.sensor_height = 1.25f}}.resolve()) {
-    const auto settings = settings_of(method.config.value());
+       Options{.names = {"all"}, .mount = {.sensor_height = 1.25f}}.resolve()) {
+    const auto settings = method.config.value().settings();
     const auto height = std::ranges::find(settings, "sensor_height", &Setting::key);
     if (height == settings.end()) {
       without.push_back(method.name);
@@ -139,9 +166,9 @@ TEST(EvalMethods, LabelsMadeElsewhereFollowUnderTheirOwnName) {
   const io::TemporaryFolder folder;
   const std::string other = folder.path().string();
 
-  const auto methods = EvalMethods{.names = {"gpf"},
-                                   .labels = {"peer=" + other, "second=" + other},
-                                   .label_map = io::LabelMap::semantic_kitti}
+  const auto methods = Options{.names = {"gpf"},
+                               .labels = {"peer=" + other, "second=" + other},
+                               .label_map = io::LabelMap::semantic_kitti}
                            .resolve();
 
   ASSERT_THAT(names_of(methods), ElementsAre("gpf", "peer", "second"));
@@ -155,8 +182,7 @@ TEST(EvalMethods, NoneLeavesLabelsMadeElsewhereAlone) {
   const io::TemporaryFolder folder;
 
   EXPECT_THAT(
-      names_of(
-          EvalMethods{.names = {"none"}, .labels = {"peer=" + folder.path().string()}}.resolve()),
+      names_of(Options{.names = {"none"}, .labels = {"peer=" + folder.path().string()}}.resolve()),
       ElementsAre("peer"));
   EXPECT_THAT(refusal({.names = {"none"}}), AllOf(HasSubstr("--methods"), HasSubstr("--labels")));
 }
@@ -168,7 +194,8 @@ TEST(EvalMethods, ErrorsNameWhatIsAllowed) {
   EXPECT_THAT(refusal({.settings = {"magic.power=5"}}),
               AllOf(HasSubstr("--set magic.power=5"), HasSubstr("line_fit")));
   EXPECT_THAT(refusal({.names = {"gpf"}, .settings = {"gpf.segmentz=5"}}),
-              AllOf(HasSubstr("--set gpf.segmentz=5"), HasSubstr("segmentz is no setting")));
+              AllOf(HasSubstr("--set gpf.segmentz=5"),
+                    HasSubstr("no setting 'segmentz' (did you mean 'segments'?)")));
   EXPECT_THAT(refusal({.names = {"gpf"}, .settings = {"gpf.segments=many"}}),
               HasSubstr("--set gpf.segments=many"));
 }
@@ -178,16 +205,42 @@ TEST(EvalMethods, ASettingOfAMethodThatIsNotEvaluatedIsRefused) {
               AllOf(HasSubstr("--set gpf.segments=5"), HasSubstr("not among --methods")));
 }
 
-TEST(EvalMethods, WhatOnlyPatchworkHasIsRefusedWhereItIsNotEvaluated) {
-  const io::TemporaryFolder folder;
-  io::put_file(folder / "mine.toml", "seed_count = 11\n");
-  const auto said = AllOf(HasSubstr("of patchwork and czm+..."), HasSubstr("--methods"));
+TEST(EvalMethods, APresetWantsAMethodThatHasOne) {
+  EXPECT_THAT(
+      refusal({.names = {"surface", "gpf"}, .preset = "paper"}),
+      HasSubstr(
+          "--preset paper: surface, gpf have no presets; --method patchwork and czm+... have"));
+  EXPECT_EQ(refusal({.names = {"surface", "czm+u"}, .preset = "paper"}), "nothing was refused");
+}
 
-  EXPECT_THAT(refusal({.names = {"surface"}, .preset = "paper"}), said);
-  EXPECT_THAT(refusal({.names = {"surface"}, .config_file = (folder / "mine.toml").string()}),
-              said);
-  EXPECT_THAT(refusal({.names = {"surface"}, .settings = {"patchwork.seed_count=5"}}), said);
-  EXPECT_EQ(refusal({.names = {"czm+u"}, .preset = "paper"}), "nothing was refused");
+TEST(EvalMethods, PatchworksSettingsWantPatchworkOrTheAblation) {
+  EXPECT_THAT(refusal({.names = {"surface"}, .settings = {"patchwork.seed_count=5"}}),
+              HasSubstr("--set patchwork.seed_count=5: patchwork is not among --methods"));
+  EXPECT_EQ(refusal({.names = {"czm+u"}, .settings = {"patchwork.seed_count=5"}}),
+            "nothing was refused");
+}
+
+TEST(EvalMethods, AFileHoldsForEveryMethodThatHasAllItsSettings) {
+  const io::TemporaryFolder folder;
+  io::put_file(folder / "mine.toml", "noise_depth = 3\n[mount]\nscale = 0.5\n");
+
+  const auto methods =
+      Options{.names = {"all"}, .config_file = (folder / "mine.toml").string()}.resolve();
+
+  EXPECT_EQ(named(methods, "surface").config->get_if<SurfaceConfig>()->noise_depth, 3);
+  EXPECT_EQ(patchwork_of(named(methods, "patchwork")).noise_depth, 3);
+  EXPECT_EQ(patchwork_of(named(methods, "czm+u")).noise_depth, 3);
+  EXPECT_TRUE(is_same(patchwork_of(named(methods, "r_gpf")), r_gpf_config()));
+  for (const eval::Method& method : methods) EXPECT_EQ(method.mount.mount.scale, 0.5f);
+}
+
+TEST(EvalMethods, AFileThatHoldsForNoMethodIsRefused) {
+  const io::TemporaryFolder folder;
+  io::put_file(folder / "mine.toml", "seed_count = 11\nmax_range = 50\n");
+
+  EXPECT_THAT(
+      refusal({.names = {"surface", "gpf"}, .config_file = (folder / "mine.toml").string()}),
+      AllOf(HasSubstr("mine.toml: line 1"), HasSubstr("seed_count")));
 }
 
 TEST(EvalMethods, LabelsNeedANameAndAFolderThatIsThere) {
@@ -205,19 +258,19 @@ TEST(EvalMethods, LabelsNeedANameAndAFolderThatIsThere) {
 TEST(EvalMethods, ASensorIsWhatTheSettingsOfAllAreDerivedFrom) {
   Sensor sensor = Sensor::named("vlp-16");
   sensor.height = 1.5;
-  const auto methods = EvalMethods{.names = {"all"},
-                                   .sensor = "vlp-16",
-                                   .settings = {"patchwork.iterations=5", "gpf.segments=7"},
-                                   .mount = {.sensor_height = 1.5f}}
+  const auto methods = Options{.names = {"all"},
+                               .sensor = "vlp-16",
+                               .settings = {"patchwork.iterations=5", "gpf.segments=7"},
+                               .mount = {.sensor_height = 1.5f}}
                            .resolve();
   PatchworkConfig expected = PatchworkConfig::for_sensor(sensor);
   expected.iterations = 5;
 
   EXPECT_TRUE(is_same(patchwork_of(named(methods, "patchwork")), expected));
   EXPECT_EQ(patchwork_of(named(methods, "czm+u")).min_range, expected.min_range);
-  EXPECT_EQ(std::get<GpfConfig>(named(methods, "gpf").config.value()).segments, 7);
-  EXPECT_EQ(std::get<GpfConfig>(named(methods, "gpf").config.value()).sensor_height, 1.5f);
-  EXPECT_EQ(std::get<SurfaceConfig>(named(methods, "surface").config.value()).max_range, 100);
+  EXPECT_EQ(named(methods, "gpf").config->get_if<GpfConfig>()->segments, 7);
+  EXPECT_EQ(named(methods, "gpf").config->get_if<GpfConfig>()->sensor_height, 1.5f);
+  EXPECT_EQ(named(methods, "surface").config->get_if<SurfaceConfig>()->max_range, 100);
 }
 
 TEST(EvalMethods, ASensorStandsBesideNoPreset) {

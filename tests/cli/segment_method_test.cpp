@@ -15,7 +15,8 @@
 #include "cli/line_matchers.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
-#include "flagstone/make_segmenter.hpp"
+#include "app/config/method_choice.hpp"
+#include "flagstone/baselines.hpp"
 #include "flagstone/segmentation.hpp"
 
 namespace flagstone::cli {
@@ -83,7 +84,7 @@ TEST_P(SegmentMethod, DrawsAPicture) {
 }
 
 TEST_P(SegmentMethod, TintsPatchesIfItHasZonesAndElseSaysThatItHasNone) {
-  const bool has_zones = std::holds_alternative<PatchworkConfig>(default_config(GetParam()));
+  const bool has_zones = default_config(GetParam()).get_if<PatchworkConfig>() != nullptr;
 
   const Outcome outcome = segment({"--image", "--color-patches"});
 
@@ -99,7 +100,10 @@ TEST_P(SegmentMethod, TintsPatchesIfItHasZonesAndElseSaysThatItHasNone) {
   }
 }
 
-std::vector<std::string> names() { return {method_names().begin(), method_names().end()}; }
+std::vector<std::string> names() {
+  const auto all = config::method_names();
+  return {all.begin(), all.end()};
+}
 
 INSTANTIATE_TEST_SUITE_P(Methods, SegmentMethod, testing::ValuesIn(names()),
                          [](const auto& method) {
@@ -123,7 +127,7 @@ TEST(SegmentWithMethod, SettingsAreThoseOfTheMethod) {
   EXPECT_EQ(codes_of(folder / "out/scan.label"),
             codes_by(*make_segmenter("gpf", GpfConfig{.distance_margin = 0.02f}), small_scan()));
   EXPECT_EQ(wrong.exit_code, 2);
-  EXPECT_THAT(wrong.err, is_one_line_with("elevation is no setting"));
+  EXPECT_THAT(wrong.err, is_one_line_with("no setting 'elevation'"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/config/config_toml.hpp"
+#include "app/config/method_choice.hpp"
 #include "app/config/same_config.hpp"
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
@@ -17,7 +18,7 @@
 #include "flagstone/make_segmenter.hpp"
 #include "flagstone/mount.hpp"
 #include "flagstone/sensor.hpp"
-#include "lab/baselines/settings.hpp"
+#include "library/methods/method.hpp"
 
 namespace flagstone::cli {
 namespace {
@@ -39,7 +40,7 @@ PatchworkConfig printed_config(const std::vector<std::string>& arguments) {
   MethodConfig config = PatchworkConfig{};
   MountSettings mount;
   config::apply_toml(outcome.out, "config", config, mount);
-  return std::get<PatchworkConfig>(config);
+  return *config.get_if<PatchworkConfig>();
 }
 
 PatchworkConfig derived(const char* name, double height) {
@@ -123,7 +124,7 @@ TEST_F(SensorOption, YieldsToSettings) {
 }
 
 TEST_F(SensorOption, ServesEveryMethod) {
-  for (const std::string_view method : method_names()) {
+  for (const std::string_view method : config::method_names()) {
     MethodConfig config = default_config(method);
     const Outcome outcome = run({"config", "--method", std::string(method), "--sensor", "vlp-16"});
 
@@ -158,7 +159,7 @@ TEST_F(SensorOption, IsRefusedInOneLineThatSaysWhatIsWrong) {
     EXPECT_EQ(lines_of(outcome.err).size(), 1U) << outcome.err;
   };
 
-  expect({"--sensor", "os9"}, "--sensor: no sensor is named \"os9\"; there are hdl-64e");
+  expect({"--sensor", "os9"}, "--sensor: no sensor is named 'os9'; there are: hdl-64e");
   expect({"--sensor", bad}, "bad.toml: line 5, column 13: ");
   expect({"--sensor", blind}, "no beam meets flat ground");
   expect({"--sensor", "vlp-16", "--config", named}, "named.toml names a sensor too");
@@ -198,7 +199,7 @@ TEST(SensorsCommand, ListsThoseThatAreNamedAndSaysWhichItCannot) {
 
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(lines_of(outcome.out).size(), 2U);
-  EXPECT_THAT(outcome.err, HasSubstr("no sensor is named \"os9\""));
+  EXPECT_THAT(outcome.err, HasSubstr("no sensor is named 'os9'"));
 }
 
 }  // namespace

@@ -130,12 +130,12 @@ TEST_F(SweepCommand, AnUnreadableScanCostsOneLineAndNotTheRun) {
 TEST_F(SweepCommand, WrongUsageIsOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> misuses = {
       {{"--param", "seed_count"}, "KEY=VALUE"},
-      {{"--param", "seed_cuont=3"}, "seed_cuont is no setting"},
+      {{"--param", "seed_cuont=3"}, "no setting 'seed_cuont'"},
       {{"--param", "bins=many"}, "RINGSxSECTORS"},
       {{"--param", "bins=10x4000"}, "sectors = 4000"},
       {{"--param", "distance_margin=-1"}, "distance_margin = -1"},
       {{"--method", "gpf", "--param", "bins=10x36"}, "of patchwork and its relatives"},
-      {{"--method", "gpf"}, "uprightness is no setting"},  // Fig. 5 is of zones
+      {{"--method", "gpf"}, "no setting 'uprightness'"},  // Fig. 5 is of zones
       {{"--method", "magic"}, "magic"},
       {{"--param", "a=1", "--param", "b=1", "--param", "c=1"}, "once or twice"},
       {{"--param", "seed_count=5", "--param", "seed_count=6"}, "names seed_count twice"},

@@ -6,20 +6,18 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <iterator>
-#include <limits>
+#include <cstddef>
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "files/io/load_bytes.hpp"
 #include "files/io/message.hpp"
-#include "lab/baselines/settings.hpp"
+#include "library/methods/method.hpp"
 #include "library/mount/mount_settings.hpp"
 
 namespace flagstone::config {
@@ -103,223 +101,75 @@ std::string zones_text(const std::vector<Zone>& zones) {
   return text;
 }
 
-/// Says where in the source a node stands.
-class Place {
- public:
-  Place(std::string_view source, const toml::source_region& region) {
-    if (source.empty()) return;
-    text_ = fmt::format("{}: line {}, column {}: ", source, region.begin.line, region.begin.column);
-  }
-  [[noreturn]] void refuse(const std::string& reason) const {
-    throw std::invalid_argument(io::printable(text_ + reason));  // keys may hold anything
-  }
-
- private:
-  std::string text_;
-};
-
-std::string type_name(const toml::node& node) {
-  std::ostringstream name;
-  name << node.type();
-  return name.str();
+std::string place_of(const toml::source_region& region, std::string_view source) {
+  if (source.empty()) return {};
+  return fmt::format("{}: line {}, column {}: ", source, region.begin.line, region.begin.column);
 }
 
-void assign(const toml::node& node, const std::string& key, const Place& place, float& value) {
-  if (!node.is_number()) place.refuse(key + " is a number, not a " + type_name(node));
-  const double number = node.value_or(0.0);
-  constexpr double most = std::numeric_limits<float>::max();
-  // Only what is written as inf is infinite.
-  value = static_cast<float>(std::isinf(number) ? number : std::clamp(number, -most, most));
-}
-
-void assign(const toml::node& node, const std::string& key, const Place& place, int& value) {
-  const auto number = node.value_exact<std::int64_t>();
-  if (!number) place.refuse(key + " is a whole number, not a " + type_name(node));
-  constexpr std::int64_t most = std::numeric_limits<int>::max();
-  value = static_cast<int>(std::clamp(*number, -most, most));
-}
-
-void assign(const toml::node& node, const std::string& key, const Place& place, bool& value) {
-  const auto flag = node.value_exact<bool>();
-  if (!flag) place.refuse(key + " is true or false, not a " + type_name(node));
-  value = *flag;
-}
-
-void assign(const toml::node& node, const std::string& key, const Place& place,
-            std::vector<float>& values) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr) place.refuse(key + " is an array of numbers, not a " + type_name(node));
-  values.clear();
-  for (const toml::node& element : *array) assign(element, key, place, values.emplace_back());
-}
-
-void assign(const toml::node& node, const std::string& key, const Place& place,
-            std::array<float, 3>& values) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr || array->size() != values.size()) {
-    place.refuse(key + " is an array of three numbers");
-  }
-  for (std::size_t i = 0; i < values.size(); ++i) assign((*array)[i], key, place, values[i]);
-}
-
-void assign(const toml::node& node, const std::string& key, const Place& place,
-            const Choice& choice) {
-  const auto name = node.value_exact<std::string>();
-  const auto found = name ? std::ranges::find(choice.names(), *name) : choice.names().end();
-  if (found == choice.names().end()) {
-    place.refuse(fmt::format("{} is one of {}", key, names_of(choice)));
-  }
-  choice.choose(static_cast<std::size_t>(found - choice.names().begin()));
-}
-
-void assign(const toml::node& node, const Place& place, const Setting& setting) {
-  const std::string key(setting.key);
-  std::visit(
-      [&](const auto& value) {
-        if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(value)>>) {
-          assign(node, key, place, *value);
-        } else {
-          assign(node, key, place, value);
-        }
-      },
-      setting.value);
-}
-
-Zone zone_of(const toml::node& node, const std::string& name, std::string_view source) {
-  const Place place(source, node.source());
-  const toml::table* table = node.as_table();
-  if (table == nullptr) place.refuse(name + " is a table with ring_radii, sectors, height_margin");
-  Zone zone;
-  for (const auto& [key, value] : *table) {
-    const Place here(source, value.source());
-    const std::string full = name + "." + std::string(key.str());
-    if (key == "ring_radii") {
-      assign(value, full, here, zone.ring_radii);
-    } else if (key == "sectors") {
-      assign(value, full, here, zone.sectors);
-    } else if (key == "height_margin") {
-      assign(value, full, here, zone.height_margin);
+Value value_of(const toml::node& node, std::string_view source) {
+  Value value{.held = {}, .place = place_of(node.source(), source)};
+  node.visit([&](const auto& held) {
+    if constexpr (toml::is_table<decltype(held)>) {
+      Value::Table& table = value.held.emplace<Value::Table>();
+      for (const auto& [key, element] : held) {
+        table.push_back({std::string(key.str()), value_of(element, source)});
+      }
+    } else if constexpr (toml::is_array<decltype(held)>) {
+      Value::List& list = value.held.emplace<Value::List>();
+      for (const toml::node& element : held) list.push_back(value_of(element, source));
+    } else if constexpr (toml::is_chronological<decltype(held)>) {
+      std::ostringstream type;
+      type << node.type();
+      value.held = Value::Other{type.str()};
     } else {
-      here.refuse(full + " is no setting; a zone has ring_radii, sectors and height_margin");
+      value.held = held.get();
     }
-  }
-  return zone;
-}
-
-void assign_zones(const toml::node& node, std::string_view source, std::vector<Zone>& zones) {
-  const toml::array* array = node.as_array();
-  if (array == nullptr) {
-    Place(source, node.source()).refuse("zones is an array of tables, not a " + type_name(node));
-  }
-  zones.clear();
-  for (const toml::node& element : *array) {
-    zones.push_back(zone_of(element, fmt::format("zones[{}]", zones.size()), source));
-  }
-}
-
-std::string sensor_of(const toml::node& node, std::string_view source) {
-  const auto name = node.value_exact<std::string>();
-  if (!name) {
-    Place(source, node.source())
-        .refuse("sensor is a text, the name of a sensor or of its file, not a " + type_name(node));
-  }
-  return *name;
-}
-
-/// Is there a setting of this name, or a section?
-bool is_known(std::string_view key, const std::vector<Setting>& settings) {
-  return std::ranges::any_of(settings, [&](const Setting& setting) {
-    return setting.key == key || setting.key.starts_with(std::string(key) + ".");
   });
+  return value;
 }
 
-/// What to say of a setting that is not among `settings`, those of the method at hand.
-std::string no_setting(const std::string& key, const std::vector<Setting>& settings) {
-  const bool is_section_here = is_known(key, settings);
-  for (const std::string_view method : {"surface", "patchwork"}) {
-    if (is_section_here) break;
-    MethodConfig config = default_config(method);
-    const bool are_zones = key == "zones" && std::holds_alternative<PatchworkConfig>(config);
-    if (!are_zones && !is_known(key, settings_of(config))) continue;
-    return fmt::format("{} is no setting of this method, but of --method {}", key, method);
-  }
-  return key + " is no setting; 'flagstone config --method NAME' prints all there are";
-}
-
-void apply_table(const toml::table& table, const std::string& prefix, std::string_view source,
-                 const std::vector<Setting>& settings, std::vector<Zone>* zones) {
-  for (const auto& [key, node] : table) {
-    const std::string full = prefix + std::string(key.str());
-    const Place place(source, node.source());
-    const auto setting = std::ranges::find(settings, full, &Setting::key);
-    if (full == "sensor") {
-      sensor_of(node, source);
-    } else if (full == "zones" && zones != nullptr) {
-      assign_zones(node, source, *zones);
-    } else if (setting != settings.end()) {
-      assign(node, place, *setting);
-    } else if (is_known(full, settings) && node.is_table()) {
-      apply_table(*node.as_table(), full + ".", source, settings, zones);
-    } else if (is_known(full, settings)) {
-      place.refuse(full + " is a table of settings, not a " + type_name(node));
-    } else {
-      place.refuse(no_setting(full, settings));
-    }
-  }
-}
-
-toml::table parsed(std::string_view text, std::string_view source) {
-  try {
-    return toml::parse(text, source);
-  } catch (const toml::parse_error& error) {
-    Place(source, error.source()).refuse(std::string(error.description()));
-  }
-}
-
-/// `zones` is null for methods that have none.
-void apply_text(std::string_view text, std::string_view source,
-                const std::vector<Setting>& settings, std::vector<Zone>* zones) {
-  apply_table(parsed(text, source), "", source, settings, zones);
+std::string text_of(const std::string& file) {
+  std::vector<std::byte> bytes;
+  const Status status = io::load_bytes(file, bytes);
+  if (!status.ok()) throw std::invalid_argument(status.message());
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 }  // namespace
 
 std::string to_toml(MethodConfig config) {
-  const std::string text = settings_text(settings_of(config));
-  const auto* patchwork = std::get_if<PatchworkConfig>(&config);
+  const std::string text = settings_text(config.settings());
+  const auto* patchwork = config.get_if<PatchworkConfig>();
   return patchwork == nullptr ? text : text + zones_text(patchwork->zones);
 }
 
 std::string to_toml(MountSettings mount) { return settings_text(settings_of(mount)); }
 
+Value parse_toml(std::string_view text, std::string_view source) {
+  try {
+    return value_of(toml::parse(text, source), source);
+  } catch (const toml::parse_error& error) {
+    throw std::invalid_argument(
+        io::printable(place_of(error.source(), source) + std::string(error.description())));
+  }
+}
+
+Value parse_toml_file(const std::string& file) { return parse_toml(text_of(file), file); }
+
 void apply_toml(std::string_view text, std::string_view source, MethodConfig& config,
                 MountSettings& mount) {
-  auto* patchwork = std::get_if<PatchworkConfig>(&config);
-  std::vector<Setting> settings = settings_of(config);
-  std::ranges::move(settings_of(mount), std::back_inserter(settings));
-  apply_text(text, source, settings, patchwork == nullptr ? nullptr : &patchwork->zones);
+  apply(parse_toml(text, source), config, mount);
 }
 
-void apply_toml(std::string_view text, std::string_view source, MethodConfig& config) {
-  auto* patchwork = std::get_if<PatchworkConfig>(&config);
-  apply_text(text, source, settings_of(config), patchwork == nullptr ? nullptr : &patchwork->zones);
-}
-
-void apply_toml(std::string_view text, std::string_view source, PatchworkConfig& config) {
-  apply_text(text, source, settings_of(config), &config.zones);
-}
-
-std::optional<std::string> sensor_named_in(std::string_view text, std::string_view source) {
-  const toml::table table = parsed(text, source);
-  const toml::node* node = table.get("sensor");
-  if (node == nullptr) return std::nullopt;
-  return sensor_of(*node, source);
-}
-
-void set_sensor_height(float height, MethodConfig& config) {
-  for (const Setting& setting : settings_of(config)) {
-    if (setting.key == "sensor_height") *std::get<float*>(setting.value) = height;
+std::optional<std::string> sensor_named_in(const Value& table) {
+  const Value* sensor = table.find("sensor");
+  if (sensor == nullptr) return std::nullopt;
+  const auto* name = std::get_if<std::string>(&sensor->held);
+  if (name == nullptr) {
+    throw std::invalid_argument(
+        io::printable(sensor->place + "sensor is a text, the name of a sensor or of its file"));
   }
+  return *name;
 }
 
 }  // namespace flagstone::config

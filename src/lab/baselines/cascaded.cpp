@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "lab/baselines/cascaded_beams.hpp"
@@ -12,6 +14,7 @@
 #include "lab/baselines/cascaded_range_image.hpp"
 #include "lab/baselines/cascaded_regions.hpp"
 #include "lab/baselines/polar_grid.hpp"
+#include "lab/baselines/settings.hpp"
 #include "lab/baselines/usable_points.hpp"
 #include "library/core/segment_scan.hpp"
 
@@ -191,6 +194,88 @@ Status Cascaded::segment(CloudView cloud, std::span<const std::uint16_t> rings,
     p.segment(cloud, result, labels,
               [&](std::size_t k, float /*range*/) { return rings[p.points.index()[k]]; });
   });
+}
+
+namespace {
+
+/// Do mean heights above the horizon, as seen from the sensor, rise from ring to ring? Some sensors
+/// number their rings from the top.
+bool lowest_come_first(CloudView cloud, std::span<const std::uint16_t> rings, std::size_t count) {
+  std::vector<double> sums(count);
+  std::vector<double> points(count);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Point p = cloud[i];
+    const double squared = static_cast<double>(p.x) * p.x + static_cast<double>(p.y) * p.y;
+    if (!(squared > 0) || !(squared < 1e12)) continue;  // nor NaN
+    sums[rings[i]] += p.z / std::sqrt(squared);
+    points[rings[i]] += 1;
+  }
+  double below = -std::numeric_limits<double>::infinity();
+  for (std::size_t ring = 0; ring < count; ++ring) {
+    if (points[ring] == 0) continue;
+    const double mean = sums[ring] / points[ring];
+    if (!(mean > below)) return false;
+    below = mean;
+  }
+  return true;
+}
+
+/// Cascaded on scans that may say which ring each point is of. It uses the rings if they are whole
+/// numbers, one for each of its beams, the lowest first; else it infers them.
+class CascadedOnRings final : public Segmenter, public UsesField {
+ public:
+  explicit CascadedOnRings(const CascadedConfig& config) : cascaded_(config) {}
+
+  [[nodiscard]] std::string_view field() const noexcept override { return "ring"; }
+
+  void set_field(CloudView cloud, std::span<const double> values) override {
+    if (!read_rings(cloud, values)) rings_.clear();
+  }
+
+  Status segment(CloudView cloud, Segmentation& result) noexcept override {
+    const bool are_of_this_cloud = !rings_.empty() && rings_.size() == cloud.size();
+    return are_of_this_cloud ? cascaded_.segment(cloud, rings_, result)
+                             : cascaded_.segment(cloud, result);
+  }
+
+ private:
+  bool read_rings(CloudView cloud, std::span<const double> values) {
+    const std::size_t beams = cascaded_.config().beam_elevations.size();
+    rings_.clear();
+    std::size_t count = 0;
+    for (const double ring : values) {
+      const bool is_one = ring >= 0 && ring < static_cast<double>(beams);  // not if NaN
+      if (!is_one || std::floor(ring) != ring) return false;
+      rings_.push_back(static_cast<std::uint16_t>(ring));
+      count = std::max<std::size_t>(count, rings_.back() + std::size_t{1});
+    }
+    return count == beams && lowest_come_first(cloud, rings_, count);
+  }
+
+  Cascaded cascaded_;
+  std::vector<std::uint16_t> rings_;  // of the points segmented next; empty if not known
+};
+
+/// The beams of the sensor; a rosette has none.
+MethodConfig with_beams_of(const Sensor& sensor) {
+  CascadedConfig config;
+  if (sensor.draws_rosette()) return config;
+  config.beam_elevations.assign(sensor.elevations.rbegin(), sensor.elevations.rend());
+  config.max_range = static_cast<float>(sensor.max_range);
+  const double firings_a_turn = sensor.firings * 360 / (sensor.azimuth_end - sensor.azimuth_begin);
+  config.columns = static_cast<int>(std::clamp(firings_a_turn, 1.0, 3600.0));
+  return config;
+}
+
+}  // namespace
+
+Method baselines::cascaded_method() {
+  Method method = baseline<CascadedConfig, CascadedOnRings>("cascaded", "CascadedSeg");
+  method.for_sensor = [](const Sensor& sensor) {
+    sensor.check();
+    return at_height_of(sensor, with_beams_of(sensor));
+  };
+  return method;
 }
 
 }  // namespace flagstone

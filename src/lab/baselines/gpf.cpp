@@ -10,6 +10,7 @@
 #include "lab/baselines/coordinates.hpp"
 #include "lab/baselines/fitted_plane.hpp"
 #include "lab/baselines/gpf_segments.hpp"
+#include "lab/baselines/settings.hpp"
 #include "lab/baselines/usable_points.hpp"
 #include "library/core/buffer.hpp"
 #include "library/core/segment_scan.hpp"
@@ -121,5 +122,7 @@ Status Gpf::segment(CloudView cloud, Segmentation& result) noexcept {
     pipeline_->segment(cloud, result, labels);
   });
 }
+
+Method baselines::gpf_method() { return baseline<GpfConfig, Gpf>("gpf", "GPF"); }
 
 }  // namespace flagstone

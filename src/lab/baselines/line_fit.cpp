@@ -9,6 +9,7 @@
 
 #include "lab/baselines/line_fit_segments.hpp"
 #include "lab/baselines/polar_grid.hpp"
+#include "lab/baselines/settings.hpp"
 #include "lab/baselines/usable_points.hpp"
 #include "library/core/segment_scan.hpp"
 
@@ -80,6 +81,10 @@ const LineFitConfig& LineFit::config() const noexcept { return pipeline_->config
 Status LineFit::segment(CloudView cloud, Segmentation& result) noexcept {
   return segment_scan(cloud, result,
                       [&](std::span<Label> labels) { pipeline_->label(cloud, labels); });
+}
+
+Method baselines::line_fit_method() {
+  return baseline<LineFitConfig, LineFit>("line_fit", "LineFit");
 }
 
 }  // namespace flagstone

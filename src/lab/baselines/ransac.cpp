@@ -10,6 +10,7 @@
 #include "lab/baselines/coordinates.hpp"
 #include "lab/baselines/fitted_plane.hpp"
 #include "lab/baselines/ransac_search.hpp"
+#include "lab/baselines/settings.hpp"
 #include "lab/baselines/usable_points.hpp"
 #include "library/core/segment_scan.hpp"
 
@@ -87,5 +88,7 @@ Status Ransac::segment(CloudView cloud, Segmentation& result) noexcept {
     pipeline_->segment(cloud, result, labels);
   });
 }
+
+Method baselines::ransac_method() { return baseline<RansacConfig, Ransac>("ransac", "RANSAC"); }
 
 }  // namespace flagstone

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <variant>
+#include <utility>
 #include <vector>
 
-#include "flagstone/make_segmenter.hpp"
+#include "flagstone/baselines.hpp"
 #include "library/core/setting.hpp"
-#include "library/patchwork/patchwork_settings.hpp"
-#include "library/surface/surface_settings.hpp"
+#include "library/methods/method.hpp"
 
 namespace flagstone {
 
@@ -18,17 +17,29 @@ std::vector<Setting> settings_of(GpfConfig& config);
 std::vector<Setting> settings_of(LineFitConfig& config);
 std::vector<Setting> settings_of(CascadedConfig& config);
 
-/// Those of whatever method `config` is of; Patchwork's zones are not among them.
-inline std::vector<Setting> settings_of(MethodConfig& config) {
-  return std::visit([](auto& settings) { return settings_of(settings); }, config);
+namespace baselines {
+
+/// `config` with the sensor's height, where it has one.
+inline MethodConfig at_height_of(const Sensor& sensor, MethodConfig config) {
+  sensor.check();
+  set_sensor_height(static_cast<float>(sensor.height), config);
+  return config;
 }
 
-/// The sensor's height in the settings of a method, metres; `otherwise` where it has none.
-inline float sensor_height_of(MethodConfig config, float otherwise) {
-  for (const Setting& setting : settings_of(config)) {
-    if (setting.key == "sensor_height") return *std::get<float*>(setting.value);
-  }
-  return otherwise;
+/// A method whose only setting that depends on the sensor is its height.
+template <class Config, class Segmenter>
+Method baseline(std::string_view name, std::string_view title) {
+  return {.name = name,
+          .title = title,
+          .type = &config_type<Config, Segmenter>(name),
+          .defaults = [] { return Config{}; },
+          .for_sensor = [](const Sensor& sensor) { return at_height_of(sensor, Config{}); }};
 }
 
+Method ransac_method();
+Method gpf_method();
+Method line_fit_method();
+Method cascaded_method();
+
+}  // namespace baselines
 }  // namespace flagstone

@@ -108,7 +108,7 @@ std::string heading(const Results& results) {
   return fmt::format(
       "{} with {}, {}; {} of {:.0f} points (mean) in rotation, {} after warm-up\n"
       "{}, {}; {}\n",
-      eval::title_of(results.method), results.target, counted(results.threads, "thread"),
+      method_title(results.method), results.target, counted(results.threads, "thread"),
       counted(results.points.size(), "scan"), mean_points(results),
       counted(results.rounds, "round"), eval::machine_name(), place, eval::today());
 }

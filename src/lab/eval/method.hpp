@@ -30,7 +30,4 @@ struct Method {
 /// A method of make_segmenter() with these settings.
 Method method_of(std::string_view name, MethodConfig config, const MountSettings& mount = {});
 
-/// How the paper's tables call a method; the name itself where they do not.
-std::string title_of(std::string_view name);
-
 }  // namespace flagstone::eval

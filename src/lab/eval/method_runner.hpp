@@ -3,7 +3,7 @@
 #pragma once
 
 #include <memory>
-#include <string_view>
+#include <vector>
 
 #include "files/io/cloud.hpp"
 #include "flagstone/gravity_aligned_segmenter.hpp"
@@ -11,19 +11,18 @@
 #include "flagstone/mount.hpp"
 #include "flagstone/segmentation.hpp"
 #include "flagstone/status.hpp"
+#include "library/methods/method.hpp"
 
 namespace flagstone::eval {
 
-/// A method on clouds as files hold them, of sensors that stand as the mount says: it is told the
-/// rings of the points where the file has them and the method can use them. One per thread.
+/// A method on clouds as files hold them, of sensors that stand as the mount says. One per thread.
 class MethodRunner {
  public:
-  /// As make_segmenter() and GravityAlignedSegmenter.
-  MethodRunner(std::string_view name, const MethodConfig& config, const MountSettings& mount = {});
+  /// Throws as MethodConfig::make() and GravityAlignedSegmenter.
+  explicit MethodRunner(const MethodConfig& config, const MountSettings& mount = {});
 
-  /// Reads the rings of a cloud that is to be segmented next. A field `ring` counts if it numbers
-  /// as many rings as the method has beams, as whole numbers from 0, the lowest first; else the
-  /// method infers them. May throw std::bad_alloc.
+  /// Hands the cloud that is segmented next to a method that uses more of it than x, y and z. May
+  /// throw std::bad_alloc.
   void prepare(const io::Cloud& cloud);
 
   /// As Segmenter::segment() on the cloud it is prepared for, with a message where it fails.
@@ -36,11 +35,8 @@ class MethodRunner {
   void reset() noexcept { levelled_->reset(); }
 
  private:
-  class OnRings;
-
-  bool find_rings(const io::Cloud& cloud);
-
-  OnRings* on_rings_ = nullptr;  // the method, if it can be told the rings
+  UsesField* field_user_ = nullptr;  // the method, if it is one
+  std::vector<double> values_;       // of its field
   std::unique_ptr<GravityAlignedSegmenter> levelled_;
 };
 

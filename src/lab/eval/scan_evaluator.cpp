@@ -81,9 +81,7 @@ Status ScanEvaluator::read(const LabelledScan& scan) {
 Status ScanEvaluator::segment(Worker& worker, std::optional<double>& segment_ms) {
   const std::optional<MethodConfig>& config = worker.method->config;
   const bool is_new = !worker.runner && config;
-  if (is_new)
-    worker.runner =
-        std::make_unique<MethodRunner>(worker.method->name, *config, worker.method->mount);
+  if (is_new) worker.runner = std::make_unique<MethodRunner>(*config, worker.method->mount);
   worker.runner->prepare(cloud_);
   // Memory is taken and caches are filled before the first time that counts.
   Status status;

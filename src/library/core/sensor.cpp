@@ -7,6 +7,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "library/core/did_you_mean.hpp"
 #include "library/core/known_sensors.hpp"
 #include "library/core/setting.hpp"
 
@@ -62,11 +63,12 @@ void Sensor::check() const {
 
 const Sensor& Sensor::named(std::string_view name) {
   const auto sensors = known();
-  const auto found = std::ranges::find(sensors, name, &Sensor::name);
+  const auto found = std::ranges::find_if(
+      sensors, [&](const Sensor& sensor) { return equal_but_for_case(sensor.name, name); });
   if (found != sensors.end()) return *found;
-  std::string message = "no sensor is named \"" + std::string(name) + "\"; there are";
-  for (const Sensor& sensor : sensors) message += ' ' + sensor.name;
-  throw std::invalid_argument(message);
+  std::vector<std::string_view> names;
+  for (const Sensor& sensor : sensors) names.push_back(sensor.name);
+  throw std::invalid_argument(no_such("sensor", name, names));
 }
 
 std::span<const Sensor> Sensor::known() { return known_sensors(); }

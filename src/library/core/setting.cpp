@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "library/core/setting.hpp"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <sstream>
@@ -9,6 +11,24 @@
 
 namespace flagstone {
 namespace {
+
+/// As people write it: "0.000001" and "1000000" rather than "1e-06" and "1e+06".
+std::string number_text(double number) {
+  std::ostringstream text;
+  text << number;
+  const double size = std::abs(number);
+  if (text.str().find('e') == std::string::npos || size < 1e-9 || size > 1e9) return text.str();
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.begin(), digits.end(), number, std::chars_format::fixed);
+  return {digits.begin(), end.ptr};
+}
+
+/// The range as floats have it: 1e-6f is as good as the bound 1e-6.
+ValidRange rounded_to_float(ValidRange range) {
+  range.low = static_cast<float>(range.low);
+  range.high = static_cast<float>(range.high);
+  return range;
+}
 
 /// False for NaN.
 bool is_allowed(double value, const ValidRange& allowed) {
@@ -25,9 +45,7 @@ struct Check {
   void operator()(const int* value) const {
     check_number(method, setting.key, *value, setting.allowed);
   }
-  void operator()(const float* value) const {
-    check_number(method, setting.key, *value, setting.allowed);
-  }
+  void operator()(const float* value) const { check_float(setting.key, *value); }
   void operator()(const std::vector<float>* values) const {
     check_number(method, "length of " + std::string(setting.key),
                  static_cast<double>(values->size()), {.low = 1, .high = 1000});
@@ -42,9 +60,13 @@ struct Check {
 
   void check_each(std::span<const float> values) const {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      check_number(method, std::string(setting.key) + "[" + std::to_string(i) + "]", values[i],
-                   setting.allowed);
+      check_float(std::string(setting.key) + "[" + std::to_string(i) + "]", values[i]);
     }
+  }
+
+  void check_float(std::string_view key, float value) const {
+    if (is_allowed(value, rounded_to_float(setting.allowed))) return;
+    throw_out_of_range(method, key, value, to_string(setting.allowed));
   }
 };
 
@@ -53,9 +75,9 @@ struct Check {
 std::string to_string(const ValidRange& allowed) {
   std::ostringstream text;
   if (allowed.exclusive_min) {
-    text << "above " << allowed.low << ", up to " << allowed.high;
+    text << "above " << number_text(allowed.low) << ", up to " << number_text(allowed.high);
   } else {
-    text << allowed.low << " to " << allowed.high;
+    text << number_text(allowed.low) << " to " << number_text(allowed.high);
   }
   if (!allowed.unit.empty()) text << ' ' << allowed.unit;
   if (allowed.allow_infinity) text << ", or inf for none";

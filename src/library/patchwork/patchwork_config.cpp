@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "library/core/did_you_mean.hpp"
 #include "library/patchwork/patchwork_settings.hpp"
 
 namespace flagstone {
@@ -256,8 +257,7 @@ PatchworkConfig PatchworkConfig::preset(std::string_view name) {
   if (name == "default") return {};
   if (name == "paper") return paper();
   if (name == "reference") return reference();
-  throw std::invalid_argument("patchwork: no preset is named \"" + std::string(name) +
-                              "\"; there are default, paper and reference");
+  throw std::invalid_argument("patchwork: " + no_such("preset", name, names));
 }
 
 std::span<const std::string_view> PatchworkConfig::preset_names() noexcept { return names; }

@@ -65,6 +65,13 @@ PatchworkConfig any_config() {
   return c;
 }
 
+void apply_toml(std::string_view text, std::string_view source, PatchworkConfig& config) {
+  MethodConfig any = config;
+  MountSettings mount;
+  config::apply_toml(text, source, any, mount);
+  config = *any.get_if<PatchworkConfig>();
+}
+
 /// What apply_toml says of a text; empty if it is content.
 std::string complaint(const std::string& text) {
   PatchworkConfig config;

@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <flagstone/baselines.hpp>
 #include <flagstone/flagstone.hpp>
-#include <flagstone/make_segmenter.hpp>
 #include <vector>
 
 int main() {
@@ -20,6 +20,7 @@ int main() {
   }
   const flagstone::CloudView cloud(xyz.data(), xyz.size() / 3);
 
+  flagstone::register_baselines();
   flagstone::Segmentation scan;
   for (const std::string_view name : flagstone::method_names()) {
     const auto segmenter = flagstone::make_segmenter(name);

@@ -9,12 +9,11 @@
 #include <cstddef>
 #include <memory>
 #include <string>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include "edge_scan.hpp"
-#include "flagstone/make_segmenter.hpp"
+#include "flagstone/baselines.hpp"
+#include "library/methods/method.hpp"
 #include "random_cloud.hpp"
 
 namespace flagstone {
@@ -27,6 +26,7 @@ struct Case {
 };
 
 std::vector<Case> cases() {
+  register_baselines();
   std::vector<Case> all;
   for (const std::string_view method : method_names()) {
     all.push_back({std::string(method), std::string(method), default_config(method)});
@@ -54,13 +54,7 @@ std::vector<Point> scene() {
 /// Labels of a cloud that is raised by `rise`, with a sensor height that says so.
 std::vector<Label> labels_of(const Case& method, std::vector<Point> cloud, float rise) {
   MethodConfig config = method.config;
-  std::visit(
-      [&](auto& settings) {
-        if constexpr (requires { settings.sensor_height; }) {
-          settings.sensor_height = 1.73f - rise;
-        }
-      },
-      config);
+  set_sensor_height(1.73f - rise, config);
   for (Point& p : cloud) p.z += rise;
   Segmentation result;
   EXPECT_TRUE(make_segmenter(method.method, config)->segment(tests::view_of(cloud), result).ok());

@@ -14,7 +14,8 @@
 #include <variant>
 #include <vector>
 
-#include "lab/baselines/settings.hpp"
+#include "flagstone/baselines.hpp"
+#include "library/core/setting.hpp"
 
 namespace flagstone {
 namespace {
@@ -27,10 +28,10 @@ using testing::HasSubstr;
 std::string complaint_of(std::string_view method, std::size_t number,
                          const std::function<void(Setting&)>& spoil) {
   MethodConfig config = default_config(method);
-  std::vector<Setting> settings = settings_of(config);
+  std::vector<Setting> settings = config.settings();
   spoil(settings.at(number));
   try {
-    check(config);
+    config.check();
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -53,9 +54,10 @@ std::vector<double> numbers_beyond(const ValidRange& allowed) {
 /// Calls `body` with every setting of every method: its method, number and what it is.
 template <class Body>
 void for_every_setting(const Body& body) {
+  register_baselines();
   for (const std::string_view method : method_names()) {
     MethodConfig config = default_config(method);
-    const std::vector<Setting> settings = settings_of(config);
+    const std::vector<Setting> settings = config.settings();
     ASSERT_FALSE(settings.empty()) << method;
     for (std::size_t i = 0; i < settings.size(); ++i) {
       SCOPED_TRACE(std::string(method) + ", " + std::string(settings[i].key));

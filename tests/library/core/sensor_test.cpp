@@ -55,7 +55,9 @@ TEST(Sensor, OfAnUnknownNameIsRefusedWithThoseThereAre) {
     (void)Sensor::named("vlp-17");
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("no sensor is named \"vlp-17\"; there are hdl-64e"));
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("no sensor is named 'vlp-17' (did you mean 'vlp-16'?); there are: hdl-64e"));
   }
 }
 

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "flagstone/baselines.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "lab/baselines/settings.hpp"
+
+namespace flagstone {
+namespace {
+
+/// A configuration with the terms of the ground likelihood that come after the first plus sign of
+/// `name`, "czm+u+e", and no others.
+PatchworkConfig with_terms_of(std::string_view name, PatchworkConfig config) {
+  const std::string_view terms = name.substr(std::min(name.find('+'), name.size()));
+  config.uprightness.enabled = terms.find("+u") != std::string_view::npos;
+  config.elevation.enabled = terms.find("+e") != std::string_view::npos;
+  config.flatness.enabled = terms.find("+f") != std::string_view::npos;
+  return config;
+}
+
+/// R-GPF with the terms that its name lists.
+Method r_gpf_row(std::string_view name, std::string_view title) {
+  const auto config = [name] { return with_terms_of(name, r_gpf_config()); };
+  return {.name = name,
+          .title = title,
+          .type = find_method("patchwork").type,
+          .defaults = config,
+          .for_sensor = [config](const Sensor& sensor) {
+            return baselines::at_height_of(sensor, config());
+          }};
+}
+
+/// Patchwork with the terms that its name lists.
+Method patchwork_row(std::string_view name, std::string_view title) {
+  return {.name = name,
+          .title = title,
+          .type = find_method("patchwork").type,
+          .defaults = {},
+          .for_sensor = {},
+          .starts_from = "patchwork",
+          .derive = [name](const MethodConfig& patchwork) {
+            return with_terms_of(name, *patchwork.get_if<PatchworkConfig>());
+          }};
+}
+
+}  // namespace
+
+void register_baselines() {
+  static const bool registered = [] {
+    register_methods({baselines::ransac_method(), baselines::gpf_method(),
+                      baselines::line_fit_method(), baselines::cascaded_method(),
+                      r_gpf_row("r_gpf", "R-GPF"), r_gpf_row("r_gpf+u", "R-GPF + U"),
+                      patchwork_row("czm+u", "CZM + U"), patchwork_row("czm+u+e", "CZM + U + E"),
+                      patchwork_row("czm+u+e+f", "CZM + U + E + F")});
+    return true;
+  }();
+  static_cast<void>(registered);
+}
+
+std::span<const std::string_view> table_1_methods() noexcept {
+  static constexpr std::array<std::string_view, 9> names = {
+      "ransac", "gpf", "line_fit", "cascaded", "r_gpf", "r_gpf+u", "czm+u", "czm+u+e", "czm+u+e+f"};
+  return names;
+}
+
+}  // namespace flagstone
