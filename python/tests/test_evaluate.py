@@ -142,7 +142,7 @@ def test_it_is_shown_as_a_table(evaluation: flagstone.Evaluation, simulated: Pat
     [
         ({"protocol": "kitti"}, 'no protocol is named "kitti"; there are patchwork'),
         ({"methods": "surfaces"}, "no method is named 'surfaces'"),
-        ({"sensor_height": "high"}, "sensor-height: high is no number of metres"),
+        ({"sensor_height": "high"}, "sensor_height: high is no number of metres"),
         ({"tilt": "left"}, "tilt: left is not off, estimate or where up is"),
         ({"sensor": "hdl-65"}, "sensor: "),
         ({"every": 0}, "every: Value 0 not in range 1 to 1000000"),

@@ -56,7 +56,7 @@ def test_a_file_the_command_prints_makes_the_same_segmenter(tmp_path: Path) -> N
 def test_presets_are_of_patchwork() -> None:
     assert Patchwork(preset="paper").settings["evaluate_final_set"] is True
     assert make_segmenter("czm+u", preset="reference").method == "czm+u"
-    with pytest.raises(ValueError, match='preset paper: surface has no presets'):
+    with pytest.raises(ValueError, match="preset paper: surface has no presets"):
         make_segmenter("surface", preset="paper")
 
 
@@ -80,11 +80,11 @@ WRONG: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"point": {"margin": "wide"}}, ValueError, r"point\.margin is a number, not a string"),
     ({"point": {"margin": None}}, TypeError, r"point\.margin is a NoneType"),
     ({"point": 3}, ValueError, "point is a table of settings, not a integer"),
-    ({"sensor": "hdl-65e"}, ValueError, 'no sensor is named .hdl-65e. .did you mean .hdl-64e'),
-    ({"sensor_height": "guess"}, ValueError, 'sensor_height: guess is no number of metres, estimate or track'),
+    ({"sensor": "hdl-65e"}, ValueError, r"no sensor is named 'hdl-65e' \(did you mean 'hdl-64e'"),
+    ({"sensor_height": "guess"}, ValueError, "sensor_height: guess is no number of metres, estimate or track"),
     ({"sensor_height": float("nan")}, ValueError, "sensor_height = nan is out of range"),
     ({"sensor_height": 1000}, ValueError, r"sensor_height = 1000 is out of range; allowed: -100 to 100 m"),
-    ({"tilt": "left"}, ValueError, 'tilt: left is not off, estimate or where up is'),
+    ({"tilt": "left"}, ValueError, "tilt: left is not off, estimate or where up is"),
     ({"tilt": (0, 0, 0)}, ValueError, "up"),
     ({"threads": 0}, ValueError, "threads = 0 is out of range; allowed: 1 to 1024"),
     ({"threads": -1}, ValueError, "threads = -1 is out of range; allowed: 1 to 1024"),

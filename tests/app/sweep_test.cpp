@@ -110,7 +110,8 @@ TEST(SweepAxis, BinsOfAMethodWithoutZonesAreRefused) {
 
 TEST(SweepAxis, WhatIsNoSettingOrNoValueNamesTheOption) {
   EXPECT_THAT(refusal_of_value("seed_cuont", "3"),
-              AllOf(HasSubstr("--param seed_cuont=3"), HasSubstr("no setting 'seed_cuont' (did you mean 'seed_count'?)")));
+              AllOf(HasSubstr("--param seed_cuont=3"),
+                    HasSubstr("no setting 'seed_cuont' (did you mean 'seed_count'?)")));
   EXPECT_THAT(refusal_of_value("seed_count", "many"), HasSubstr("--param seed_count=many"));
   EXPECT_THAT(refusal_of_value("seed_count", ""), HasSubstr("--param seed_count="));
 }

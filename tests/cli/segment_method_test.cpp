@@ -10,12 +10,12 @@
 #include <variant>
 #include <vector>
 
+#include "app/config/method_choice.hpp"
 #include "cli/command_process.hpp"
 #include "cli/files.hpp"
 #include "cli/line_matchers.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
-#include "app/config/method_choice.hpp"
 #include "flagstone/baselines.hpp"
 #include "flagstone/segmentation.hpp"
 
