@@ -11,22 +11,13 @@
 
 #include "files/io/atomic_file.hpp"
 #include "files/render/canvas.hpp"
-#include "files/render/heading.hpp"
-#include "files/render/layout.hpp"
-#include "files/render/legend.hpp"
-#include "files/render/point_kinds.hpp"
-#include "files/render/point_layer.hpp"
-#include "files/render/range.hpp"
-#include "files/render/scale_layer.hpp"
-#include "files/render/top_view.hpp"
+#include "files/render/points.hpp"
+#include "files/render/scale.hpp"
+#include "files/render/text.hpp"
 #include "files/render/zone_layer.hpp"
 
 namespace flagstone::render {
 namespace {
-
-Status refuse(std::string message) {
-  return Status(StatusCode::invalid_argument, "picture: " + std::move(message));
-}
 
 Status check_sizes(CloudView cloud, const Segmentation& result, const BirdsEye& options) {
   if (cloud.data() == nullptr && !cloud.empty())

@@ -9,23 +9,12 @@
 
 #include "files/render/birds_eye.hpp"
 #include "files/render/canvas.hpp"
-#include "files/render/heading.hpp"
-#include "files/render/layout.hpp"
-#include "files/render/legend.hpp"
-#include "files/render/number_text.hpp"
-#include "files/render/point_kinds.hpp"
-#include "files/render/point_layer.hpp"
-#include "files/render/range.hpp"
-#include "files/render/scale_layer.hpp"
+#include "files/render/points.hpp"
+#include "files/render/scale.hpp"
 #include "files/render/text.hpp"
-#include "files/render/top_view.hpp"
 
 namespace flagstone::render {
 namespace {
-
-Status refuse(std::string message) {
-  return Status(StatusCode::invalid_argument, "picture: " + std::move(message));
-}
 
 Status check_sizes(CloudView cloud, std::span<const Truth> truth, std::span<const Panel> panels) {
   constexpr std::size_t most_panels = 30;

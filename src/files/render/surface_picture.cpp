@@ -5,42 +5,258 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <new>
+#include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "files/io/atomic_file.hpp"
 #include "files/render/canvas.hpp"
-#include "files/render/contour_layer.hpp"
-#include "files/render/heading.hpp"
+#include "files/render/contours.hpp"
 #include "files/render/height_map.hpp"
-#include "files/render/layout.hpp"
-#include "files/render/relief.hpp"
-#include "files/render/scale_layer.hpp"
-#include "files/render/surface_legend.hpp"
-#include "files/render/top_view.hpp"
+#include "files/render/scale.hpp"
+#include "files/render/text.hpp"
+#include "flagstone/ground_surface.hpp"
 
 namespace flagstone::render {
+
+/// How ground is coloured.
+struct ReliefLook {
+  HeightRange heights;      ///< what lies below has the first colour, what lies above the last
+  double exaggeration = 1;  ///< how much steeper than it is ground is shaded
+};
+
+/// The colour of a height before shading, from `share` 0, the lowest, to 1, the highest.
+Color height_color(double share) noexcept;
+
+/// Draws the ground within `range` metres of the sensor: by height, shaded as if light fell from
+/// the upper left, paler where the surface is less sure, nothing where it is not known.
+void draw_relief(const Canvas& canvas, const TopView& view, const GroundSurface& surface,
+                 double range, const ReliefLook& look);
+
 namespace {
 
-Status refuse(std::string message) {
+struct Tone {
+  double red, green, blue;  // 0 to 1
+};
+
+Tone mixed(const Tone& a, const Tone& b, double share_of_b) noexcept {
+  return {std::lerp(a.red, b.red, share_of_b), std::lerp(a.green, b.green, share_of_b),
+          std::lerp(a.blue, b.blue, share_of_b)};
+}
+
+// Greens, yellows and browns of atlases, all of them light, so that shade and lines stand out.
+constexpr std::array<Tone, 6> tones = {{{0.53, 0.70, 0.61},
+                                        {0.69, 0.81, 0.64},
+                                        {0.89, 0.89, 0.68},
+                                        {0.93, 0.82, 0.60},
+                                        {0.83, 0.66, 0.49},
+                                        {0.73, 0.55, 0.46}}};
+constexpr Tone shadow = {0.16, 0.17, 0.30};  // bluish, as under an open sky
+constexpr Tone sunlight = {1, 0.99, 0.93};
+
+Tone tone_of(double share) noexcept {
+  const double place = std::clamp(share, 0.0, 1.0) * (tones.size() - 1);
+  const auto first = std::min(static_cast<std::size_t>(place), tones.size() - 2);
+  return mixed(tones[first], tones[first + 1], place - static_cast<double>(first));
+}
+
+/// How bright ground of these slopes, metres a metre along x and y, is; 1: as bright as level
+/// ground. The light stands 45 degrees high over the upper left, where both x and y grow.
+double brightness(double along_x, double along_y) noexcept {
+  return (1 - (along_x + along_y) / std::numbers::sqrt2) / std::hypot(along_x, along_y, 1.0);
+}
+
+Tone shaded(const Tone& tone, double bright) noexcept {
+  constexpr double darkest = 0.72;   // share of shadow in what no light falls on
+  constexpr double brightest = 1.5;  // share of sunlight a unit above level ground
+  return bright < 1 ? mixed(tone, shadow, darkest * (1 - std::max(bright, 0.0)))
+                    : mixed(tone, sunlight, std::min(1.0, brightest * (bright - 1)));
+}
+
+/// Slope at a place from heights a cell of the surface to either side of it, so that it changes
+/// smoothly over cells of any size. To one side alone at the rim of what is known.
+double slope(float before, float here, float after, float cell) noexcept {
+  if (std::isnan(before) && std::isnan(after)) return 0;
+  if (std::isnan(before)) return (after - here) / cell;
+  if (std::isnan(after)) return (here - before) / cell;
+  return (after - before) / (2 * cell);
+}
+
+std::uint32_t pixel(const Tone& tone, double opacity) noexcept {
+  const auto part = [opacity](double value) noexcept {  // Cairo wants colour times opacity
+    return static_cast<std::uint32_t>(std::lround(255 * value * opacity));
+  };
+  return static_cast<std::uint32_t>(std::lround(255 * opacity)) << 24U | part(tone.red) << 16U |
+         part(tone.green) << 8U | part(tone.blue);
+}
+
+std::uint32_t relief_pixel(const GroundSurface& surface, float x, float y, const ReliefLook& look) {
+  const GroundSample ground = surface.at(x, y);
+  if (std::isnan(ground.height)) return 0;
+  const float cell = surface.resolution(x, y);
+  const double along_x =
+      slope(surface.height(x - cell, y), ground.height, surface.height(x + cell, y), cell);
+  const double along_y =
+      slope(surface.height(x, y - cell), ground.height, surface.height(x, y + cell), cell);
+  const Tone tone = tone_of((ground.height - look.heights.lowest) / look.heights.span());
+  constexpr double faintest = 0.25;
+  const double confidence = std::clamp(double{ground.confidence}, 0.0, 1.0);
+  return pixel(shaded(tone, brightness(look.exaggeration * along_x, look.exaggeration * along_y)),
+               std::lerp(faintest, 1.0, std::sqrt(confidence)));
+}
+
+}  // namespace
+
+Color height_color(double share) noexcept {
+  const Tone tone = tone_of(share);
+  const auto part = [](double value) {
+    return static_cast<std::uint8_t>(std::lround(255 * value));
+  };
+  return {part(tone.red), part(tone.green), part(tone.blue)};
+}
+
+void draw_relief(const Canvas& canvas, const TopView& view, const GroundSurface& surface,
+                 double range, const ReliefLook& look) {
+  // Every second pixel along both axes; Cairo fills in between.
+  const double step = 2 / view.pixels_per_metre();
+  const auto width = static_cast<std::size_t>(std::ceil(2 * range / step));
+  std::vector<std::uint32_t> pixels(width * width);
+  for (std::size_t row = 0; row < width; ++row) {  // from the farthest ahead
+    const auto x = static_cast<float>(range - (static_cast<double>(row) + 0.5) * step);
+    for (std::size_t column = 0; column < width; ++column) {  // from the left
+      const auto y = static_cast<float>(range - (static_cast<double>(column) + 0.5) * step);
+      pixels[row * width + column] = relief_pixel(surface, x, y, look);
+    }
+  }
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> image(
+      cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
+                                          CAIRO_FORMAT_ARGB32, static_cast<int>(width),
+                                          static_cast<int>(width), static_cast<int>(4 * width)),
+      &cairo_surface_destroy);
+  cairo_t* context = canvas.context();
+  cairo_save(context);
+  add_rectangle(context, view.panel());
+  cairo_clip(context);
+  cairo_translate(context, view.column(range), view.row(range));
+  cairo_scale(context, 2, 2);
+  cairo_set_source_surface(context, image.get(), 0, 0);
+  cairo_pattern_set_filter(cairo_get_source(context), CAIRO_FILTER_BILINEAR);
+  cairo_paint(context);
+  cairo_restore(context);
+}
+
+namespace {
+
+using Gradient = std::unique_ptr<cairo_pattern_t, decltype(&cairo_pattern_destroy)>;
+
+void draw_colors(cairo_t* context, const Rectangle& bar, double unit) {
+  const Gradient gradient(cairo_pattern_create_linear(bar.x, 0, bar.right(), 0),
+                          &cairo_pattern_destroy);
+  constexpr int stops = 20;
+  for (int stop = 0; stop <= stops; ++stop) {
+    const double share = static_cast<double>(stop) / stops;
+    const Color color = height_color(share);
+    cairo_pattern_add_color_stop_rgb(gradient.get(), share, color.red / 255.0, color.green / 255.0,
+                                     color.blue / 255.0);
+  }
+  add_rectangle(context, bar, 4 * unit);
+  cairo_set_source(context, gradient.get());
+  cairo_fill_preserve(context);
+  cairo_set_line_width(context, 1.5 * unit);
+  set_color(context, muted_text_color);
+  cairo_stroke(context);
+}
+
+/// Heights below the bar: multiples of a round step, a few.
+void draw_heights(cairo_t* context, const Rectangle& bar, const HeightRange& heights,
+                  const ContourStep& step, double unit) {
+  const Font font{.size = 22 * unit, .bold = false, .color = muted_text_color};
+  constexpr double most = 6;
+  double apart = step.height;
+  for (const double factor : {1.0, 2.0, 4.0, 8.0, 20.0}) {
+    apart = factor * step.height;
+    if (heights.span() / apart <= most) break;
+  }
+  for (auto number = static_cast<long>(std::ceil(heights.lowest / apart - 1e-6));
+       static_cast<double>(number) * apart <= heights.highest + 1e-6; ++number) {
+    const double height = static_cast<double>(number) * apart;
+    const double x = bar.x + bar.width * (height - heights.lowest) / heights.span();
+    cairo_move_to(context, x, bar.bottom());
+    cairo_line_to(context, x, bar.bottom() + 6 * unit);
+    set_color(context, muted_text_color);
+    cairo_stroke(context);
+    draw_text(context, x, bar.bottom() + 29 * unit, height_text(height, step), font, Align::center);
+  }
+}
+
+}  // namespace
+
+void draw_surface_legend(const Canvas& canvas, const Rectangle& legend, const ReliefLook& look,
+                         const ContourStep& step, double unit) {
+  cairo_t* context = canvas.context();
+  const Font name_font{.size = 24 * unit, .bold = false, .color = text_color};
+  const Font bold_font{.size = 24 * unit, .bold = true, .color = text_color};
+  const Font number_font{.size = 22 * unit, .bold = false, .color = muted_text_color};
+  const double name_line = legend.y + 26 * unit;
+  const double number_line = legend.y + 56 * unit;
+
+  draw_text(context, legend.x, name_line, "Height", bold_font);
+  draw_text(context, legend.x, number_line, "z, metres", number_font);
+  const Rectangle bar{legend.x + 150 * unit, legend.y + 6 * unit, legend.width * 0.4, 24 * unit};
+  draw_colors(context, bar, unit);
+  draw_heights(context, bar, look.heights, step, unit);
+
+  double x = bar.right() + 66 * unit;
+  const auto draw_sample = [&](double y, double width) {
+    cairo_move_to(context, x, y);
+    cairo_line_to(context, x + 34 * unit, y);
+    cairo_set_line_width(context, width);
+    set_color(context, contour_color, 0.8);
+    cairo_stroke(context);
+  };
+  draw_sample(name_line - 8 * unit, thin_contour * unit);
+  draw_sample(number_line - 8 * unit, bold_contour * unit);
+  x += 46 * unit;
+  draw_text(context, x, name_line, fmt::format("every {:g} m", step.height), name_font);
+  draw_text(context, x, number_line, fmt::format("every {:g} m", step.per_index * step.height),
+            name_font);
+
+  x += 196 * unit;
+  const std::string shading =
+      look.exaggeration > 1 ? fmt::format("shaded as if {:g} times as steep", look.exaggeration)
+                            : std::string("shaded as steep as it is");
+  for (const auto& [text, line] :
+       {std::pair{std::string("pale: less sure, blank: not known"), name_line},
+        std::pair{shading, number_line}}) {
+    draw_text(context, x, line, text, shrunk(context, text, name_font, legend.right() - x));
+  }
+}
+
+namespace {
+
+Status refuse_surface(std::string message) {
   return Status(StatusCode::invalid_argument, "surface picture: " + std::move(message));
 }
 
 Status check(const GroundSurface& surface, const SurfacePicture& options) {
   constexpr int smallest = 320;
   constexpr int largest = 8192;
-  if (surface.empty()) return refuse("there is no surface; its method makes none");
+  if (surface.empty()) return refuse_surface("there is no surface; its method makes none");
   for (const int size : {options.width, options.height}) {
     if (size < smallest || size > largest) {
-      return refuse(fmt::format("size {} x {} pixels; each may be {} to {}", options.width,
-                                options.height, smallest, largest));
+      return refuse_surface(fmt::format("size {} x {} pixels; each may be {} to {}", options.width,
+                                        options.height, smallest, largest));
     }
   }
   const bool asks_for_a_range = options.range >= 1 && options.range <= 1000;
   if (!asks_for_a_range && options.range != 0) {
-    return refuse(
+    return refuse_surface(
         fmt::format("range {} m; it may be 1 to 1000, or 0 for a suitable one", options.range));
   }
   return {};

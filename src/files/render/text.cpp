@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "files/render/text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <new>
@@ -165,6 +167,30 @@ void draw_backing(cairo_t* context, const Rectangle& box, double unit, Color col
   add_rectangle(context, box, 8 * unit);
   set_color(context, color, 0.86);
   cairo_fill(context);
+}
+
+std::string grouped(std::size_t count) {
+  std::string digits = std::to_string(count);
+  for (std::size_t place = digits.size(); place > 3; place -= 3) digits.insert(place - 3, 1, ',');
+  return digits;
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  const double share =
+      whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
+  if (part != 0 && share < 0.05) return "<0.1 %";
+  return fmt::format("{:.1f} %", share);
+}
+
+void draw_heading(const Canvas& canvas, const Rectangle& heading, double unit,
+                  std::string_view title, std::string_view subtitle) {
+  cairo_t* context = canvas.context();
+  const auto& [x, y, width, height] = heading;
+  const Font title_font{.size = 36 * unit, .bold = true, .color = text_color};
+  const Font subtitle_font{.size = 26 * unit, .bold = false, .color = muted_text_color};
+  draw_text(context, x, y + 28 * unit, fitted(context, title, title_font, width), title_font);
+  draw_text(context, x, y + 66 * unit, fitted(context, subtitle, subtitle_font, width),
+            subtitle_font);
 }
 
 }  // namespace flagstone::render

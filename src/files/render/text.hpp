@@ -4,12 +4,12 @@
 
 #include <cairo.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "files/render/canvas.hpp"
-#include "files/render/palette.hpp"
 
 namespace flagstone::render {
 
@@ -46,5 +46,16 @@ void draw_edged_text(cairo_t* context, double x, double baseline, const std::str
 
 /// Draws a box for text on top of points and lines, so that hardly any shows through.
 void draw_backing(cairo_t* context, const Rectangle& box, double unit, Color color) noexcept;
+
+/// A count with its thousands set apart: "124,668".
+std::string grouped(std::size_t count);
+
+/// A share in per cent with one decimal: "53.1 %"; of nothing: "0.0 %". What is not zero never
+/// reads as zero: "<0.1 %".
+std::string percent(std::size_t part, std::size_t whole);
+
+/// Writes title and subtitle into `heading`, above the panel.
+void draw_heading(const Canvas& canvas, const Rectangle& heading, double unit,
+                  std::string_view title, std::string_view subtitle);
 
 }  // namespace flagstone::render

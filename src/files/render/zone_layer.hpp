@@ -5,8 +5,6 @@
 #include <span>
 
 #include "files/render/canvas.hpp"
-#include "files/render/palette.hpp"
-#include "files/render/top_view.hpp"
 #include "flagstone/patch.hpp"
 #include "flagstone/patchwork_config.hpp"
 #include "flagstone/status.hpp"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "files/render/contour_layer.hpp"
-
 #include <gtest/gtest.h>
+
+#include "files/render/contours.hpp"
 
 namespace flagstone::render {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "files/render/contour_lines.hpp"
-
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -11,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "files/render/contours.hpp"
 #include "numbers.hpp"
 
 namespace flagstone::render {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "files/render/number_text.hpp"
-
 #include <gtest/gtest.h>
+
+#include "files/render/text.hpp"
 
 namespace flagstone::render {
 namespace {

@@ -11,7 +11,7 @@
 #include <ostream>
 #include <span>
 
-#include "files/render/layout.hpp"
+#include "files/render/canvas.hpp"
 
 namespace flagstone::render {
 

@@ -11,7 +11,6 @@
 
 #include "files/render/birds_eye.hpp"
 #include "files/render/canvas.hpp"
-#include "files/render/palette.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/segmentation.hpp"
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "files/render/range.hpp"
-
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,6 +7,7 @@
 #include <limits>
 
 #include "files/render/picture.hpp"
+#include "files/render/scale.hpp"
 
 namespace flagstone::render {
 namespace {

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <limits>
 
-#include "files/render/layout.hpp"
+#include "files/render/canvas.hpp"
 #include "files/render/picture.hpp"
 
 namespace flagstone::render {

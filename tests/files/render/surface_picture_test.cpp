@@ -8,9 +8,8 @@
 #include <cmath>
 
 #include "files/io/temporary_folder.hpp"
-#include "files/render/layout.hpp"
+#include "files/render/canvas.hpp"
 #include "files/render/picture.hpp"
-#include "files/render/top_view.hpp"
 #include "numbers.hpp"
 #include "random_surface.hpp"
 

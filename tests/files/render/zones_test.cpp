@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "files/render/birds_eye.hpp"
+#include "files/render/canvas.hpp"
 #include "files/render/picture.hpp"
-#include "files/render/top_view.hpp"
 #include "files/render/zone_layer.hpp"
 
 namespace flagstone::render {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "files/render/canvas.hpp"
 #include "flagstone/cloud_view.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/patchwork_config.hpp"
@@ -23,5 +24,17 @@ double ring_step(double range) noexcept;
 /// Radii of the circles to caption, ascending, metres: multiples of ring_step() as far as they
 /// reach into the panel's corners, or the zones' ends where zones are drawn.
 std::vector<double> circle_radii(double range, const PatchworkConfig* zones);
+
+/// Dashed circles of these radii, metres, around the sensor.
+void draw_range_rings(const Canvas& canvas, const TopView& view, std::span<const double> radii,
+                      double unit) noexcept;
+
+/// An arrowhead at the origin that points forward.
+void draw_sensor(const Canvas& canvas, const TopView& view, double unit) noexcept;
+
+/// What tells place, size and direction, on top of the points: the circles' captions in metres, the
+/// mark of the sensor, the axes (lower left) and the scale bar (lower right). `radii` ascend.
+void draw_scale(const Canvas& canvas, const TopView& view, double range,
+                std::span<const double> radii, double unit, const PanelInk& ink = dark_panel_ink);
 
 }  // namespace flagstone::render
