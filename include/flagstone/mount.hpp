@@ -54,7 +54,7 @@ struct MountLimits {
   float max_height = 6;         ///< metres, more than `min_height`, up to 100
   float max_tilt = 32;          ///< degrees between `up` and the given mount's, 0 to 45
   float min_confidence = 0.5f;  ///< 0 to 1
-  /// Points nearer than this are the own vehicle, metres, 0 to 100.
+  /// Points nearer than this are the own vehicle, metres, 0 to 60.
   float ego_radius = 2.7f;
   /// Points farther than this say nothing about the ground below the vehicle, metres; 2 to 100, and
   /// at least 1.5 times `ego_radius`. Where the ground begins so far away that it is badly told

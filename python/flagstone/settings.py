@@ -145,7 +145,7 @@ class PatchworkSettings(TypedDict, total=False):
     noise_slope: float
     """steepest descent of ground still believed; 0 to 10 m/m."""
     min_points: int
-    """bins with fewer points are not fitted; 3 to 1e+06."""
+    """bins with fewer points are not fitted; 3 to 1000000."""
     sparse_bins_are_ground: bool
     """what the points of such bins are."""
     seed_count: int

@@ -199,7 +199,8 @@ TEST(SweepResults, CsvHasARowPerPointAndEmptyCellsWhereThereIsNoNumber) {
 }
 
 TEST(SweepResults, TextHasARowPerPointInPercent) {
-  const std::vector<std::string> lines = lines_of(to_text(sweep_of({"5", "10"}, {{50, 60}, {70}})));
+  const std::vector<std::string> lines =
+      cli::lines_of(to_text(sweep_of({"5", "10"}, {{50, 60}, {70}})));
 
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_THAT(lines[0], HasSubstr("seed_count"));
@@ -211,7 +212,7 @@ TEST(SweepResults, ColumnsOfTheTextAreApartAndEndUnderTheirHeadings) {
   Sweep sweep = sweep_of({"true", "false"}, {{50, 60}, {70, 80}});
   sweep.axes[0].key = "sparse_bins_are_ground";
 
-  const std::vector<std::string> lines = lines_of(to_text(sweep));
+  const std::vector<std::string> lines = cli::lines_of(to_text(sweep));
 
   EXPECT_THAT(lines[0], HasSubstr("sparse_bins_are_ground  precision    std"));
   const std::size_t end = lines[0].find("precision") + std::string("precision").size();
