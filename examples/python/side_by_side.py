@@ -209,7 +209,7 @@ def simulated_scans(folder, scenes):
     for number, scene in enumerate(scenes):
         show_progress(f"simulating {scene}")
         frames = flagstone.simulate(folder, scene=scene, frames=1, sequence=f"{number:02}")
-        scans.append(read_scan(frames["scan"][0], frames["labels"][0]))
+        scans.append(read_scan(frames[0].scan, frames[0].labels))
     return scans
 
 

@@ -18,7 +18,7 @@ from flagstone import io, plot
 from flagstone._core import version as __version__
 from flagstone._evaluate import Evaluation, evaluate
 from flagstone._score import Score, score
-from flagstone._simulate import simulate
+from flagstone._simulate import SimulatedScan, simulate
 from flagstone.codes import Label, Verdict
 from flagstone.ground_surface import Grid, GroundSample, GroundSurface
 from flagstone.segmentation import Mount, Segmentation
@@ -38,6 +38,7 @@ __all__ = [
     "Segmentation",
     "Segmenter",
     "Sensor",
+    "SimulatedScan",
     "Surface",
     "Verdict",
     "__version__",

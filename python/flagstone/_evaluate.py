@@ -4,18 +4,18 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
-import tempfile
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from flagstone import _core
 from flagstone._optional import needs
-from flagstone._run_command import file_argument, listed, option, run
-from flagstone._toml import to_toml
+from flagstone._runs import listed, run
 
 if TYPE_CHECKING:
     import pandas
@@ -49,6 +49,8 @@ class Evaluation:
             where the dataset has no true heights.
         failed: A row a scan that could not be read, or that a method failed on: `scan`, `error`.
         unscored: Scans left out, since no point of them is scored.
+        without_ground: Number of scans without ground in the ground truth. They have an accuracy alone: their
+            precision, recall, F1 and IoU are NaN, and the means leave them out.
         protocol: Which classes were ground.
         datasets: Their names.
         threads: Scans worked on at once; `hz` depends on it.
@@ -62,6 +64,7 @@ class Evaluation:
     heights: pandas.DataFrame
     failed: pandas.DataFrame
     unscored: tuple[str, ...]
+    without_ground: int
     protocol: str
     datasets: tuple[str, ...]
     threads: int
@@ -102,7 +105,7 @@ def evaluate(
     config: PathLike | None = None,
     settings: Mapping[str, Mapping[str, Any]] | None = None,
     labels: Mapping[str, PathLike] | None = None,
-    label_map: Literal["flagstone", "semantic_kitti"] = "flagstone",
+    label_map: Literal["flagstone", "semantic-kitti"] = "flagstone",
     threads: int | None = None,
 ) -> Evaluation:
     """Scores methods on labelled scans, as `flagstone eval` does.
@@ -122,7 +125,7 @@ def evaluate(
         config: A TOML file of Patchwork's settings, as `flagstone config` prints.
         settings: Of methods, by name: `{"surface": {"point": {"margin": 0.2}}, "gpf": {"segments": 5}}`.
         labels: Labels that other programs made, scored like a method: its name, and the folder.
-        label_map: Codes in `labels`: `"flagstone"` (1 is ground), or `"semantic_kitti"` (the protocol's classes).
+        label_map: Codes in `labels`: `"flagstone"` (1 is ground), or `"semantic-kitti"` (the protocol's classes).
         threads: Scans worked on at once, 1 to 1024; all cores by default. `hz` is comparable with 1.
 
     Returns:
@@ -134,53 +137,59 @@ def evaluate(
         ValueError: An argument is wrong, or the dataset has no scans with labels.
         OSError: No scan could be read.
         ImportError: pandas is not installed.
+        KeyboardInterrupt: Ctrl-C.
     """
     needs("pandas", "pandas")
     datasets = [dataset] if isinstance(dataset, (str, os.PathLike)) else list(dataset)
     for each in datasets:
         if not Path(each).exists():
             raise FileNotFoundError(f"{os.fspath(each)}: no such dataset")
-    arguments = [
-        "eval",
-        *map(file_argument, datasets),
-        *option("methods", listed(methods) or "none"),
-        *option("protocol", os.fspath(protocol)),
-        *option("sequences", None if sequences is None else listed(sequences)),
-        *option("every", every),
-        *option("columns", columns),
-        *option("sensor", sensor),
-        *option("sensor-height", sensor_height),
-        *option("tilt", None if tilt is None else listed(tilt)),
-        *option("preset", preset),
-        *option("config", config),
-        *(f"--set={method}.{line}" for method, own in (settings or {}).items() for line in to_toml(own).splitlines()),
-        *(f"--labels={name}={os.fspath(folder)}" for name, folder in (labels or {}).items()),
-        *option("label-map", label_map.replace("_", "-")),
-        *option("threads", threads),
-    ]
-    with tempfile.TemporaryDirectory(prefix="flagstone-") as folder:
-        json_file, csv_file = Path(folder) / "results.json", Path(folder) / "results.csv"
-        ended = run([*arguments, f"--json={json_file}", f"--csv={csv_file}"])
-        if not json_file.exists():
-            raise OSError(ended.reason)
-        evaluation = _read(json_file, csv_file)
+    if label_map not in ("flagstone", "semantic-kitti"):
+        raise ValueError(f"label_map = {label_map!r} is not known (expected flagstone or semantic-kitti)")
+    with run() as (draw, terminal_columns):
+        results, table, errors = _core.evaluate(
+            [os.fspath(each) for each in datasets],
+            listed(methods),
+            os.fspath(protocol),
+            [] if sequences is None else listed(sequences),
+            every,
+            columns,
+            "" if sensor is None else os.fspath(sensor),
+            sensor_height,
+            tilt if tilt is None or isinstance(tilt, str) else tuple(tilt),
+            preset,
+            "" if config is None else os.fspath(config),
+            dict(settings or {}),
+            [f"{name}={os.fspath(folder)}" for name, folder in (labels or {}).items()],
+            label_map == "semantic-kitti",
+            threads,
+            draw,
+            terminal_columns,
+        )
+    reason = (
+        errors[0] + (f" (and {len(errors) - 1} more)" if len(errors) > 1 else "") if errors else "no scan is scored"
+    )
+    if not results:
+        raise OSError(reason)
+    evaluation = _read(results, table)
     if len(evaluation.failed) > 0:
-        warnings.warn(f"{len(evaluation.failed)} failed, see `failed`: {ended.reason}", RuntimeWarning, stacklevel=2)
+        warnings.warn(f"{len(evaluation.failed)} failed, see `failed`: {reason}", RuntimeWarning, stacklevel=2)
     return evaluation
 
 
-def _read(json_file: Path, csv_file: Path) -> Evaluation:
+def _read(results_json: str, table: bytes) -> Evaluation:
     pd = needs("pandas", "pandas")
-    results = json.loads(json_file.read_text(encoding="utf-8"))
+    results = json.loads(results_json)
     methods = results["methods"]
     names = {"method": str, "scan": str}
     return Evaluation(
         methods=pd.DataFrame([_method_row(method) for method in methods]).set_index("method"),
-        scans=pd.read_csv(csv_file, dtype=names, keep_default_na=False, na_values=[""]),
+        scans=pd.read_csv(io.BytesIO(table), dtype=names, keep_default_na=False, na_values=[""]),
         ranges=pd.DataFrame([row for method in methods for row in _range_rows(method)]),
         heights=pd.DataFrame([row for method in methods for row in _height_rows(method)], columns=_height_columns),
         failed=pd.DataFrame(results["failed"], columns=["scan", "error"]),
         unscored=tuple(results["unscored"]),
+        without_ground=results["without_ground"],
         protocol=results["protocol"],
         datasets=tuple(results["datasets"]),
         threads=results["threads"],

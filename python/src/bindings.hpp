@@ -15,6 +15,7 @@ void bind_result(nanobind::module_& module);
 void bind_known(nanobind::module_& module);
 void bind_files(nanobind::module_& module);
 void bind_score(nanobind::module_& module);
+void bind_runs(nanobind::module_& module);
 
 /// Does nothing if all went well; else throws what Python shows as MemoryError, ValueError, or for
 /// files FileNotFoundError or OSError.

@@ -46,4 +46,5 @@ NB_MODULE(_core, module) {
   bind_known(module);
   bind_files(module);
   bind_score(module);
+  bind_runs(module);
 }

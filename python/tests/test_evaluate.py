@@ -107,7 +107,7 @@ def test_labels_made_elsewhere_are_scored_like_a_method(simulated: Path, tmp_pat
     truth = simulated / "sequences" / "00" / "labels"
     (tmp_path / "00").symlink_to(truth)
     evaluation = flagstone.evaluate(
-        simulated, protocol="simulation", methods=[], labels={"truth": tmp_path}, label_map="semantic_kitti"
+        simulated, protocol="simulation", methods=[], labels={"truth": tmp_path}, label_map="semantic-kitti"
     )
     assert evaluation.methods.index.tolist() == ["truth"]
     assert evaluation.methods.loc["truth", "f1"] == 1
@@ -130,6 +130,21 @@ def test_a_scan_that_cannot_be_read_is_a_row_and_a_warning(simulated: Path, tmp_
         flagstone.evaluate(tmp_path)
 
 
+def test_a_scan_without_ground_has_an_accuracy_alone(simulated: Path, tmp_path: Path) -> None:
+    for name in ("velodyne", "labels"):
+        (tmp_path / name).mkdir()
+        for file in (simulated / "sequences" / "00" / name).iterdir():
+            (tmp_path / name / file.name).write_bytes(file.read_bytes())
+    labels = tmp_path / "labels" / "000001.label"
+    np.full(labels.stat().st_size // 4, 50, np.uint32).tofile(labels)
+    evaluation = flagstone.evaluate(tmp_path, methods=["surface"], sensor_height=HEIGHT)
+    assert evaluation.without_ground == 1
+    first, second = (evaluation.scans.iloc[row] for row in range(2))
+    assert np.isnan(second[["precision", "recall", "f1", "iou"]].to_numpy(float)).all()
+    assert evaluation.methods.loc["surface", "f1"] == pytest.approx(first["f1"], abs=1e-6)
+    assert 0 < second["accuracy"] <= 1
+
+
 def test_it_is_shown_as_a_table(evaluation: flagstone.Evaluation, simulated: Path) -> None:
     heading = f"2 scans of {simulated.name}, protocol simulation"
     assert repr(evaluation).startswith(f"{heading}\n")
@@ -145,7 +160,10 @@ def test_it_is_shown_as_a_table(evaluation: flagstone.Evaluation, simulated: Pat
         ({"sensor_height": "high"}, "sensor_height: high is no number of metres"),
         ({"tilt": "left"}, "tilt: left is not off, estimate or where up is"),
         ({"sensor": "hdl-65"}, "sensor: "),
-        ({"every": 0}, "every: Value 0 not in range 1 to 1000000"),
+        ({"every": 0}, "every: 0 is out of range \\(expected 1 to 1000000\\)"),
+        ({"every": -1}, "every: -1 is out of range"),
+        ({"threads": 2**70}, "threads: 1180591620717411303424 is out of range"),
+        ({"label_map": "kitti"}, "label_map = 'kitti' is not known"),
         ({"sequences": ["77"]}, "77"),
         ({"settings": {"surface": {"margin": 1}}}, "no setting 'margin' .did you mean 'point.margin'"),
         ({"settings": {"roof": {"margin": 1}}}, "settings roof"),

@@ -88,7 +88,46 @@ void check_ids(const eval::Protocol& protocol, const std::vector<eval::LabelledS
   }
 }
 
+eval::Method labels_made_elsewhere(const std::string& entry, io::LabelMap map) {
+  const std::size_t equals = entry.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == entry.size()) {
+    throw std::invalid_argument(
+        fmt::format("--labels {}: allowed: NAME=DIR, e.g. --labels other=out/other", entry));
+  }
+  eval::Method method;
+  method.name = entry.substr(0, equals);
+  method.title = method.name;
+  method.labels = entry.substr(equals + 1);
+  method.label_map = map;
+  if (!fs::is_directory(method.labels)) {
+    throw std::invalid_argument(
+        fmt::format("--labels {}: {}: no such folder", entry, method.labels.string()));
+  }
+  return method;
+}
+
 }  // namespace
+
+std::vector<eval::Method> methods_to_evaluate(const config::MethodChoice& choice,
+                                              const std::vector<std::string>& labels,
+                                              io::LabelMap label_map) {
+  std::vector<eval::Method> methods;
+  for (config::ResolvedMethod& method : config::resolve(choice)) {
+    methods.push_back(eval::method_of(method.name, std::move(method.config), method.mount));
+  }
+  for (const std::string& entry : labels) {
+    methods.push_back(labels_made_elsewhere(entry, label_map));
+  }
+  if (methods.empty())
+    throw std::invalid_argument("no method to evaluate; see --methods, --labels");
+  std::map<std::string, int> count;
+  for (const eval::Method& method : methods) {
+    if (++count[method.name] == 2) {
+      throw std::invalid_argument(fmt::format("two methods are called {}", method.name));
+    }
+  }
+  return methods;
+}
 
 fs::path ResultFiles::checkpoint() const {
   for (const std::string& file : {json, csv, html}) {

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "app/config/method_choice.hpp"
 #include "app/run.hpp"
+#include "files/io/label_files.hpp"
 #include "files/io/read_cloud.hpp"
 #include "lab/eval/dataset.hpp"
 #include "lab/eval/method.hpp"
@@ -33,6 +35,13 @@ bool write_result(const std::string& file, const std::function<std::string()>& t
 
 /// Takes one scan in 1 to this many of each sequence.
 inline constexpr std::size_t max_every = 1000000;
+
+/// The methods of a choice in their order, then those whose labels other programs made: `labels`
+/// has NAME=DIR, `label_map` says what their codes mean. Throws std::invalid_argument with one
+/// line.
+std::vector<eval::Method> methods_to_evaluate(const config::MethodChoice& choice,
+                                              const std::vector<std::string>& labels,
+                                              io::LabelMap label_map);
 
 /// On what methods are evaluated and how.
 struct EvaluationOptions {

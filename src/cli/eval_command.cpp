@@ -13,6 +13,7 @@
 #include <CLI/Validators.hpp>
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -21,8 +22,8 @@
 
 #include "app/evaluate.hpp"
 #include "app/worst_scans.hpp"
-#include "cli/eval_methods.hpp"
 #include "cli/evaluation_options.hpp"
+#include "cli/method_options.hpp"
 #include "cli/terminal.hpp"
 #include "files/io/message.hpp"
 #include "files/render/rendering_available.hpp"
@@ -35,7 +36,9 @@ namespace {
 
 struct EvalOptions {
   app::EvaluationOptions evaluation;
-  EvalMethods methods;
+  config::MethodChoice methods{.methods = {"surface", "patchwork"}};
+  std::vector<std::string> labels{};
+  io::LabelMap label_map = io::LabelMap::flagstone;
   std::size_t pictures = 0;
   std::string output = "flagstone-eval";
   bool speed = false;
@@ -84,8 +87,9 @@ int evaluate(const EvalOptions& options) {
   }
   app::EvaluationOptions how = options.evaluation;
   if (options.speed) how.threads = 1;
-  how.settings_files = {options.methods.choice.config_file, options.methods.choice.sensor};
-  app::Evaluation evaluation(how, options.methods.resolve());
+  how.settings_files = {options.methods.config_file, options.methods.sensor};
+  app::Evaluation evaluation(
+      how, app::methods_to_evaluate(options.methods, options.labels, options.label_map));
   if (options.pictures > 0) app::make_folder(options.output);
   catch_interrupts();
   ProgressBar bar;
@@ -123,7 +127,23 @@ void add_eval_command(CLI::App& app, int& exit_code) {
       "Score methods on labelled scans.\n\n"
       "Example:  flagstone eval SemanticKITTI --protocol patchwork --methods table1 --every 10\n");
   add_evaluation_options(*command, options->evaluation);
-  options->methods.add_to(*command);
+  add_methods_options(*command, options->methods);
+  command
+      ->add_option(
+          "--labels", options->labels,
+          "Labels that another program made, scored like a method: NAME.label, NAME.npy or "
+          "NAME.label.npy of each scan, one code a point, 1 for ground; may repeat")
+      ->type_name("NAME=DIR")
+      ->allow_extra_args(false);
+  const std::map<std::string, io::LabelMap> maps = {
+      {"flagstone", io::LabelMap::flagstone}, {"semantic-kitti", io::LabelMap::semantic_kitti}};
+  command
+      ->add_option(
+          "--label-map", options->label_map,
+          "Codes in --labels: flagstone (1 is ground), or semantic-kitti (the classes that "
+          "the protocol takes for ground)")
+      ->transform(CLI::Transformer(maps).description(""))
+      ->transform(CLI::IsMember(maps));
   command
       ->add_option("--images", options->pictures,
                    "Draw the N worst scans, methods side by side, into the directory of --output")

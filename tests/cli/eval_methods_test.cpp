@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/eval_methods.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "app/config/same_config.hpp"
+#include "app/evaluate.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
 #include "flagstone/baselines.hpp"
@@ -50,17 +49,15 @@ struct Options {
   io::LabelMap label_map = io::LabelMap::flagstone;
 
   [[nodiscard]] std::vector<eval::Method> resolve() const {
-    EvalMethods methods{.choice = {.methods = names,
-                                   .preset = preset,
-                                   .sensor = sensor,
-                                   .config_file = config_file,
-                                   .mount = mount},
-                        .labels = labels,
-                        .label_map = label_map};
+    config::MethodChoice choice{.methods = names,
+                                .preset = preset,
+                                .sensor = sensor,
+                                .config_file = config_file,
+                                .mount = mount};
     for (const std::string& setting : settings) {
-      methods.choice.settings.push_back(config::parse_setting_of_method(setting));
+      choice.settings.push_back(config::parse_setting_of_method(setting));
     }
-    return methods.resolve();
+    return app::methods_to_evaluate(choice, labels, label_map);
   }
 };
 

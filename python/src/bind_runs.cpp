@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "app/evaluate.hpp"
+#include "app/simulate.hpp"
+#include "bindings.hpp"
+#include "lab/eval/results_export.hpp"
+#include "lab/sim/scene.hpp"
+#include "library/core/thread_pool.hpp"
+#include "method.hpp"
+
+namespace nb = nanobind;
+
+namespace flagstone::python {
+namespace {
+
+/// Draws a line of progress of at most `columns` characters; none to draw nothing.
+struct ProgressLine {
+  nb::object draw;
+  std::size_t columns = 0;
+};
+
+/// Runs `work(callbacks)` without the GIL. Signals are handled between jobs on the calling thread,
+/// so that Ctrl-C ends the run as KeyboardInterrupt. Returns the messages of the run. What cannot
+/// be read or written is an OSError.
+template <class Work>
+std::vector<std::string> run(const ProgressLine& line, const Work& work) {
+  std::vector<std::string> messages;
+  const auto caller = std::this_thread::get_id();
+  app::RunCallbacks callbacks;
+  callbacks.message = [&](const std::string& message) { messages.push_back(message); };
+  if (!line.draw.is_none()) {
+    callbacks.progress = [&](const app::Progress& progress) {
+      const std::string text = app::to_text(progress, line.columns);
+      const nb::gil_scoped_acquire locked;
+      line.draw(text);
+    };
+  }
+  callbacks.stop = [&] {
+    if (std::this_thread::get_id() != caller) return false;
+    const nb::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    return false;
+  };
+  try {
+    const nb::gil_scoped_release released;
+    work(callbacks);
+  } catch (const std::runtime_error& error) {
+    PyErr_SetString(PyExc_OSError, error.what());
+    throw nb::python_error();
+  }
+  return messages;
+}
+
+/// A number from Python, checked before it is narrowed.
+template <class Number>
+Number checked(const char* name, nb::int_ value, Number least, Number most) {
+  Number number = 0;
+  if (nb::try_cast(value, number) && number >= least && number <= most) return number;
+  throw std::invalid_argument(fmt::format("{}: {} is out of range (expected {} to {})", name,
+                                          nb::cast<std::string>(nb::str(value)), least, most));
+}
+
+unsigned checked_threads(const std::optional<nb::int_>& threads) {
+  return threads ? checked("threads", *threads, 1U, max_threads) : 0;
+}
+
+/// Writes a sequence of simulated scans; returns how many frames have one environment.
+int simulate(const std::string& output, const std::string& scene, const std::string& sensor,
+             std::optional<double> sensor_height, const std::string& tilt, const std::string& noise,
+             const std::vector<std::string>& weather, bool keep_no_returns, nb::int_ frames,
+             nb::int_ seed, const std::string& sequence, const std::optional<nb::int_>& threads,
+             nb::object draw, std::size_t columns) {
+  const app::SimulateOptions options{
+      .output = output,
+      .scene = scene,
+      .sensor = sensor,
+      .sensor_height = sensor_height,
+      .tilt = tilt,
+      .noise = noise,
+      .weather = weather,
+      .keep_no_returns = keep_no_returns,
+      .frames = checked<std::size_t>("frames", frames, 1, app::max_frames),
+      .seed = checked<std::uint64_t>("seed", seed, 0, std::numeric_limits<std::uint64_t>::max()),
+      .sequence = sequence,
+      .threads = checked_threads(threads)};
+  run({std::move(draw), columns},
+      [&](const app::RunCallbacks& callbacks) { app::simulate(options, callbacks); });
+  return sim::frames_per_drive;
+}
+
+/// Settings of methods and of the mount, by name.
+std::vector<config::GivenSettings> settings_of(const nb::dict& settings) {
+  std::vector<config::GivenSettings> all;
+  for (const auto& [key, own] : settings) {
+    const std::string name = nb::cast<std::string>(nb::str(key));
+    const std::string source = "settings " + name;
+    if (name == "mount") {
+      all.push_back(
+          {.table = {.held = config::Value::Table{{name, value_of(own, name)}}}, .source = source});
+      continue;
+    }
+    if (std::ranges::find(config::method_names(), name) == config::method_names().end()) {
+      throw std::invalid_argument(fmt::format("{}: no method is named {:?} (expected mount, {})",
+                                              source, name,
+                                              fmt::join(config::method_names(), ", ")));
+    }
+    all.push_back({.method = name, .table = value_of(own, name), .source = source});
+  }
+  return all;
+}
+
+/// The results as JSON and as CSV, both empty if no scan could be read, and the run's messages.
+nb::tuple evaluate(const std::vector<std::string>& datasets, std::vector<std::string> methods,
+                   const std::string& protocol, const std::vector<std::string>& sequences,
+                   nb::int_ every, const std::optional<nb::int_>& columns,
+                   const std::string& sensor, const Height& sensor_height, const Tilt& tilt,
+                   const std::string& preset, const std::string& config, const nb::dict& settings,
+                   const std::vector<std::string>& labels, bool labels_are_classes,
+                   const std::optional<nb::int_>& threads, nb::object draw,
+                   std::size_t terminal_columns) {
+  const config::MethodChoice choice{.methods = std::move(methods),
+                                    .preset = preset,
+                                    .sensor = sensor,
+                                    .config_file = config,
+                                    .settings = settings_of(settings),
+                                    .mount = mount_choice(sensor_height, tilt),
+                                    .option_prefix = ""};
+  const app::EvaluationOptions options{
+      .datasets = datasets,
+      .sequences = sequences,
+      .every = checked<std::size_t>("every", every, 1, app::max_every),
+      .protocol = protocol,
+      .columns = columns ? checked("columns", *columns, 3, 1024) : 0,
+      .threads = checked_threads(threads)};
+  std::string json;
+  std::string csv;
+  std::vector<std::string> messages =
+      run({std::move(draw), terminal_columns}, [&](const app::RunCallbacks& callbacks) {
+        app::Evaluation evaluation(
+            options, app::methods_to_evaluate(choice, labels,
+                                              labels_are_classes ? io::LabelMap::semantic_kitti
+                                                                 : io::LabelMap::flagstone));
+        const eval::Results results = evaluation.run(callbacks);
+        if (results.scans == 0) return;
+        constexpr auto replace = nlohmann::json::error_handler_t::replace;  // not UTF-8
+        json = eval::to_json(results).dump(-1, ' ', false, replace);
+        csv = eval::to_csv(results);
+      });
+  return nb::make_tuple(json, nb::bytes(csv.data(), csv.size()), messages);
+}
+
+}  // namespace
+
+void bind_runs(nb::module_& module) {
+  module.def("simulate", &simulate, nb::arg("output"), nb::arg("scene"), nb::arg("sensor"),
+             nb::arg("sensor_height").none(), nb::arg("tilt"), nb::arg("noise"), nb::arg("weather"),
+             nb::arg("keep_no_returns"), nb::arg("frames"), nb::arg("seed"), nb::arg("sequence"),
+             nb::arg("threads").none(), nb::arg("draw").none(), nb::arg("terminal_columns"));
+  module.def("evaluate", &evaluate, nb::arg("datasets"), nb::arg("methods"), nb::arg("protocol"),
+             nb::arg("sequences"), nb::arg("every"), nb::arg("columns").none(), nb::arg("sensor"),
+             nb::arg("sensor_height").none(), nb::arg("tilt").none(), nb::arg("preset"),
+             nb::arg("config"), nb::arg("settings"), nb::arg("labels"),
+             nb::arg("labels_are_classes"), nb::arg("threads").none(), nb::arg("draw").none(),
+             nb::arg("terminal_columns"));
+}
+
+}  // namespace flagstone::python
