@@ -3,6 +3,7 @@
 #include "method.hpp"
 
 #include <fmt/format.h>
+#include <nanobind/stl/string.h>
 
 #include <cstdint>
 #include <limits>
