@@ -14,4 +14,9 @@ inline float mounting_height(float sensor_height) noexcept {
   return sensor_height > 0 ? sensor_height : default_height;
 }
 
+/// z of the sensor itself, metres; 0 if the origin is in it.
+inline float sensor_z(float sensor_height) noexcept {
+  return mounting_height(sensor_height) - sensor_height;
+}
+
 }  // namespace flagstone

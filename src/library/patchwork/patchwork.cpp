@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "library/core/floating_point_mode.hpp"
+#include "library/core/mounting_height.hpp"
 #include "library/core/segment_scan.hpp"
 #include "library/core/thread_pool.hpp"
 #include "library/patchwork/bin_labels.hpp"
@@ -128,7 +129,8 @@ FitSettings fit_settings(const PatchworkConfig& config) {
           .noise_margin = config.noise_margin,
           .iterations = config.iterations,
           .keep_below_floor = config.keep_below_margin,
-          .evaluate_final_set = config.evaluate_final_set};
+          .evaluate_final_set = config.evaluate_final_set,
+          .height_without_seeds = sensor_z(config.sensor_height)};
 }
 
 }  // namespace

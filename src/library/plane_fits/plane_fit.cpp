@@ -26,16 +26,17 @@ void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
   std::array<float, batch_size> floors{};
   for (std::size_t i = 0; i < batch.count(); ++i) floors[i] = round_up(seeds.floors[i]);
   Batch initial_heights;
-  seed_heights_.find(batch, floors, seeds.counts, initial_heights);
+  seed_heights_.find(batch, floors, seeds.counts, initial_heights, settings_.height_without_seeds);
   clock.end(Stage::seed);
 
   // G^0, eq. (5), with the points below the floor kept out where that is wanted. Heights are seen
-  // from z-bar_init from now on; where there was no seed and it is 0, from the first point.
+  // from z-bar_init from now on; where there was no seed, from the first point.
   GroundSets& sets = result.sets;
   std::array<FirstSet, batch_size> first_sets{};
   for (std::size_t i = 0; i < batch.count(); ++i) {
-    const float origin =
-        initial_heights[i] == 0 ? batch.z(i)[0] : static_cast<float>(initial_heights[i]);
+    const float origin = initial_heights[i] == settings_.height_without_seeds
+                             ? batch.z(i)[0]
+                             : static_cast<float>(initial_heights[i]);
     const double floor =
         settings_.keep_below_floor ? -std::numeric_limits<double>::infinity() : seeds.floors[i];
     const double bottom = std::max(floor, initial_heights[i] - settings_.seed_depth) - origin;

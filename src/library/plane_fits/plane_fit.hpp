@@ -25,6 +25,8 @@ struct FitSettings {
   int iterations;           ///< planes fitted one after another, at least 1
   bool keep_below_floor;    ///< may the first set hold points lower than any seed may be?
   bool evaluate_final_set;  ///< fit once more, to the set that the last plane chooses?
+  /// z-bar_init of bins without any seed, metres: the sensor's own height, as in the public code.
+  double height_without_seeds = 0;
 };
 
 /// The seeds of the bins of a batch.

@@ -148,7 +148,6 @@ void set_column(Candidates& rows, std::size_t column, const float* heights, std:
 
 double mean_of_lowest(float* heights, std::size_t count, std::size_t seed_count) {
   const std::size_t seeds = std::min(count, seed_count);
-  if (seeds == 0) return 0;
   std::nth_element(heights, heights + (seeds - 1), heights + count);
   std::sort(heights, heights + seeds);
   double sum = 0;
@@ -162,7 +161,8 @@ double mean_of_lowest(float* heights, std::size_t count, std::size_t seed_count)
 /// for the N_seed-th lowest point, and few points lie below it: these are sorted, sixteen bins side
 /// by side. Where they are not few, or N_seed is large, bins are sorted one by one.
 void SeedHeights::find(const BinBatch& batch, const std::array<float, batch_size>& floors,
-                       const std::array<std::uint32_t, batch_size>& counts, Batch& means) noexcept {
+                       const std::array<std::uint32_t, batch_size>& counts, Batch& means,
+                       double height_without_seeds) noexcept {
   means = {};
   float* heights = heights_.data();
   Candidates rows{};
@@ -190,13 +190,16 @@ void SeedHeights::find(const BinBatch& batch, const std::array<float, batch_size
     }
     HWY_DYNAMIC_DISPATCH(sort_columns)(rows);
     HWY_DYNAMIC_DISPATCH(mean_of_rows)(rows, few, most, means);
+    for (std::size_t i = 0; i < batch.count(); ++i) {
+      if (rows[0][i] == infinity) means[i] = height_without_seeds;
+    }
   }
 
   for (std::size_t i = 0; i < batch.count(); ++i) {
     if (counts[i] <= most_candidates) continue;
     const std::size_t count = HWY_DYNAMIC_DISPATCH(copy_between)(batch.z(i), batch.places(i),
                                                                  floors[i], highest, heights);
-    means[i] = mean_of_lowest(heights, count, counts[i]);
+    means[i] = count > 0 ? mean_of_lowest(heights, count, counts[i]) : height_without_seeds;
   }
 }
 

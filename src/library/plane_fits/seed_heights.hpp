@@ -19,10 +19,11 @@ class SeedHeights {
   void reserve(std::size_t points) { heights_.reserve(points + 32); }
 
   /// For each bin the mean height of its `counts[i]` lowest points, N_seed, at least 1, that are
-  /// not below `floors[i]`; 0 where there are none, as in the public code. Metres. The sum is taken
-  /// from the lowest up, so that it does not depend on the order of the points.
+  /// not below `floors[i]`; `height_without_seeds` if there are none. Metres. The sum is taken from
+  /// the lowest up, so that it does not depend on the order of the points.
   void find(const BinBatch& batch, const std::array<float, batch_size>& floors,
-            const std::array<std::uint32_t, batch_size>& counts, Batch& means) noexcept;
+            const std::array<std::uint32_t, batch_size>& counts, Batch& means,
+            double height_without_seeds = 0) noexcept;
 
  private:
   Buffer<float> heights_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "library/core/floating_point_mode.hpp"
+#include "library/core/mounting_height.hpp"
 #include "library/core/segment_scan.hpp"
 #include "library/core/thread_pool.hpp"
 #include "library/plane_fits/bin_groups.hpp"
@@ -55,13 +56,16 @@ constexpr std::size_t most_samples = 128;
 constexpr float reflection_range = 10;
 constexpr float seed_floor = 0.5f;
 
-constexpr plane_fits::FitSettings fit_settings{.seed_height = 0.5,
-                                               .seed_depth = 1.0,
-                                               .distance_margin = 0.125,
-                                               .noise_margin = 0.375,
-                                               .iterations = 3,
-                                               .keep_below_floor = true,
-                                               .evaluate_final_set = false};
+plane_fits::FitSettings fit_settings(const SurfaceConfig& config) {
+  return {.seed_height = 0.5,
+          .seed_depth = 1.0,
+          .distance_margin = 0.125,
+          .noise_margin = 0.375,
+          .iterations = 3,
+          .keep_below_floor = true,
+          .evaluate_final_set = false,
+          .height_without_seeds = sensor_z(config.sensor_height)};
+}
 
 /// The lowest points of a patch that are its seeds.
 std::uint32_t seed_count(std::size_t points) {
@@ -175,7 +179,7 @@ Surface::Pipeline::Pipeline(const SurfaceConfig& given, unsigned threads)
       lower_ground(cells),
       groups(plane_fits::Listing::points),
       pool(checked_threads("surface", threads)),
-      fitters(pool.size(), fit_settings) {
+      fitters(pool.size(), fit_settings(config)) {
   fitters.reserve(batch_size * most_samples);
   fitted_squares.reserve(square_patches.list().size());
   accepted.reserve(square_patches.list().size());

@@ -118,7 +118,10 @@ Plane plane_of(CloudView cloud, const Indices& set) {
 }
 
 /// z-bar_init: mean height of the N_seed lowest points of S_n that are not below M_h * h_s.
-double initial_height(CloudView cloud, const Indices& s_n, double cut, int n_seed) {
+/// The height of the sensor if there are none, as in the public code.
+double initial_height(CloudView cloud, const Indices& s_n, double cut,
+                      const PatchworkConfig& config) {
+  const int n_seed = config.seed_count;
   std::vector<double> heights;
   for (const std::size_t k : s_n) {
     if (at(cloud, k).z() >= cut) heights.push_back(at(cloud, k).z());
@@ -127,7 +130,9 @@ double initial_height(CloudView cloud, const Indices& s_n, double cut, int n_see
   if (heights.size() > static_cast<std::size_t>(n_seed)) {
     heights.resize(static_cast<std::size_t>(n_seed));
   }
-  if (heights.empty()) return 0;
+  if (heights.empty()) {
+    return config.sensor_height > 0 ? 0 : double{1.73f} - config.sensor_height;
+  }
   double sum = 0;
   for (const double z : heights) sum += z;
   return sum / static_cast<double>(heights.size());
@@ -136,7 +141,7 @@ double initial_height(CloudView cloud, const Indices& s_n, double cut, int n_see
 /// Eq. (5): G^0, without the points below the margin where the configuration says so.
 Indices initial_set(CloudView cloud, const Indices& s_n, double cut,
                     const PatchworkConfig& config) {
-  const double z_init = initial_height(cloud, s_n, cut, config.seed_count);
+  const double z_init = initial_height(cloud, s_n, cut, config);
   Indices set;
   for (const std::size_t k : s_n) {
     const double z = at(cloud, k).z();
