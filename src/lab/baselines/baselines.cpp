@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "lab/baselines/settings.hpp"
 
@@ -57,6 +58,26 @@ void register_baselines() {
     return true;
   }();
   static_cast<void>(registered);
+}
+
+PatchworkConfig r_gpf_config() {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  PatchworkConfig config;
+  config.min_range = 0;
+  config.zones = {{equal_rings(0, 80, 30), 108, -infinity}};
+  config.noise_depth = infinity;
+  config.noise_slope = 0;
+  config.min_points = 6;
+  config.sparse_bins_are_ground = false;
+  config.seed_count = 20;
+  config.seed_height = 0.5f;
+  config.distance_margin = 0.15f;
+  config.noise_margin = infinity;
+  config.iterations = 3;
+  config.uprightness = {.enabled = false, .angle = 45};
+  config.elevation.enabled = false;
+  config.flatness.enabled = false;
+  return config;
 }
 
 std::span<const std::string_view> table_1_methods() noexcept {
