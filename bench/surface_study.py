@@ -503,7 +503,7 @@ def measure_true_heights(study):
             study.call(f"flagstone segment {files} --method surface{set_options(study)} --output {place}")
             for scan in scans:
                 height = np.fromfile(scan, "<f4").reshape(-1, 4)[:, 2]
-                height = height - np.load(folder / "ground" / f"{scan.stem}.npy")
+                height = height - np.load(folder / "ground" / f"{scan.stem}.ground.npy")
                 truth = np.fromfile(folder / "labels" / f"{scan.stem}.label", "<u4")
                 ours = np.fromfile(pathlib.Path(place) / f"{scan.stem}.label", "<u4") == 1
                 is_ground = np.isin(truth & 0xFFFF, (40, 44, 48, 49, 60, 72))
