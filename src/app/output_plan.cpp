@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/config/config_toml.hpp"
 #include "files/io/message.hpp"
 
 namespace flagstone::app {
@@ -83,6 +84,16 @@ void refuse_two_of_one_file(const std::vector<fs::path>& outputs) {
 
 void OutputPlan::reads(const fs::path& file) {
   if (!file.empty()) inputs_.push_back(file);
+}
+
+void OutputPlan::reads_settings(const std::string& config_file, const std::string& sensor) {
+  reads(config_file);
+  reads(sensor);
+  if (config_file.empty()) return;
+  const auto named = config::sensor_named_in(config::parse_toml_file(config_file));
+  if (!named) return;
+  reads(*named);
+  reads(fs::path(config_file).parent_path() / *named);
 }
 
 void OutputPlan::reads_dataset(const fs::path& folder) {

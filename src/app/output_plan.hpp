@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace flagstone::app {
@@ -14,6 +15,10 @@ namespace flagstone::app {
 class OutputPlan {
  public:
   void reads(const std::filesystem::path& file);
+
+  /// The files that settings come from: a configuration, the sensor that it names, and a sensor.
+  /// Each may be empty; a sensor may also be a name. Throws as reading the configuration does.
+  void reads_settings(const std::string& config_file, const std::string& sensor);
 
   /// Every file below a folder is an input, except results that earlier runs may have left there:
   /// .json (but not the simulator's scene.json), .csv, .html, .png and .checkpoint.

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/bench_command.hpp"
-
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
@@ -17,11 +16,11 @@
 #include <variant>
 #include <vector>
 
-#include "cli/interrupt.hpp"
+#include "app/scan_files.hpp"
+#include "cli/commands.hpp"
 #include "cli/method_options.hpp"
-#include "cli/print_error.hpp"
-#include "cli/progress.hpp"
-#include "cli/scan_inputs.hpp"
+#include "cli/shared_options.hpp"
+#include "cli/terminal.hpp"
 #include "files/io/message.hpp"
 #include "files/io/read_cloud.hpp"
 #include "lab/bench/benchmark.hpp"
@@ -43,19 +42,22 @@ struct BenchOptions {
 };
 
 /// The scans that can be read and hold a point. What is wrong with others is printed.
-std::vector<io::Cloud> read_scans(const std::vector<ScanInput>& inputs, int columns) {
+std::vector<io::Cloud> read_scans(const std::vector<app::ScanInput>& inputs, int columns,
+                                  std::vector<std::pair<std::string, std::string>>& errors) {
   std::vector<io::Cloud> clouds;
-  for (const ScanInput& input : inputs) {
+  for (const app::ScanInput& input : inputs) {
     io::Cloud cloud;
     const Status status = io::read_cloud(input.file, {.columns = columns}, cloud);
-    if (!status.ok()) {
-      print_error(status.message());
-    } else if (cloud.empty()) {
-      print_error(fmt::format("{}: no point in it; a scan to time has one at least",
-                              io::printable(input.file)));
-    } else {
+    if (status.ok() && !cloud.empty()) {
       clouds.push_back(std::move(cloud));
+      continue;
     }
+    const std::string error =
+        status.ok() ? fmt::format("{}: no point in it; a scan to time has one at least",
+                                  io::printable(input.file))
+                    : std::string(status.message());
+    print_error(error);
+    errors.emplace_back(input.file.string(), error);
   }
   return clouds;
 }
@@ -66,46 +68,71 @@ bench::TimedConfig timed_config(const MethodConfig& config) {
   return *config.get_if<PatchworkConfig>();
 }
 
-int bench(const BenchOptions& options) {
-  bench::BenchmarkSettings settings = options.settings;
-  const config::ResolvedMethod method = config::resolve_one(options.method);
-  settings.config = timed_config(method.config);
-  settings.mount = method.mount;
-  config::check_threads(method.mount, settings.threads);
-  if (options.peers) settings.external_tools = options.places;
-  const std::vector<ScanInput> inputs = find_scans(options.scans);
-  const std::vector<io::Cloud> clouds = read_scans(inputs, options.columns);
-  if (clouds.empty()) return 1;
-
-  catch_interrupts();
-  std::optional<Progress> progress;
-  std::size_t all_rounds = 0;
-  const bench::Results results =
-      bench::run_benchmark(clouds, settings,
-                           {.progress =
-                                [&](std::size_t round, std::size_t rounds) {
-                                  if (!progress) progress.emplace(rounds * clouds.size());
-                                  all_rounds = rounds;
-                                  progress->show(round * clouds.size());
-                                },
-                            .stop = interrupted});
-  progress.reset();
-
-  if (results.rounds == 0) {
-    print_error("interrupted before the first round, nothing is measured");
-    return 1;
+/// Prints the results, if there are any, and in JSON the scans that could not be timed.
+void print_results(const bench::Results* results,
+                   const std::vector<std::pair<std::string, std::string>>& errors, bool as_json) {
+  if (!as_json) {
+    if (results != nullptr) fmt::print("{}", bench::to_text(*results));
+    return;
   }
-  if (interrupted()) {
-    print_error(fmt::format("interrupted, {} of {} rounds were begun", results.rounds, all_rounds));
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  if (results != nullptr) json = bench::to_json(*results);
+  for (const auto& [file, error] : errors) {
+    json["errors"].push_back({{"file", file}, {"error", error}});
   }
-  fmt::print("{}", options.json ? bench::to_json(results).dump(2) + "\n" : bench::to_text(results));
-  return interrupted() || clouds.size() < inputs.size() ? 1 : 0;
+  // File names may not be UTF-8.
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
+
+class BenchCommand final : public Command {
+ public:
+  using Command::Command;
+  BenchOptions options;
+
+  int run() override {
+    bench::BenchmarkSettings settings = options.settings;
+    const config::ResolvedMethod method = config::resolve_one(options.method);
+    settings.config = timed_config(method.config);
+    settings.mount = method.mount;
+    config::check_threads(method.mount, settings.threads);
+    if (options.peers) settings.external_tools = options.places;
+    ProgressBar bar;
+    const std::vector<app::ScanInput> inputs = app::find_scans(options.scans, bar.callbacks());
+    std::vector<std::pair<std::string, std::string>> errors;
+    const std::vector<io::Cloud> clouds = read_scans(inputs, options.columns, errors);
+    if (clouds.empty()) {
+      print_results(nullptr, errors, options.json);
+      return 1;
+    }
+    catch_interrupts();
+    std::optional<app::ProgressMeter> meter;
+    std::size_t all_rounds = 0;
+    const bench::Results results =
+        bench::run_benchmark(clouds, settings,
+                             {.progress =
+                                  [&](std::size_t round, std::size_t rounds) {
+                                    if (!meter) meter.emplace(rounds * clouds.size());
+                                    all_rounds = rounds;
+                                    bar.show(meter->at(round * clouds.size()));
+                                  },
+                              .stop = interrupted});
+    bar.clear();
+    if (results.rounds == 0) {
+      print_error("interrupted before the first round, nothing is measured");
+      return 1;
+    }
+    if (interrupted()) {
+      print_error(
+          fmt::format("interrupted, {} of {} rounds were begun", results.rounds, all_rounds));
+    }
+    print_results(&results, errors, options.json);
+    return interrupted() || !errors.empty() ? 1 : 0;
+  }
+};
 
 }  // namespace
 
-void add_bench_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<BenchOptions>();
+std::unique_ptr<Command> add_bench_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "bench",
       "Time surface or Patchwork on scans, stage by stage, beside other programs.\n\n"
@@ -113,17 +140,11 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       "Scans are taken in rotation. The read baseline reads x, y and z of every point and writes "
       "one\n"
       "byte a point. Ratios are medians of times of the same scan and round.\n");
-  command
-      ->add_option("scans", options->scans,
-                   "Scans, or folders of them (.bin, .pcd.bin, .pcd, .ply, .npy)")
-      ->required()
-      ->type_name("SCAN...");
+  auto made = std::make_unique<BenchCommand>(*command);
+  BenchOptions* const options = &made->options;
+  add_scans_option(*command, options->scans);
   add_method_options(*command, options->method, bench::timed_methods);
-  command
-      ->add_option("--columns", options->columns,
-                   "Floats a point in .bin files. Default: 5 for .pcd.bin, else 4")
-      ->check(CLI::Range(3, 1024))
-      ->type_name("N");
+  add_columns_option(*command, options->columns);
   command
       ->add_option("--rounds", options->settings.rounds,
                    "Rounds over all scans. Default: as many as take 10 s, 3 at least")
@@ -154,7 +175,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
       ->needs(peers)
       ->type_name("FILE");
   command->add_flag("--json", options->json, "Print one JSON object instead of tables");
-  command->callback([options, &exit_code] { exit_code = bench(*options); });
+  return made;
 }
 
 }  // namespace flagstone::cli

@@ -1,179 +1,48 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/demo_command.hpp"
-
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
-#include <CLI/Validators.hpp>
-#include <algorithm>
-#include <cstdint>
-#include <filesystem>
+#include <cstdio>
 #include <memory>
-#include <stdexcept>
-#include <string>
-#include <system_error>
-#include <thread>
-#include <vector>
 
-#include "files/io/cloud.hpp"
-#include "files/io/label_files.hpp"
-#include "files/io/write_cloud.hpp"
-#include "files/render/birds_eye.hpp"
-#include "files/render/rendering_available.hpp"
-#include "files/render/surface_picture.hpp"
-#include "flagstone/surface.hpp"
-#include "lab/eval/protocol.hpp"
-#include "lab/eval/score.hpp"
-#include "lab/sim/drive.hpp"
-#include "library/core/statistics.hpp"
-#include "library/core/stopwatch.hpp"
+#include "app/demo.hpp"
+#include "cli/commands.hpp"
+#include "cli/shared_options.hpp"
 
 namespace flagstone::cli {
-namespace fs = std::filesystem;
-
 namespace {
 
-constexpr float picture_range = 50;  // metres to the sides; the same for all, to lay side by side
+class DemoCommand final : public Command {
+ public:
+  using Command::Command;
+  app::DemoRequest request;
 
-struct DemoOptions {
-  std::string output = "flagstone-demo";
-  std::uint64_t seed = 7;
+  int run() override {
+    fmt::print("Simulating a street with a 64-beam sensor (seed {}) ...\n\n", request.seed);
+    std::fflush(stdout);
+    fmt::print("{}", app::run_demo(request));
+    return 0;
+  }
 };
-
-/// Where the demo writes; laid out as a SemanticKITTI sequence.
-struct DemoFiles {
-  explicit DemoFiles(const fs::path& folder)
-      : scan(folder / "velodyne" / "000000.bin"),
-        truth(folder / "labels" / "000000.label"),
-        labels(folder / "predictions" / "000000.label"),
-        picture(folder / "000000.png"),
-        comparison(folder / "000000-compared.png"),
-        surface(folder / "000000-surface.png") {}
-
-  fs::path scan, truth, labels, picture, comparison, surface;
-};
-
-void must(const Status& status) {
-  if (!status.ok()) throw std::runtime_error(status.message());
-}
-
-/// Median time of segmenting the scan again and again, milliseconds.
-double median_time(Segmenter& method, CloudView cloud, Segmentation& result) {
-  std::vector<double> times(21);
-  for (double& time : times) {
-    Stopwatch watch;
-    must(method.segment(cloud, result));
-    time = watch.lap();
-  }
-  return median(times);
-}
-
-void write_files(const DemoFiles& files, const sim::SimulatedScan& scan, const io::Cloud& cloud,
-                 const Segmentation& result) {
-  for (const fs::path& file : {files.scan, files.truth, files.labels}) {
-    std::error_code error;
-    fs::create_directories(file.parent_path(), error);
-    if (error) {
-      throw std::runtime_error(
-          fmt::format("{}: cannot be made: {}", file.parent_path().string(), error.message()));
-    }
-  }
-  must(io::write_cloud(files.scan, cloud));
-  must(io::write_class_file(files.truth, scan.classes));
-  must(io::write_label_file(files.labels, result.labels(), io::LabelMap::flagstone));
-}
-
-void draw_pictures(const DemoFiles& files, const io::Cloud& cloud, const Segmentation& result,
-                   std::span<const Truth> truth, const std::string& scores,
-                   const std::string& heights) {
-  render::BirdsEye options;
-  options.title = "Simulated street, 64 beams";
-  options.subtitle = scores;
-  options.range = picture_range;
-  must(render::draw_birds_eye(files.picture, cloud.view(), result, options));
-  options.reference = truth;
-  must(render::draw_birds_eye(files.comparison, cloud.view(), result, options));
-  must(render::draw_surface(files.surface, result.surface(),
-                            {.title = "The same street: the ground itself",
-                             .subtitle = heights,
-                             .range = picture_range}));
-}
-
-void run_demo(const DemoOptions& options) {
-  fmt::print("Simulating a street with a 64-beam sensor (seed {}) ...\n\n", options.seed);
-  const sim::SimulatedScan scan =
-      sim::simulate_street(options.seed, std::max(1u, std::thread::hardware_concurrency()));
-  io::Cloud cloud;
-  must(io::Cloud::from_floats(scan.xyzi, 4, cloud));
-
-  Surface surface;
-  Segmentation result;
-  const double ms = median_time(surface, cloud.view(), result);
-
-  const std::vector<Truth> truth =
-      eval::truth_of(eval::simulation_protocol(), cloud.view(), scan.classes);
-  const eval::Confusion score = eval::compare(result.labels(), truth);
-  const eval::HeightErrors heights =
-      eval::score_heights(cloud.view(), truth, sim::street_ground(options.seed, scan.xyzi),
-                          result.heights())
-          .ground.by_range[0];
-  const auto ground_patches = std::ranges::count_if(result.patches(), &Patch::is_ground);
-  const std::string scores = eval::scores_text(score);
-
-  const DemoFiles files(options.output);
-  write_files(files, scan, cloud, result);
-  const Status rendering_available = render::rendering_available();
-  if (rendering_available.ok()) {
-    draw_pictures(files, cloud, result, truth, scores,
-                  fmt::format("median error {:.1f} cm within 20 m, where the ground was seen",
-                              100 * heights.median));
-  }
-
-  const double share =
-      static_cast<double>(result.count(Label::ground)) / static_cast<double>(cloud.size());
-  fmt::print("  points       {}\n", cloud.size());
-  fmt::print("  ground       {:.1f} %\n", 100 * share);
-  fmt::print("  patches      {}, {} of them ground\n", result.patches().size(), ground_patches);
-  fmt::print("  precision    {:.2f} %\n", 100 * score.precision());
-  fmt::print("  recall       {:.2f} %\n", 100 * score.recall());
-  fmt::print("  F1           {:.2f} %   (every point, against the simulated truth)\n",
-             100 * score.f1());
-  fmt::print(
-      "  heights      {:.1f} cm   (median error of ground within 20 m, 95 % below {:.1f} cm)\n",
-      100 * heights.median, 100 * heights.percentile95);
-  fmt::print("  time         {:.2f} ms  (one core, median of 21 runs)\n\n", ms);
-  if (rendering_available.ok()) {
-    fmt::print("  picture      {}\n", files.picture.string());
-    fmt::print("  compared     {}\n", files.comparison.string());
-    fmt::print("  surface      {}\n", files.surface.string());
-  } else {
-    fmt::print("  pictures     none: {}\n", rendering_available.message());
-  }
-  fmt::print("  labels       {}\n", files.labels.string());
-  fmt::print("  scan, truth  {}, {}\n", files.scan.string(), files.truth.string());
-}
 
 }  // namespace
 
-void add_demo_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<DemoOptions>();
-  CLI::App* command = app.add_subcommand("demo",
-                                         "Simulate a street, segment it by surface and draw it.\n\n"
-                                         "Example:  flagstone demo --output demo --seed 11\n");
+std::unique_ptr<Command> add_demo_command(CLI::App& parser) {
+  CLI::App* command =
+      parser.add_subcommand("demo",
+                            "Simulate a street, segment it by surface and draw it.\n\n"
+                            "Example:  flagstone demo --output demo --seed 11\n");
+  auto made = std::make_unique<DemoCommand>(*command);
+  app::DemoRequest* const options = &made->request;
   command->add_option("-o,--output", options->output, "Folder for what is written; made if missing")
       ->type_name("DIR")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Which street; the same seed gives the same bytes")
-      ->check(CLI::NonNegativeNumber)  // else -1 would wrap around
-      ->type_name("N")
-      ->capture_default_str();
-  command->callback([options, &exit_code] {
-    run_demo(*options);
-    exit_code = 0;
-  });
+  add_seed_option(*command, options->seed, "Which street; the same seed gives the same bytes");
+  return made;
 }
 
 }  // namespace flagstone::cli

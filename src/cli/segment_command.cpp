@@ -1,47 +1,37 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/segment_command.hpp"
-
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "cli/interrupt.hpp"
+#include "app/segment_files.hpp"
+#include "cli/commands.hpp"
 #include "cli/method_options.hpp"
-#include "cli/mount_estimation.hpp"
-#include "cli/print_error.hpp"
-#include "cli/progress.hpp"
-#include "cli/scan_job.hpp"
-#include "cli/thread_pool.hpp"
-#include "cli/throughput.hpp"
-#include "files/render/rendering_available.hpp"
-#include "flagstone/surface_config.hpp"
-#include "library/core/stopwatch.hpp"
+#include "cli/shared_options.hpp"
+#include "cli/terminal.hpp"
 
 namespace flagstone::cli {
 namespace {
+
+using app::OutputFormat;
 
 struct SegmentOptions {
   std::vector<std::string> scans;
   std::string output;
   config::MethodChoice method;
   OutputFormat format = OutputFormat::label;
-  io::LabelMap label_map = io::LabelMap::flagstone;
+  std::optional<io::LabelMap> label_map;
   int columns = 0;
   std::string reference;
   bool picture = false;
@@ -53,178 +43,85 @@ struct SegmentOptions {
   bool json = false;
 };
 
-/// Collects what workers report and prints it in the order of the scans: at once where a scan takes
-/// long, ten times a second where thousands are done in it, since waking who reads the lines takes
-/// longer than making one.
-class Reporter {
- public:
-  Reporter(std::size_t scans, bool json) : reports_(scans), progress_(scans), json_(json) {
-    progress_.show(0);
-  }
-
-  void add(std::size_t index, ScanReport report) {
-    std::string line = line_of(report);  // before the lock, for which other workers wait
-    const std::scoped_lock lock(mutex_);
-    reports_[index] = {std::move(report), std::move(line)};
-    ++done_;
-    const auto now = std::chrono::steady_clock::now();
-    if (now < next_print_) return;
-    next_print_ = now + pause;
-    print_ready();
-  }
-
-  /// Takes the progress bar away, prints what is left to print; returns what was reported.
-  std::vector<ScanReport> finish() {
-    progress_.clear();
-    std::vector<ScanReport> finished;
-    for (std::size_t i = 0; i < reports_.size(); ++i) {
-      std::optional<Entry>& entry = reports_[i];
-      if (!entry) continue;
-      if (i >= next_) print(*entry);
-      finished.push_back(std::move(entry->report));
-    }
-    return finished;
-  }
-
- private:
-  struct Entry {
-    ScanReport report;
-    std::string line;  // empty where there is nothing to print, or not any more
-  };
-
-  static constexpr std::chrono::milliseconds pause{100};
-
-  void print_ready() {
-    if (next_ < reports_.size() && reports_[next_]) progress_.clear();
-    for (; next_ < reports_.size(); ++next_) {
-      std::optional<Entry>& next = reports_[next_];
-      if (!next) break;
-      print(*next);
-    }
-    std::fflush(stdout);
-    progress_.show(done_);
-  }
-
-  std::string line_of(const ScanReport& report) const {
-    if (json_) return json_line(report) + '\n';
-    return report.error ? std::string() : text_line(report) + '\n';
-  }
-
-  static void print(Entry& entry) {
-    if (entry.report.error) print_error(*entry.report.error);
-    fmt::print("{}", std::exchange(entry.line, {}));
-  }
-
-  std::mutex mutex_;
-  std::vector<std::optional<Entry>> reports_;
-  std::size_t next_ = 0;  // first one not printed
-  std::size_t done_ = 0;
-  std::chrono::steady_clock::time_point next_print_;
-  Progress progress_;
-  bool json_;
-};
-
-void check_tint(const SegmentOptions& options, const MethodConfig& config) {
-  if (!options.tint_patches || config.get_if<PatchworkConfig>() != nullptr) return;
-  throw std::invalid_argument(
-      fmt::format("--color-patches: method {} has no zones to tint; --method patchwork has, r_gpf "
-                  "and czm+... too",
-                  options.method.methods.front()));
-}
-
-void check_surface(const SegmentOptions& options, const MethodConfig& config) {
+app::SegmentRequest request_of(const SegmentOptions& options) {
   const double resolution = options.surface_resolution.value_or(1);
   const bool is_allowed = resolution >= 0.1 && resolution <= 10;  // not NaN, as CLI::Range has it
   if (!is_allowed) {
     throw std::invalid_argument(
         fmt::format("--surface-resolution {}: not within 0.1 to 10 metres a cell", resolution));
   }
-  if (config.get_if<SurfaceConfig>() != nullptr) return;
-  for (const auto& [asked, option] :
-       {std::pair{options.heights, "--heights"}, std::pair{options.surface, "--surface"}}) {
-    if (!asked) continue;
-    throw std::invalid_argument(fmt::format("{}: method {} makes no surface; --method surface does",
-                                            option, options.method.methods.front()));
-  }
-}
-
-/// Of the surface only the map is a picture: its grid is written all the same.
-void check_pictures(const SegmentOptions& options) {
-  const Status rendering_available = render::rendering_available();
-  if (rendering_available.ok()) return;
-  if (options.picture) throw std::invalid_argument("--image: " + rendering_available.message());
-  if (options.surface)
-    print_error("--surface: grids without maps: " + rendering_available.message());
-}
-
-int segment(const SegmentOptions& options) {
-  const auto [name, config, mount] = config::resolve_one(options.method);
-  config::check_threads(mount, options.threads);
-  ScanJob job{.method = name,
-              .config = config,
-              .mount = mount,
+  config::ResolvedMethod method = config::resolve_one(options.method);
+  app::SegmentRequest request{
+      .scans = options.scans,
+      .job = {.method = method.name,
+              .config = std::move(method.config),
+              .mount = method.mount,
               .told = {},
               .read = {.columns = options.columns},
               .output = options.output,
               .format = options.format,
-              .label_map = options.label_map,
+              .label_map = options.label_map.value_or(io::LabelMap::flagstone),
               .picture = options.picture,
               .tint_patches = options.tint_patches,
               .heights = options.heights,
               .surface = options.surface,
               .surface_resolution = options.surface_resolution.value_or(0),
-              .reference = options.reference};
-  check_tint(options, job.config);
-  check_surface(options, job.config);
-  check_pictures(options);
-  const std::vector<ScanInput> scans = list_scans(options.scans);
-
-  catch_interrupts();
-  const unsigned threads = mount.tracks() ? 1 : options.threads;
-  if (mount.estimates() && !mount.tracks()) {
-    const FoundMount found = find_mount(scans, mount, job.read);
-    job.mount = found.settings;
-    job.told = found.decision;
-    if (!options.json) fmt::print("{}\n", to_text(found));
-  }
-  Reporter reporter(scans.size(), options.json);
-  const std::size_t ahead = thread_count(threads);  // a scan for each worker
-  Stopwatch watch;
-  const std::size_t workers = run_crew(scans.size(), threads, [&] {
-    return [&, worker = std::make_shared<ScanWorker>(job)](std::size_t index) {
-      const std::size_t later = index + ahead;
-      reporter.add(index,
-                   worker->run(scans[index], later < scans.size() ? &scans[later] : nullptr));
-    };
-  });
-  const CrewTime time{.seconds = watch.lap() / 1000, .workers = workers};
-  const std::vector<ScanReport> reports = reporter.finish();
-
-  if (!options.json && scans.size() > 1) {
-    fmt::print("{}{}", summary_text(reports), throughput_text(reports, time));
-  }
-  const bool failed =
-      std::ranges::any_of(reports, [](const auto& r) { return r.error.has_value(); });
-  if (reports.size() < scans.size()) {
-    print_error(fmt::format("interrupted, {} of {} scans are done; run it again for the rest",
-                            reports.size(), scans.size()));
-  }
-  return failed || reports.size() < scans.size() ? 1 : 0;
+              .reference = options.reference},
+      .label_map_given = options.label_map.has_value(),
+      .threads = options.threads};
+  request.plan.reads_settings(options.method.config_file, options.method.sensor);
+  return request;
 }
+
+class SegmentCommand final : public Command {
+ public:
+  using Command::Command;
+  SegmentOptions options;
+
+  int run() override {
+    app::SegmentRequest request = request_of(options);
+    catch_interrupts();
+    ProgressBar bar;
+    const app::SegmentOutcome outcome =
+        app::segment_files(std::move(request), {.run = bar.callbacks(),
+                                                .mount =
+                                                    [this](const app::FoundMount& found) {
+                                                      if (!options.json)
+                                                        fmt::print("{}\n", app::to_text(found));
+                                                    },
+                                                .report =
+                                                    [&](const app::ScanReport& report) {
+                                                      bar.clear();
+                                                      if (report.error) print_error(*report.error);
+                                                      if (options.json) {
+                                                        fmt::print("{}\n", app::json_line(report));
+                                                      } else if (!report.error) {
+                                                        fmt::print("{}\n", app::text_line(report));
+                                                      }
+                                                    }});
+    bar.clear();
+    if (!options.json && outcome.scans > 1) {
+      fmt::print("{}{}", app::summary_text(outcome.reports),
+                 app::throughput_text(outcome.reports, outcome.time));
+    }
+    if (outcome.reports.size() < outcome.scans) {
+      print_error(fmt::format("interrupted, {} of {} scans are done; run it again for the rest",
+                              outcome.reports.size(), outcome.scans));
+    }
+    return outcome.ok() ? 0 : 1;
+  }
+};
 
 }  // namespace
 
-void add_segment_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<SegmentOptions>();
+std::unique_ptr<Command> add_segment_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("segment",
                          "Label every point of scans.\n\n"
                          "Example:  flagstone segment scans/ --output labels --image\n");
-  command
-      ->add_option("scans", options->scans,
-                   "Scans, or folders of them (.bin, .pcd.bin, .pcd, .ply, .npy)")
-      ->required()
-      ->type_name("SCAN...");
+  auto made = std::make_unique<SegmentCommand>(*command);
+  SegmentOptions* const options = &made->options;
+  add_scans_option(*command, options->scans);
   command->add_option("-o,--output", options->output, "Folder for what is written; made if missing")
       ->required()
       ->type_name("DIR");
@@ -247,11 +144,7 @@ void add_segment_command(CLI::App& app, int& exit_code) {
                    "Codes in label files: flagstone (0..4), or semantic-kitti (40 ground, 0 else)")
       ->transform(CLI::Transformer(maps).description(""))
       ->transform(CLI::IsMember(maps));
-  command
-      ->add_option("--columns", options->columns,
-                   "Floats a point in .bin files. Default: 5 for .pcd.bin, else 4")
-      ->check(CLI::Range(3, 1024))
-      ->type_name("N");
+  add_columns_option(*command, options->columns);
   command
       ->add_option(
           "--reference", options->reference,
@@ -276,13 +169,11 @@ void add_segment_command(CLI::App& app, int& exit_code) {
                    "Metres a cell of that grid, 0.1 to 10. Default: the surface's finest")
       ->needs(surface)
       ->type_name("M");
-  command
-      ->add_option("--threads", options->threads,
-                   "Scans worked on at once. Default: all cores; one where the height is tracked")
-      ->check(CLI::Range(1, 1024))
-      ->type_name("N");
+  add_threads_option(
+      *command, options->threads,
+      "Scans worked on at once. Default: all cores; one where the height is tracked");
   command->add_flag("--json", options->json, "Print one JSON object per scan instead of text");
-  command->callback([options, &exit_code] { exit_code = segment(*options); });
+  return made;
 }
 
 }  // namespace flagstone::cli

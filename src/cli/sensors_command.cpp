@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "cli/print_error.hpp"
+#include "cli/terminal.hpp"
 #include "files/io/sensor_file.hpp"
 
 namespace flagstone::cli {

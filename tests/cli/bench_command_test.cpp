@@ -223,5 +223,25 @@ TEST(Bench, InterruptedItPrintsWhatWasMeasured) {
   EXPECT_GT(bench["segment"]["median_ms"].get<double>(), 0);
 }
 
+TEST(BenchCommand, AJsonObjectListsTheScansThatCannotBeRead) {
+  const io::TemporaryFolder folder;
+  const std::string bad = (folder / "broken.bin").string();
+  const std::string good = (folder / "good.bin").string();
+  io::put_file(bad, "x");
+  put_scan(good, small_scan(200));
+
+  const Outcome alone = run({"bench", bad, "--json"});
+  const Outcome beside = run({"bench", bad, good, "--rounds", "1", "--json"});
+
+  for (const Outcome& outcome : {alone, beside}) {
+    EXPECT_EQ(outcome.exit_code, 1);
+    const auto errors = nlohmann::json::parse(outcome.out)["errors"];
+    ASSERT_EQ(errors.size(), 1U);
+    EXPECT_EQ(errors[0]["file"], bad);
+    EXPECT_THAT(errors[0]["error"].get<std::string>(), testing::HasSubstr(bad + ": byte "));
+  }
+  EXPECT_TRUE(nlohmann::json::parse(beside.out).contains("method"));
+}
+
 }  // namespace
 }  // namespace flagstone::cli

@@ -40,7 +40,8 @@ class Streams {
 }  // namespace
 
 CommandProcess::CommandProcess(const std::vector<std::string>& arguments,
-                               const std::filesystem::path& standard_output) {
+                               const std::filesystem::path& standard_output,
+                               const std::filesystem::path& standard_error) {
   std::vector<std::string> words = {FLAGSTONE_COMMAND};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -52,8 +53,19 @@ CommandProcess::CommandProcess(const std::vector<std::string>& arguments,
   streams.lead(STDIN_FILENO, "/dev/null", O_RDONLY);
   streams.lead(STDOUT_FILENO, standard_output.empty() ? streams_ / "out" : standard_output,
                O_WRONLY | O_CREAT);
-  streams.lead(STDERR_FILENO, streams_ / "err", O_WRONLY | O_CREAT);
-  const int error = ::posix_spawn(&process_, argv[0], streams.get(), nullptr, argv.data(), environ);
+  streams.lead(STDERR_FILENO, standard_error.empty() ? streams_ / "err" : standard_error,
+               O_WRONLY | O_CREAT | O_NOCTTY);
+  // As a shell starts it: a test that ignores SIGXFSZ would make its children ignore it too.
+  posix_spawnattr_t attributes{};
+  ::posix_spawnattr_init(&attributes);
+  sigset_t defaults{};
+  ::sigemptyset(&defaults);
+  ::sigaddset(&defaults, SIGXFSZ);
+  ::posix_spawnattr_setsigdefault(&attributes, &defaults);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int error =
+      ::posix_spawn(&process_, argv[0], streams.get(), &attributes, argv.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
   if (error != 0) throw std::system_error(error, std::generic_category(), argv[0]);
 }
 

@@ -22,9 +22,10 @@ struct Outcome {
 /// The `flagstone` command as built, running with these arguments.
 class CommandProcess {
  public:
-  /// Starts it; standard output goes to `standard_output` if one is named.
+  /// Starts it; standard output and standard error go to these files if they are named.
   explicit CommandProcess(const std::vector<std::string>& arguments,
-                          const std::filesystem::path& standard_output = {});
+                          const std::filesystem::path& standard_output = {},
+                          const std::filesystem::path& standard_error = {});
   CommandProcess(const CommandProcess&) = delete;
   CommandProcess& operator=(const CommandProcess&) = delete;
   CommandProcess(CommandProcess&&) = delete;

@@ -51,14 +51,18 @@ TEST(DemoCommand, MakesTheFilesItNamesAndTheSameBytesForTheSameSeed) {
   EXPECT_EQ(one["predictions/000000.label"].size(), 4 * points);
 }
 
-TEST(DemoCommand, ASeedBelowZeroIsOneLine) {
+TEST(DemoCommand, ASeedThatIsNoNumberOf64BitsIsOneLine) {
   const io::TemporaryFolder folder;
+  for (const std::string seed :
+       {"-1", "18446744073709551616", "1e3", std::string(309, '9').c_str()}) {
+    const Outcome outcome = run({"demo", "--output", (folder / "out").string(), "--seed", seed});
 
-  const Outcome outcome = run({"demo", "--output", (folder / "out").string(), "--seed", "-1"});
-
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_THAT(outcome.err, is_one_line_with("--seed"));
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_THAT(outcome.err, is_one_line_with("--seed: '" + seed.substr(0, 32)));
+    EXPECT_THAT(outcome.err, HasSubstr("(expected 0 to 18446744073709551615)"));
+    EXPECT_LT(outcome.err.size(), 200U);
+  }
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 

@@ -117,6 +117,26 @@ TEST_F(DoctorCommand, OfAnUnreadableScanIsOneLineAndTheOthersAreLookedAt) {
   EXPECT_THAT(outcome.out, HasSubstr("Nothing to fix"));
 }
 
+TEST_F(DoctorCommand, AJsonObjectListsTheScansThatCannotBeRead) {
+  const std::string good = fine_scan();
+  const std::string bad = (folder_ / "broken.pcd").string();
+  io::put_file(bad, "VERSION 0.7\nFIELDS x y\n");
+
+  for (const bool is_alone : {true, false}) {
+    std::vector<std::string> words = {"doctor", bad, "--json"};
+    if (!is_alone) words.push_back(good);
+    const Outcome outcome = run(words);
+
+    EXPECT_EQ(outcome.exit_code, 1);
+    const json report = json::parse(outcome.out);
+    EXPECT_EQ(report["scans"], is_alone ? json::array() : json::array({good}));
+    ASSERT_EQ(report["errors"].size(), 1U);
+    EXPECT_EQ(report["errors"][0]["file"], bad);
+    EXPECT_THAT(report["errors"][0]["error"].get<std::string>(), HasSubstr(bad + ": byte "));
+    EXPECT_EQ(report["toml"].is_null(), is_alone);
+  }
+}
+
 TEST_F(DoctorCommand, TakesAFewScansSpreadOverAFolder) {
   const io::Cloud small = cloud_of({{1, 2, 3}});
   for (int i = 0; i < 10; ++i) put_scan(folder_ / ("scans/" + std::to_string(i) + ".npy"), small);

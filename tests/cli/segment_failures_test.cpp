@@ -124,19 +124,6 @@ TEST(SegmentFailure, AnOutputThatCannotBeWrittenIsOneLineAndLeavesNothing) {
   }
 }
 
-TEST(SegmentFailure, AScanIsNotOverwrittenByItsOwnOutput) {
-  const io::TemporaryFolder folder;
-  put_scan(folder / "scan.pcd");
-  const auto before = files_below(folder.path());
-
-  const Outcome outcome = run({"segment", (folder / "scan.pcd").string(), "--output",
-                               folder.path().string(), "--format", "pcd"});
-
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, is_one_line_with("scan.pcd: its output would overwrite it"));
-  EXPECT_EQ(files_below(folder.path()), before);
-}
-
 TEST(SegmentFailure, StandardOutputThatCannotBeWrittenIsAnError) {
   const io::TemporaryFolder folder;
   for (const char* name : {"a.bin", "b.bin", "c.bin"})

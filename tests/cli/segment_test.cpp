@@ -174,5 +174,40 @@ TEST(Segment, APictureIsAPngBesideTheLabels) {
   EXPECT_TRUE(scan["milliseconds"].contains("picture"));
 }
 
+TEST(Segment, PicturesAreTheSameBytesOnEveryRun) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "scan.bin");
+  for (const char* output : {"one", "two"}) {
+    ASSERT_EQ(run({"segment", (folder / "scan.bin").string(), "--output",
+                   (folder / output).string(), "--image", "--surface"})
+                  .exit_code,
+              0);
+  }
+
+  EXPECT_THAT(names_below(folder / "one"), testing::IsSupersetOf({"scan.png", "scan.surface.png"}));
+  EXPECT_EQ(files_below(folder / "one") == files_below(folder / "two"), true);
+}
+
+TEST(Segment, AScanInMillimetresIsSentToDoctor) {
+  const io::TemporaryFolder folder;
+  const io::Cloud metres = small_scan();
+  std::vector<float> values;
+  for (std::size_t i = 0; i < metres.size(); ++i) {
+    const Point p = metres.view()[i];
+    values.insert(values.end(), {1000 * p.x, 1000 * p.y, 1000 * p.z, 0});
+  }
+  io::Cloud millimetres;
+  ASSERT_TRUE(io::Cloud::from_floats(values, 4, millimetres).ok());
+  put_scan(folder / "scan.bin", millimetres);
+
+  const Outcome outcome =
+      run({"segment", (folder / "scan.bin").string(), "--output", (folder / "out").string()});
+
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(lines_of(outcome.out),
+              ElementsAre(testing::AllOf(HasSubstr("most points are out of range"),
+                                         HasSubstr("flagstone doctor"))));
+}
+
 }  // namespace
 }  // namespace flagstone::cli

@@ -61,7 +61,11 @@ INSTANTIATE_TEST_SUITE_P(
     Wrong, Usage,
     testing::Values(
         Misuse{"NoCommand", {}, {"subcommand is required", "--help"}},
-        Misuse{"UnknownCommand", {"paint"}, {"--help"}},
+        Misuse{
+            "UnknownCommand", {"paint"}, {"paint: is not a command (expected segment, ", "--help"}},
+        Misuse{"MisspelledCommand",
+               {"segmnt", "SCAN"},
+               {"segmnt: is not a command (did you mean segment?", "--help"}},
         Misuse{"NoOutput", {"segment", "SCAN"}, {"--output is required"}},
         Misuse{"NoScan", {"segment", "--output", "OUT"}, {"scans is required"}},
         Misuse{"InfoOfNothing", {"info"}, {"scans is required"}},
@@ -99,6 +103,9 @@ INSTANTIATE_TEST_SUITE_P(
         segmenting("UnknownFormat", {"--format", "las"}, {"las", "{label,npy,pcd,ply,split,u8}"}),
         segmenting("FormatByNumber", {"--format", "2"}, {"{label,npy,pcd,ply,split,u8}"}),
         segmenting("UnknownLabelMap", {"--label-map", "x"}, {"{flagstone,semantic-kitti}"}),
+        segmenting("LabelMapOfAFormatWithoutCodes",
+                   {"--label-map", "semantic-kitti", "--format", "ply"},
+                   {"--label-map", "--format label or u8"}),
         segmenting("UnknownSetting", {"--set", "seed_cuont=3"}, {"no setting 'seed_cuont'"}),
         segmenting("SettingWithoutValue", {"--set", "seed_count"}, {"--set seed_count: line 1"}),
         segmenting("SettingOfManyLines", {"--set", "a=1\nb=2"}, {"--set a=1\\x0ab=2"}),

@@ -10,7 +10,7 @@
 #include "flagstone/ground_surface.hpp"
 #include "flagstone/status.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 
 /// What belongs to the surface of one scan.
 struct SurfaceFiles {
@@ -30,4 +30,4 @@ struct SurfaceFiles {
                                        const render::HeightMap& map) const;
 };
 
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

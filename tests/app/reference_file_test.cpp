@@ -4,11 +4,11 @@
 
 #include <filesystem>
 
-#include "cli/scan_job.hpp"
+#include "app/segment_scan.hpp"
 #include "files/io/file_contents.hpp"
 #include "files/io/temporary_folder.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ TEST(ReferenceFile, WhereThereIsNoneTheFirstNameIsGivenForTheErrorToName) {
 }
 
 }  // namespace
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

@@ -2,20 +2,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "cli/scan_inputs.hpp"
-#include "cli/scan_report.hpp"
-#include "cli/surface_files.hpp"
+#include "app/scan_files.hpp"
+#include "app/scan_report.hpp"
+#include "app/surface_files.hpp"
 #include "files/io/label_files.hpp"
 #include "files/io/read_cloud.hpp"
 #include "lab/eval/method_runner.hpp"
 #include "library/core/truth.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 
 /// What is written for a scan.
 enum class OutputFormat {
@@ -45,6 +47,22 @@ struct ScanJob {
   std::filesystem::path reference;  ///< a label file, or a folder of them; empty for none
 };
 
+/// The files that a job writes for a scan; empty for those it does not.
+struct ScanOutputs {
+  std::filesystem::path labels;  ///< or the labelled cloud
+  std::filesystem::path ground, nonground;
+  std::filesystem::path heights;
+  std::filesystem::path surface_grid, surface_frame, surface_picture;
+  std::filesystem::path picture;
+
+  ScanOutputs(const ScanJob& job, const ScanInput& input);
+
+  [[nodiscard]] std::array<std::filesystem::path, 8> all() const {
+    return {labels,       ground,        nonground,       heights,
+            surface_grid, surface_frame, surface_picture, picture};
+  }
+};
+
 /// Reads, segments and writes one scan after another, reusing its memory. One per thread.
 class ScanWorker {
  public:
@@ -61,15 +79,14 @@ class ScanWorker {
  private:
   [[nodiscard]] std::optional<MountReport> mount_report() const;
   Status work(const ScanInput& input, const ScanInput* later, ScanReport& report);
-  Status write(const ScanInput& input, ScanReport& report);
-  Status write_split(const ScanInput& input, ScanReport& report);
-  Status write_labels(const ScanInput& input, ScanReport& report);
-  Status write_heights(const ScanInput& input, ScanReport& report);
+  Status write(const ScanInput& input, const ScanOutputs& outputs, ScanReport& report);
+  Status write_labels(const ScanOutputs& outputs, ScanReport& report);
+  Status write_split(const ScanOutputs& outputs, ScanReport& report);
+  Status write_heights(const ScanOutputs& outputs, ScanReport& report);
   Status write_surface(const ScanInput& input, ScanReport& report);
-  Status score_and_draw(const ScanInput& input, ScanReport& report);
-  Status draw_birds_eye(const ScanInput& input, ScanReport& report, std::span<const Truth> truth);
-  Status draw_surface(const ScanInput& input, ScanReport& report);
-  [[nodiscard]] SurfaceFiles surface_files(const ScanInput& input) const;
+  Status score(const ScanInput& input, ScanReport& report, std::vector<Truth>& truth);
+  Status draw(const ScanInput& input, const ScanOutputs& outputs, std::span<const Truth> truth,
+              ScanReport& report);
 
   const ScanJob& job_;
   io::CloudReader reader_;
@@ -83,4 +100,4 @@ class ScanWorker {
 std::filesystem::path reference_file(const std::filesystem::path& reference,
                                      const ScanInput& input);
 
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/doctor_report.hpp"
+#include "app/doctor_report.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,21 @@
 #include <array>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string_view>
+#include <utility>
+#include <variant>
 
 #include "app/doctor/advice.hpp"
+#include "app/doctor/examination.hpp"
+#include "app/doctor/summary.hpp"
+#include "app/scan_files.hpp"
+#include "files/io/atomic_file.hpp"
 #include "files/io/message.hpp"
+#include "files/io/read_cloud.hpp"
+#include "library/methods/method.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 namespace {
 
 using doctor::Finding;
@@ -75,7 +84,68 @@ std::string verdict_of(const DoctorReport& report) {
                                          : ". No settings help as long as it stands.\n");
 }
 
+/// Files as named; of a folder at most `most`, spread over it evenly.
+std::vector<std::string> chosen_scans(const std::vector<std::string>& paths, std::size_t most,
+                                      const RunCallbacks& callbacks) {
+  std::vector<std::string> chosen;
+  for (const std::string& path : paths) {
+    const std::vector<ScanInput> found = find_scans({path}, callbacks);
+    const std::size_t count = std::min(most, found.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      chosen.push_back(found[i * found.size() / count].file.string());
+    }
+  }
+  return chosen;
+}
+
+doctor::Expected expected_of(const MethodConfig& config) {
+  doctor::Expected expected;
+  expected.sensor_height = sensor_height_of(config, expected.sensor_height);
+  if (const auto* surface = config.get_if<SurfaceConfig>()) {
+    expected.max_range = surface->max_range;
+  }
+  return expected;
+}
+
 }  // namespace
+
+bool DoctorReport::ok() const {
+  return failures.empty() && !files.empty() && !interrupted && !diagnosis.has_something_to_fix();
+}
+
+DoctorReport examine_files(const DoctorRequest& request, const RunCallbacks& callbacks) {
+  const doctor::Expected expected = expected_of(request.config);
+  const std::vector<std::string> scans = chosen_scans(request.scans, request.max_scans, callbacks);
+  OutputPlan plan = request.plan;
+  for (const std::string& scan : scans) plan.reads(scan);
+  plan.writes(request.output);
+  plan.check();
+
+  DoctorReport report{.method = request.method};
+  std::vector<doctor::Examination> examinations;
+  const ProgressMeter meter(scans.size());
+  for (std::size_t i = 0; i < scans.size() && !callbacks.stopped(); ++i) {
+    callbacks.show(meter.at(i));
+    io::Cloud cloud;
+    const Status status = io::read_cloud(scans[i], {.columns = request.columns}, cloud);
+    if (status.ok()) {
+      examinations.push_back(doctor::examine(cloud));
+      report.files.push_back(scans[i]);
+    } else {
+      callbacks.say(status.message());
+      report.failures.push_back({scans[i], status.message()});
+    }
+  }
+  report.interrupted = callbacks.stopped();
+  if (examinations.empty() || report.interrupted) return report;
+
+  report.diagnosis = doctor::diagnose(doctor::summarise(examinations), expected);
+  if (!request.output.empty()) {
+    const Status status = io::write_file(request.output, toml_of(report));
+    if (!status.ok()) throw std::runtime_error(status.message());
+  }
+  return report;
+}
 
 std::string text_of(const DoctorReport& report, bool bold) {
   std::string text;
@@ -99,6 +169,12 @@ std::string text_of(const DoctorReport& report, bool bold) {
 std::string json_of(const DoctorReport& report) {
   nlohmann::ordered_json json;
   json["scans"] = report.files;
+  if (!report.failures.empty()) {
+    json["errors"] = nlohmann::ordered_json::array();
+    for (const auto& [file, error] : report.failures) {
+      json["errors"].push_back({{"file", file}, {"error", error}});
+    }
+  }
   json["method"] = report.method;
   json["fix"] = count(report, Severity::fix);
   json["note"] = count(report, Severity::note);
@@ -127,4 +203,4 @@ std::string toml_of(const DoctorReport& report) {
   return doctor::to_toml(*report.diagnosis.advice);
 }
 
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

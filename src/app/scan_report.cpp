@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/scan_report.hpp"
+#include "app/scan_report.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "files/io/message.hpp"
 #include "lab/eval/statistics.hpp"
 #include "library/core/statistics.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -80,11 +82,19 @@ double ScanReport::ground_share() const noexcept {
   return points == 0 ? 0 : static_cast<double>(ground) / static_cast<double>(points);
 }
 
+std::string hint_of(const ScanReport& report) {
+  const std::size_t beyond = report.counts[static_cast<std::size_t>(Label::out_of_range)];
+  if (2 * beyond <= report.points) return {};
+  return std::string(
+      "most points are out of range (expected metres, origin in the sensor; 'flagstone doctor' "
+      "finds the cause)");
+}
+
 std::string text_line(const ScanReport& report) {
   std::string line = fmt::format(
       "{}: {} points, {:.1f} % ground, {} patches; read {:.2f} ms, segment {:.2f} ms, write {:.2f} "
       "ms",
-      report.file.string(), report.points, 100 * report.ground_share(), report.patches,
+      io::printable(report.file), report.points, 100 * report.ground_share(), report.patches,
       report.read_ms, report.segment_ms, report.write_ms);
   for (const auto& [protocol, confusion] : report.scores) {
     line += fmt::format("; F1 {} % ({})", eval::percent_text(confusion.f1()), protocol);
@@ -93,6 +103,7 @@ std::string text_line(const ScanReport& report) {
     line += fmt::format("; sensor taken for {:.2f} m high: {}", report.mount->mount.sensor_height,
                         to_sentence(report.mount->decision));
   }
+  if (const std::string hint = hint_of(report); !hint.empty()) line += "; " + hint;
   return line;
 }
 
@@ -111,6 +122,7 @@ std::string json_line(const ScanReport& report) {
   if (report.picture_ms > 0) json["milliseconds"]["picture"] = report.picture_ms;
   if (report.mount) json["mount"] = mount_json(*report.mount);
   if (!report.scores.empty()) json["scores"] = scores_json(report);
+  if (const std::string hint = hint_of(report); !hint.empty()) json["hint"] = hint;
   json["outputs"] = Json::array();
   for (const auto& output : report.outputs) json["outputs"].push_back(output.string());
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);  // file names may not be UTF-8
@@ -130,4 +142,36 @@ std::string summary_text(std::span<const ScanReport> reports) {
   return text + "\n";
 }
 
-}  // namespace flagstone::cli
+std::string throughput_text(std::span<const ScanReport> reports, const CrewTime& time) {
+  double scans = 0;
+  double bytes = 0;
+  double read_ms = 0;
+  double segment_ms = 0;
+  double write_ms = 0;
+  for (const ScanReport& report : reports) {
+    if (report.error) continue;
+    scans += 1;
+    bytes += static_cast<double>(report.file_size);
+    read_ms += report.read_ms;
+    segment_ms += report.segment_ms;
+    write_ms += report.write_ms;
+  }
+  if (scans == 0 || time.seconds <= 0) return {};
+
+  const double all_ms = 1000 * time.seconds * static_cast<double>(time.workers);
+  const double files_ms = read_ms + write_ms;
+  const double other_ms = std::max(0.0, all_ms - files_ms - segment_ms);
+  const char* const what_binds = other_ms > std::max(files_ms, segment_ms) ? "neither binds"
+                                 : files_ms > segment_ms ? "reading and writing bind"
+                                                         : "segmenting binds";
+  return fmt::format(
+      "{:.1f} scans a second, {:.1f} MB/s read; time of {} {}: {:.0f} % reading, {:.0f} % "
+      "segmenting, {:.0f} % writing, {:.0f} % other; {}: {:.3f} ms of files, {:.3f} ms of "
+      "segmenting a scan\n",
+      scans / time.seconds, bytes / 1e6 / time.seconds, time.workers,
+      time.workers == 1 ? "worker" : "workers", 100 * read_ms / all_ms, 100 * segment_ms / all_ms,
+      100 * write_ms / all_ms, 100 * other_ms / all_ms, what_binds, files_ms / scans,
+      segment_ms / scans);
+}
+
+}  // namespace flagstone::app

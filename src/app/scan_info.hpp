@@ -7,7 +7,13 @@
 #include <string>
 #include <vector>
 
-namespace flagstone::cli {
+#include "files/io/cloud.hpp"
+
+namespace flagstone::app {
+
+/// What a scan contains, for people: number of points, fields with their bounds, histograms of
+/// range and height.
+std::string info_text(const std::string& file, const io::Cloud& cloud);
 
 /// A histogram as text, one line per class of values, for a terminal: its bounds, a bar, its share.
 /// `edges` ascend; class i holds edges[i] <= value < edges[i + 1], the last one its upper edge too.
@@ -18,4 +24,4 @@ std::string histogram_text(std::span<const float> values, std::span<const float>
 /// on either side; at least two edges.
 std::vector<float> round_edges(std::span<const float> values, std::size_t count);
 
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

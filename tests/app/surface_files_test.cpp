@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/surface_files.hpp"
+#include "app/surface_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,9 +16,10 @@
 #include "files/io/temporary_folder.hpp"
 #include "random_surface.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 namespace {
 
+using cli::names_below;
 using nlohmann::json;
 using testing::ElementsAre;
 
@@ -138,4 +139,4 @@ TEST_F(SurfaceFilesTest, SayWhereTheyCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

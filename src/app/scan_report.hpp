@@ -14,7 +14,7 @@
 #include "flagstone/mount.hpp"
 #include "lab/eval/score.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 
 /// Labels compared with a reference under one protocol.
 struct Score {
@@ -49,6 +49,9 @@ struct ScanReport {
   [[nodiscard]] double ground_share() const noexcept;
 };
 
+/// What may be wrong if most points are out of range, and how to find out; empty otherwise.
+std::string hint_of(const ScanReport& report);
+
 /// One line for people.
 std::string text_line(const ScanReport& report);
 
@@ -58,4 +61,16 @@ std::string json_line(const ScanReport& report);
 /// The last lines for people: how many scans, the median time, mean scores.
 std::string summary_text(std::span<const ScanReport> reports);
 
-}  // namespace flagstone::cli
+/// How long a crew was at work, and how many they were.
+struct CrewTime {
+  double seconds = 0;
+  std::size_t workers = 1;
+};
+
+/// A line for people: scans and megabytes (10^6 bytes) per second, what the workers spent their
+/// time on, and which of files and segmenting takes more of it. "Other" is all that is neither:
+/// pictures, scores, printing, waiting for one another. Failed scans do not count. Empty where none
+/// is left.
+std::string throughput_text(std::span<const ScanReport> reports, const CrewTime& time);
+
+}  // namespace flagstone::app

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/surface_files.hpp"
+#include "app/surface_files.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "files/io/atomic_file.hpp"
 #include "files/io/npy.hpp"
 
-namespace flagstone::cli {
+namespace flagstone::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -64,4 +64,4 @@ std::string SurfaceFiles::frame_text(const GroundSurface& surface,
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace flagstone::cli
+}  // namespace flagstone::app

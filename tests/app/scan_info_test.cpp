@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/histogram.hpp"
+#include "app/scan_info.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,16 +11,22 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
-#include "cli/command_process.hpp"
-
-namespace flagstone::cli {
+namespace flagstone::app {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
 
 constexpr std::array edges = {0.0f, 2.0f, 5.0f};
 const std::string full_bar(40, '#');
@@ -100,4 +106,4 @@ RC_GTEST_PROP(RoundEdges, AscendAreFewAndHoldNearlyAllValues, ()) {
 }
 
 }  // namespace
-}  // namespace flagstone::cli
+}  // namespace flagstone::app
