@@ -448,8 +448,8 @@ TEST_F(EvalCommand, CsvHasARowPerMethodAndScan) {
       cells.push_back(cell);
     }
     ASSERT_GE(cells.size(), 11U);
-    EXPECT_EQ(cells[0], method["name"]);
-    EXPECT_EQ(cells[1], scan["scan"]);
+    EXPECT_EQ(cells[0], method["name"].get<std::string>());
+    EXPECT_EQ(cells[1], scan["scan"].get<std::string>());
     EXPECT_NEAR(std::stod(cells[4]), scan["f1"], 1e-6);
     EXPECT_EQ(
         std::stoi(cells[7]) + std::stoi(cells[8]) + std::stoi(cells[9]) + std::stoi(cells[10]),
