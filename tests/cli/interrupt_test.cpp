@@ -18,12 +18,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t points = 20000;
-constexpr std::size_t scans = 3000;
+constexpr std::size_t many_scans = 3000;
 
 /// Far more scans than can be done before the signal arrives: names of one file.
 void put_many_scans(const fs::path& folder) {
   put_scan(folder / "0.bin", small_scan(points));
-  for (std::size_t i = 1; i < scans; ++i) {
+  for (std::size_t i = 1; i < many_scans; ++i) {
     fs::create_hard_link(folder / "0.bin", folder / (std::to_string(i) + ".bin"));
   }
 }
@@ -43,7 +43,7 @@ TEST_P(Interrupt, FinishesTheScansInHandAndSaysHowManyAreDone) {
   EXPECT_EQ(outcome.exit_code, 1);
   const auto files = files_below(folder / "out");
   EXPECT_GT(files.size(), 0U);
-  EXPECT_LT(files.size(), scans);
+  EXPECT_LT(files.size(), many_scans);
   EXPECT_THAT(outcome.err, is_one_line_with("interrupted, " + std::to_string(files.size()) +
                                             " of 3000 scans are done"));
   for (const auto& [name, contents] : files) {

@@ -19,7 +19,6 @@
 #include "library/mount/vectors.hpp"
 
 namespace flagstone::mount {
-namespace {
 
 /// The state that `estimate` and `track` keep from scan to scan.
 class MountTrack {
@@ -232,7 +231,6 @@ void GravityAlignment::bring_back(Segmentation& result) const noexcept {
   }
 }
 
-}  // namespace
 }  // namespace flagstone::mount
 
 namespace flagstone {

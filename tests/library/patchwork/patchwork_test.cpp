@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "outcome.hpp"
 #include "random_cloud.hpp"
 
 namespace flagstone {
@@ -32,17 +33,8 @@ void add_square(std::vector<Point>& cloud, float x, float y, Height height) {
 /// A few millimetres of roughness, so that planes are planes and not exact.
 float rough(float x, float y) { return 0.004f * std::sin(91 * x + 57 * y); }
 
-struct Outcome {
-  std::vector<Label> labels;
-  std::vector<Patch> patches;
-};
-
-Outcome segment(const std::vector<Point>& cloud, const PatchworkConfig& config = {}) {
-  Patchwork patchwork(config);
-  Segmentation result;
-  EXPECT_TRUE(patchwork.segment(tests::view_of(cloud), result).ok());
-  return {{result.labels().begin(), result.labels().end()},
-          {result.patches().begin(), result.patches().end()}};
+tests::Outcome segment(const std::vector<Point>& cloud, const PatchworkConfig& config = {}) {
+  return tests::segmented(config, tests::view_of(cloud));
 }
 
 class OnEveryPreset : public testing::TestWithParam<std::string_view> {
@@ -59,7 +51,7 @@ TEST_P(OnEveryPreset, LevelGroundIsGround) {
   std::vector<Point> cloud;
   add_square(cloud, 6.45f, 0.3f, [](float x, float y) { return -1.73f + rough(x, y); });
 
-  const Outcome outcome = segment(cloud, config);
+  const tests::Outcome outcome = segment(cloud, config);
 
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::ground), 400);
 }
@@ -68,7 +60,7 @@ TEST_P(OnEveryPreset, APatchTellsItsPlane) {
   std::vector<Point> cloud;
   add_square(cloud, 6.45f, 0.3f, [](float x, float y) { return -2.4f + 0.1f * x + rough(x, y); });
 
-  const Outcome outcome = segment(cloud, config);
+  const tests::Outcome outcome = segment(cloud, config);
 
   ASSERT_EQ(outcome.patches.size(), 1u);
   const Patch& patch = outcome.patches[0];
@@ -95,7 +87,7 @@ TEST_P(OnEveryPreset, AWallIsNotUpright) {
     }
   }
 
-  const Outcome outcome = segment(cloud, config);
+  const tests::Outcome outcome = segment(cloud, config);
 
   ASSERT_EQ(outcome.patches.size(), 1u);
   EXPECT_EQ(outcome.patches[0].verdict, Verdict::not_upright);
@@ -106,7 +98,7 @@ TEST_P(OnEveryPreset, ACarRoofNearTheSensorIsTooHigh) {
   std::vector<Point> cloud;
   add_square(cloud, 6.45f, 0.3f, [](float x, float y) { return -0.2f + 8 * rough(x, y); });
 
-  const Outcome outcome = segment(cloud, config);
+  const tests::Outcome outcome = segment(cloud, config);
 
   ASSERT_EQ(outcome.patches.size(), 1u);
   EXPECT_EQ(outcome.patches[0].verdict, Verdict::too_high);
@@ -117,7 +109,7 @@ TEST_P(OnEveryPreset, WhatStandsOnTheGroundIsNotGround) {
   add_square(cloud, 6.45f, 0.3f, [](float x, float y) { return -1.73f + rough(x, y); });
   for (int i = 0; i < 40; ++i) cloud.push_back({7.0f, 0.8f, -1.4f + 0.04f * static_cast<float>(i)});
 
-  const Outcome outcome = segment(cloud, config);
+  const tests::Outcome outcome = segment(cloud, config);
 
   for (std::size_t i = 0; i < 400; ++i) ASSERT_EQ(outcome.labels[i], Label::ground);
   for (std::size_t i = 400; i < 440; ++i) ASSERT_EQ(outcome.labels[i], Label::nonground);
@@ -134,7 +126,7 @@ std::vector<Point> ground_with_reflections(int reflections) {
   return cloud;
 }
 
-auto ground_found(const Outcome& outcome) {
+auto ground_found(const tests::Outcome& outcome) {
   return std::count(outcome.labels.begin(), outcome.labels.begin() + 400, Label::ground);
 }
 
@@ -143,7 +135,7 @@ TEST_P(OnEveryPreset, AFewReflectionsDoNotMislead) {
 }
 
 TEST(Reflections, BelowAPatchOfGroundAreNoise) {
-  const Outcome outcome = segment(ground_with_reflections(8));
+  const tests::Outcome outcome = segment(ground_with_reflections(8));
 
   EXPECT_EQ(ground_found(outcome), 400);
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::noise), 8);
@@ -168,7 +160,7 @@ TEST(AdaptiveSeeds, GroundFallingAwayFarOutIsKept) {
   const PatchworkConfig config = PatchworkConfig::preset("paper");
   add_square(cloud, 30, 0.6f, [](float x, float y) { return -1.73f - 0.2f * x + rough(x, y); });
 
-  const Outcome outcome = segment(cloud, config);
+  const tests::Outcome outcome = segment(cloud, config);
 
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::ground), 400);
 }
@@ -185,7 +177,7 @@ TEST(AdaptiveSeeds, WithoutAMarginNoPointIsPassedOverWhateverTheSensorHeight) {
     add_square(cloud, 30, 0.6f,
                [=](float x, float y) { return 0.1f * x - sensor_height + rough(x, y); });
 
-    const Outcome outcome = segment(cloud, config);
+    const tests::Outcome outcome = segment(cloud, config);
 
     EXPECT_EQ(std::ranges::count(outcome.labels, Label::ground), 400) << sensor_height;
   }
@@ -198,7 +190,7 @@ TEST(FewPoints, AreWhatTheConfigurationSays) {
   EXPECT_EQ(segment(cloud, config).labels, std::vector(3, Label::ground));
 
   config.sparse_bins_are_ground = false;
-  const Outcome outcome = segment(cloud, config);
+  const tests::Outcome outcome = segment(cloud, config);
 
   EXPECT_EQ(outcome.labels, std::vector(3, Label::nonground));
   EXPECT_EQ(outcome.patches[0].verdict, Verdict::too_few_points);
@@ -234,7 +226,7 @@ TEST(Zones, OneZoneOfEqualRingsIsTheUniformPolarGrid) {
   config.zones = {
       {.ring_radii = equal_rings(config.min_range, 80, 30), .sectors = 108}};  // R-GPF's 3,240 bins
 
-  const Outcome outcome = segment(tests::random_cloud(60000, 2), config);
+  const tests::Outcome outcome = segment(tests::random_cloud(60000, 2), config);
 
   EXPECT_GT(std::ranges::count(outcome.labels, Label::ground), 30000);
 }

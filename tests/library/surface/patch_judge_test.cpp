@@ -12,7 +12,7 @@ namespace flagstone::surface {
 namespace {
 
 /// A plane through many points at this place, this far from upright, degrees.
-Plane plane_at(double x, double z, double tilt = 0) {
+Plane ahead(double x, double z, double tilt = 0) {
   const double angle = tilt * 3.14159265358979 / 180;
   Plane plane{.count = 100, .mean = {x, 0, z}};
   plane.normal = {std::sin(angle), 0, std::cos(angle)};
@@ -27,11 +27,11 @@ FittedPatch level_at(float x, float z) {
 }
 
 TEST(PatchJudge, LevelPatchesAtTheFootOfTheSensorAreGround) {
-  EXPECT_EQ(PatchJudge({}).judge_alone(plane_at(10, -1.73), clear), Verdict::ground);
+  EXPECT_EQ(PatchJudge({}).judge_alone(ahead(10, -1.73), clear), Verdict::ground);
 }
 
 TEST(PatchJudge, AFewPointsMakeNoPlane) {
-  Plane plane = plane_at(10, -1.73);
+  Plane plane = ahead(10, -1.73);
   plane.count = 4;
 
   EXPECT_EQ(PatchJudge({}).judge_alone(plane, clear), Verdict::no_plane);
@@ -41,16 +41,16 @@ TEST(PatchJudge, SteepPatchesAreNotUpright) {
   SurfaceConfig config;
   config.acceptance.upright_angle = 60;  // between normal and ground: a tilt of 30 degrees
 
-  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 29.9), clear), Verdict::ground);
-  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 30.1), clear), Verdict::not_upright);
+  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, 29.9), clear), Verdict::ground);
+  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, 30.1), clear), Verdict::not_upright);
 }
 
 TEST(PatchJudge, AWallIsNeverGround) {
   SurfaceConfig config;
   config.acceptance.upright_angle = 0;
 
-  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 90), clear), Verdict::not_upright);
-  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73, 80), clear), Verdict::ground);
+  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, 90), clear), Verdict::not_upright);
+  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, 80), clear), Verdict::ground);
 }
 
 TEST(PatchJudge, PatchesWithAsManyPointsAboveThemAreMixed) {
@@ -58,15 +58,15 @@ TEST(PatchJudge, PatchesWithAsManyPointsAboveThemAreMixed) {
   config.acceptance.max_clutter_ratio = 0.5f;
   const PatchJudge judge(config);
 
-  EXPECT_EQ(judge.judge_alone(plane_at(10, -1.73), {.within = 100, .above = 50}), Verdict::ground);
-  EXPECT_EQ(judge.judge_alone(plane_at(10, -1.73), {.within = 100, .above = 51}), Verdict::mixed);
+  EXPECT_EQ(judge.judge_alone(ahead(10, -1.73), {.within = 100, .above = 50}), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(ahead(10, -1.73), {.within = 100, .above = 51}), Verdict::mixed);
 }
 
 TEST(PatchJudge, WithoutALimitNothingIsMixed) {
   SurfaceConfig config;
   config.acceptance.max_clutter_ratio = inf;
 
-  EXPECT_EQ(PatchJudge(config).judge_alone(plane_at(10, -1.73), {.within = 0, .above = 100}),
+  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73), {.within = 0, .above = 100}),
             Verdict::ground);
 }
 
@@ -77,10 +77,10 @@ TEST(PatchJudge, PatchesAboveTheConeAreTooHigh) {
   const PatchJudge judge(config);
 
   // Up to -1.73 + 1 near the sensor, and to -1.73 + 0.2 * 20 at 20 m.
-  EXPECT_EQ(judge.judge_alone(plane_at(4, -0.74), clear), Verdict::ground);
-  EXPECT_EQ(judge.judge_alone(plane_at(4, -0.72), clear), Verdict::too_high);
-  EXPECT_EQ(judge.judge_alone(plane_at(20, 2.26), clear), Verdict::ground);
-  EXPECT_EQ(judge.judge_alone(plane_at(20, 2.28), clear), Verdict::too_high);
+  EXPECT_EQ(judge.judge_alone(ahead(4, -0.74), clear), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(ahead(4, -0.72), clear), Verdict::too_high);
+  EXPECT_EQ(judge.judge_alone(ahead(20, 2.26), clear), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(ahead(20, 2.28), clear), Verdict::too_high);
 }
 
 TEST(PatchJudge, TheFirstPatchIsMeasuredByTheSensorsHeight) {
