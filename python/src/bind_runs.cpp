@@ -132,14 +132,13 @@ std::vector<config::GivenSettings> settings_of(const nb::dict& settings) {
 }
 
 /// The results as JSON and as CSV, both empty if no scan could be read, and the run's messages.
-nb::tuple evaluate(const std::vector<std::string>& datasets, std::vector<std::string> methods,
-                   const std::string& protocol, const std::vector<std::string>& sequences,
-                   nb::int_ every, const std::optional<nb::int_>& columns,
-                   const std::string& sensor, const Height& sensor_height, const Tilt& tilt,
-                   const std::string& preset, const std::string& config, const nb::dict& settings,
-                   const std::vector<std::string>& labels, bool labels_are_classes,
-                   const std::optional<nb::int_>& threads, nb::object draw,
-                   std::size_t terminal_columns) {
+nb::typed<nb::tuple, std::string, nb::bytes, std::vector<std::string>> evaluate(
+    const std::vector<std::string>& datasets, std::vector<std::string> methods,
+    const std::string& protocol, const std::vector<std::string>& sequences, nb::int_ every,
+    const std::optional<nb::int_>& columns, const std::string& sensor, const Height& sensor_height,
+    const Tilt& tilt, const std::string& preset, const std::string& config,
+    const Settings& settings, const std::vector<std::string>& labels, bool labels_are_classes,
+    const std::optional<nb::int_>& threads, nb::object draw, std::size_t terminal_columns) {
   const config::MethodChoice choice{.methods = std::move(methods),
                                     .preset = preset,
                                     .sensor = sensor,

@@ -234,7 +234,7 @@ void bind_segmenter(nb::module_& module) {
       .def(
           "__init__",
           [](SharedSegmenter* self, std::string method, std::string preset, std::string sensor,
-             std::string config_file, const nb::dict& settings, const Height& sensor_height,
+             std::string config_file, const Settings& settings, const Height& sensor_height,
              const Tilt& tilt, std::int64_t threads) {
             const unsigned checked = checked_threads(threads);
             const config::MethodChoice choice = {.methods = {std::move(method)},

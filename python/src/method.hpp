@@ -17,6 +17,9 @@ using Height = std::variant<std::monostate, float, std::string>;
 /// Where up is, `off` or `estimate`; none as the settings have it.
 using Tilt = std::variant<std::monostate, std::array<float, 3>, std::string>;
 
+/// Settings by name; a table is a mapping.
+using Settings = nanobind::typed<nanobind::dict, nanobind::str, nanobind::any>;
+
 /// A Python object as the value of setting `key`: numbers, truth values, texts, sequences and
 /// mappings, those of NumPy too. Throws nanobind::type_error naming the key for anything else.
 config::Value value_of(nanobind::handle object, const std::string& key = "");

@@ -72,7 +72,9 @@ class Folder {
          {std::pair{".ground", ".nonground"}, {".nonground", ".ground"}}) {
       if (!stem.ends_with(part)) continue;
       const std::string scan = stem.substr(0, stem.size() - std::string_view(part).size());
-      return files_.contains(scan + extension) && files_.contains(scan + other + extension);
+      std::string counterpart = scan;
+      counterpart.append(other).append(extension);
+      return files_.contains(scan + extension) && files_.contains(counterpart);
     }
     constexpr std::string_view surface = ".surface";
     std::error_code error;

@@ -85,9 +85,9 @@ double ScanReport::ground_share() const noexcept {
 std::string hint_of(const ScanReport& report) {
   const std::size_t beyond = report.counts[static_cast<std::size_t>(Label::out_of_range)];
   if (2 * beyond <= report.points) return {};
-  return std::string(
+  return {
       "most points are out of range (expected metres, origin in the sensor; 'flagstone doctor' "
-      "finds the cause)");
+      "finds the cause)"};
 }
 
 std::string text_line(const ScanReport& report) {

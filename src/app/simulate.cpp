@@ -54,7 +54,8 @@ void check_sequence(const std::string& name) {
 sim::Mounting mounting_of(const SimulateOptions& options, const Sensor& sensor) {
   sim::Mounting mounting{.height = sensor.height};
   if (options.sensor_height) mounting.height = *options.sensor_height;
-  if (!(mounting.height >= 0 && mounting.height <= max_simulated_height)) {
+  const bool is_allowed = mounting.height >= 0 && mounting.height <= max_simulated_height;
+  if (!is_allowed) {  // nor if it is NaN
     throw std::invalid_argument(
         fmt::format("--sensor-height: {} is out of range (expected 0 to {} m)", mounting.height,
                     max_simulated_height));

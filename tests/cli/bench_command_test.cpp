@@ -135,13 +135,16 @@ TEST(Bench, AScanThatCannotBeTimedCostsOneLine) {
   EXPECT_EQ(json::parse(outcome.out)["points"], json::array({4000}));
 }
 
-TEST(Bench, WithoutAnyScanToTimePrintsNothing) {
+TEST(Bench, WithoutAnyScanToTimeListsTheErrorsAlone) {
   const io::TemporaryFolder folder;
 
   const Outcome outcome = run({"bench", (folder / "missing.bin").string(), "--json"});
 
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_EQ(outcome.out, "");
+  const json printed = json::parse(outcome.out);
+  EXPECT_EQ(printed.size(), 1U);
+  ASSERT_EQ(printed["errors"].size(), 1U);
+  EXPECT_EQ(printed["errors"][0]["file"], (folder / "missing.bin").string());
   EXPECT_THAT(outcome.err, is_one_line_with("missing.bin"));
 }
 

@@ -53,8 +53,9 @@ TEST(DemoCommand, MakesTheFilesItNamesAndTheSameBytesForTheSameSeed) {
 
 TEST(DemoCommand, ASeedThatIsNoNumberOf64BitsIsOneLine) {
   const io::TemporaryFolder folder;
-  for (const std::string seed :
-       {"-1", "18446744073709551616", "1e3", std::string(309, '9').c_str()}) {
+  const std::vector<std::string> seeds = {"-1", "18446744073709551616", "1e3",
+                                          std::string(309, '9')};
+  for (const std::string& seed : seeds) {
     const Outcome outcome = run({"demo", "--output", (folder / "out").string(), "--seed", seed});
 
     EXPECT_EQ(outcome.exit_code, 2);

@@ -31,7 +31,8 @@ class Overwriting : public testing::Test {
   Overwriting() {
     put_scan(folder_ / "scan.bin");
     io::put_file(folder_ / "mine.toml", "[mount]\ntilt = \"off\"\n");
-    io::put_file(folder_ / "sensor.toml", run({"sensors", "vlp-16"}).out);
+    io::put_file(folder_ / "sensor.toml",
+                 "beams = 4\nelevation_top = 3.0\nelevation_bottom = -15.0\nheight = 0.6\n");
     io::put_file(folder_ / "protocol.toml", "name = \"mine\"\nground = [40]\n");
     for (const char* name : {"000000", "000001"}) {
       put_labelled(folder_ / "data", name, small_scan(400));

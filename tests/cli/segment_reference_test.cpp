@@ -141,8 +141,9 @@ TEST_F(WithReference, TheReferenceIsNotOverwritten) {
 
   const Outcome outcome = segment("scans/a.bin", "labels", "labels");
 
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, is_one_line_with("labels/a.label: its output would overwrite it"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err,
+              is_one_line_with("labels/a.label: this output would overwrite the input"));
   EXPECT_EQ(files_below(folder_ / "labels"), before);
 }
 

@@ -54,14 +54,13 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("2 frames in 1 drive, 2 simulated, 0 kept"));
   const fs::path sequence = folder / "out" / "sequences" / "07";
-  EXPECT_THAT(
-      names_below(folder / "out"),
-      ElementsAre("sequences/07/calib.txt", "sequences/07/returns/000000.return.npy",
-                  "sequences/07/returns/000001.return.npy", "sequences/07/ground/000000.ground.npy",
-                  "sequences/07/ground/000001.ground.npy", "sequences/07/labels/000000.label",
-                  "sequences/07/labels/000001.label", "sequences/07/poses.txt",
-                  "sequences/07/scene.json", "sequences/07/velodyne/000000.bin",
-                  "sequences/07/velodyne/000001.bin"));
+  EXPECT_THAT(names_below(folder / "out"),
+              ElementsAre("sequences/07/calib.txt", "sequences/07/ground/000000.ground.npy",
+                          "sequences/07/ground/000001.ground.npy",
+                          "sequences/07/labels/000000.label", "sequences/07/labels/000001.label",
+                          "sequences/07/poses.txt", "sequences/07/returns/000000.return.npy",
+                          "sequences/07/returns/000001.return.npy", "sequences/07/scene.json",
+                          "sequences/07/velodyne/000000.bin", "sequences/07/velodyne/000001.bin"));
   auto files = files_below(sequence);
   for (const std::string frame : {"000000", "000001"}) {
     const std::size_t points = files["velodyne/" + frame + ".bin"].size() / 16;

@@ -65,7 +65,7 @@ class Resolver {
 
   ResolvedMethod resolve(const Method& method) const {
     ResolvedMethod resolved = sensor_
-                                  ? at_own_height(method)
+                                  ? at_own_height(method, *sensor_)
                                   : overlaid(method, preset_config(method.name, choice_.preset));
     resolved.config.check();
     resolved.mount.check();
@@ -74,6 +74,7 @@ class Resolver {
 
   [[nodiscard]] std::vector<ResolvedMethod> resolve_all() const {
     std::vector<ResolvedMethod> all;
+    all.reserve(methods_.size());
     for (const Method* method : methods_) all.push_back(resolve(*method));
     return all;
   }
@@ -112,7 +113,7 @@ class Resolver {
   [[nodiscard]] bool file_fits(const Method& method) const {
     if (methods_.size() == 1) return true;
     const bool is_variant = !includes(method.type->name, method);  // r_gpf
-    return !is_variant && has_settings_of(*file_, default_config(method.name));
+    return !is_variant && file_ && has_settings_of(*file_, default_config(method.name));
   }
 
   /// The user's settings over those that the method starts from.
@@ -150,8 +151,7 @@ class Resolver {
   }
 
   /// Settings for the sensor at the height that they end up with.
-  [[nodiscard]] ResolvedMethod at_own_height(const Method& method) const {
-    Sensor sensor = *sensor_;
+  [[nodiscard]] ResolvedMethod at_own_height(const Method& method, Sensor sensor) const {
     const auto settings_at = [&](const Sensor& at) {
       return overlaid(
           method,

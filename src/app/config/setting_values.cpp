@@ -33,6 +33,7 @@ std::string type_of(const Value& value) {
 
 std::vector<std::string_view> keys_of(const std::vector<Setting>& settings) {
   std::vector<std::string_view> keys;
+  keys.reserve(settings.size());
   for (const Setting& setting : settings) keys.push_back(setting.key);
   return keys;
 }
@@ -110,7 +111,8 @@ Zone zone_of(const Value& from, const std::string& name) {
   }
   Zone zone;
   for (const auto& [key, value] : *table) {
-    const std::string full = name + "." + key;
+    std::string full = name;
+    full.append(".").append(key);
     if (key == "ring_radii") {
       assign(value, full, zone.ring_radii);
     } else if (key == "sectors") {

@@ -31,6 +31,8 @@ struct ReliefLook {
   double exaggeration = 1;  ///< how much steeper than it is ground is shaded
 };
 
+namespace {
+
 /// The colour of a height before shading, from `share` 0, the lowest, to 1, the highest.
 Color height_color(double share) noexcept;
 
@@ -38,8 +40,6 @@ Color height_color(double share) noexcept;
 /// the upper left, paler where the surface is less sure, nothing where it is not known.
 void draw_relief(const Canvas& canvas, const TopView& view, const GroundSurface& surface,
                  double range, const ReliefLook& look);
-
-namespace {
 
 struct Tone {
   double red, green, blue;  // 0 to 1
@@ -111,8 +111,6 @@ std::uint32_t relief_pixel(const GroundSurface& surface, float x, float y, const
                std::lerp(faintest, 1.0, std::sqrt(confidence)));
 }
 
-}  // namespace
-
 Color height_color(double share) noexcept {
   const Tone tone = tone_of(share);
   const auto part = [](double value) {
@@ -150,8 +148,6 @@ void draw_relief(const Canvas& canvas, const TopView& view, const GroundSurface&
   cairo_paint(context);
   cairo_restore(context);
 }
-
-namespace {
 
 using Gradient = std::unique_ptr<cairo_pattern_t, decltype(&cairo_pattern_destroy)>;
 
@@ -195,8 +191,6 @@ void draw_heights(cairo_t* context, const Rectangle& bar, const HeightRange& hei
   }
 }
 
-}  // namespace
-
 void draw_surface_legend(const Canvas& canvas, const Rectangle& legend, const ReliefLook& look,
                          const ContourStep& step, double unit) {
   cairo_t* context = canvas.context();
@@ -237,8 +231,6 @@ void draw_surface_legend(const Canvas& canvas, const Rectangle& legend, const Re
     draw_text(context, x, line, text, shrunk(context, text, name_font, legend.right() - x));
   }
 }
-
-namespace {
 
 Status refuse_surface(std::string message) {
   return Status(StatusCode::invalid_argument, "surface picture: " + std::move(message));

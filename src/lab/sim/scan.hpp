@@ -15,7 +15,7 @@
 
 namespace flagstone::sim {
 
-/// What a point of a scan is an echo of; the codes are those of the files NNNNNN.echo.npy.
+/// What a point of a scan is an echo of; the codes are those of the files NNNNNN.return.npy.
 enum class EchoKind : std::uint8_t {
   surface,    ///< what the beam met first: the only kind that has a class other than outlier
   ghost,      ///< something seen in a mirror, reported straight on, behind the mirror

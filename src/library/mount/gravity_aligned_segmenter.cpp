@@ -169,15 +169,15 @@ struct ToLevel {
 
 /// `floats` a point, known when this is compiled.
 template <std::size_t floats>
-void level_packed(const float* from, std::size_t count, const ToLevel& to_level,
-                  float* to) noexcept {
+static void level_packed(const float* from, std::size_t count, const ToLevel& to_level,
+                         float* to) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
     to_level({from[floats * i], from[floats * i + 1], from[floats * i + 2]}, to + 3 * i);
   }
 }
 
 /// Floats a point if x, y and z stand first in records of aligned floats, else 0.
-std::ptrdiff_t floats_a_point(CloudView cloud) noexcept {
+static std::ptrdiff_t floats_a_point(CloudView cloud) noexcept {
   constexpr std::ptrdiff_t size = sizeof(float);
   const CloudLayout& layout = cloud.layout();
   const bool is_packed = layout.x == 0 && layout.y == size && layout.z == 2 * size &&

@@ -187,7 +187,7 @@ TEST(ConfigToml, AValueOfTheWrongTypeIsRefusedWithItsPlaceAndTheTypeAllowed) {
   EXPECT_THAT(complaint("flatness.thresholds = 0.1\n"),
               points_at(1, 23, "flatness.thresholds is an array of numbers"));
   EXPECT_THAT(complaint("flatness.thresholds = [0.1, true]\n"),
-              points_at(1, 23, "flatness.thresholds is a number, not a boolean"));
+              points_at(1, 29, "flatness.thresholds is a number, not a boolean"));
   EXPECT_THAT(complaint("zones = 3\n"), points_at(1, 9, "zones is an array of tables"));
   EXPECT_THAT(complaint("zones = [3]\n"), points_at(1, 10, "zones[0] is a table"));
 }

@@ -151,7 +151,7 @@ TEST(FindSensor, TakesNamesAndFiles) {
   EXPECT_EQ(sensor.name, "robot");
   EXPECT_EQ(find_sensor((folder / "no.toml").string(), sensor).code(), StatusCode::not_found);
   EXPECT_THAT(find_sensor("os9", sensor).message(),
-              AllOf(HasSubstr("\"os9\""), HasSubstr("os0-128"), HasSubstr(".toml file"),
+              AllOf(HasSubstr("'os9'"), HasSubstr("os0-128"), HasSubstr(".toml file"),
                     Not(HasSubstr("\n"))));
 }
 
