@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -43,6 +44,68 @@ TEST(PlaneSearch, TakesTheLowerOfTwoLevelsUnlessItHasLessThanAThirdOfTheUpperPoi
 
   EXPECT_NEAR(height_found(points), 2, 0.01f);
   EXPECT_NEAR(height_found(few), 1, 0.01f);
+}
+
+TEST(PlaneSearch, FindsGroundThatLeansBelowALevelHedge) {
+  // So many points are in the hedge, 0.4 m above, that a first look at directions 10 degrees apart
+  // leads astray; 5 degrees do not.
+  std::vector<NearPoint> points;
+  add_level(points, 1.7f, 40);
+  for (NearPoint& p : points) p.z -= 0.0875f * (p.x + p.y);
+  add_level(points, 1.3f, 40);
+
+  PlaneSearch search(MountLimits{}, true);
+  const std::optional<GroundPlane> plane = search.find(points, 0);
+
+  ASSERT_TRUE(plane);
+  const float shorter = 1 / std::sqrt(1 + 2 * 0.0875f * 0.0875f);
+  EXPECT_NEAR(plane->up[0], 0.0875f * shorter, 0.003f);
+  EXPECT_NEAR(plane->up[1], 0.0875f * shorter, 0.003f);
+  EXPECT_NEAR(plane->height, 1.7f * shorter, 0.01f);
+}
+
+/// A decision that nothing speaks against.
+MountDecision sure() {
+  return {.cells = 25, .free = 0.5f, .below = 0.2f, .spread = 0.12f, .directions = 9, .seen = 15};
+}
+
+TEST(Judge, BelievesWhatNothingSpeaksAgainst) {
+  MountDecision decision = sure();
+  judge(decision, 0.99f);
+  EXPECT_FLOAT_EQ(decision.confidence, 1);
+  EXPECT_EQ(decision.verdict, MountVerdict::accepted);
+}
+
+TEST(Judge, BelievesHalfOfWhatIsHalfwayAndSaysWhy) {
+  struct Case {
+    const char* what;
+    MountVerdict reason;
+    void (*spoil)(MountDecision&);
+  };
+  const std::vector<Case> cases = {
+      {"cells", MountVerdict::too_few_points, [](MountDecision& d) { d.cells = 15; }},
+      {"free", MountVerdict::obstructed, [](MountDecision& d) { d.free = 0.35f; }},
+      {"below", MountVerdict::points_below, [](MountDecision& d) { d.below = 0.35f; }},
+      {"spread", MountVerdict::no_plane, [](MountDecision& d) { d.spread = 0.185f; }},
+      {"directions seen", MountVerdict::one_sided, [](MountDecision& d) { d.seen = 20; }},
+  };
+  for (const auto& [what, reason, spoil] : cases) {
+    MountDecision decision = sure();
+    spoil(decision);
+    judge(decision, 0.51f);
+    EXPECT_NEAR(decision.confidence, 0.5f, 1e-5f) << what;
+    EXPECT_EQ(decision.verdict, reason) << what;
+    judge(decision, 0.49f);
+    EXPECT_EQ(decision.verdict, MountVerdict::accepted) << what;
+  }
+}
+
+TEST(Judge, AsksForGroundInThreeDirections) {
+  MountDecision decision = sure();
+  decision.directions = decision.seen = 2;
+  judge(decision, 0.9f);
+  EXPECT_NEAR(decision.confidence, 2.0f / 3, 1e-5f);
+  EXPECT_EQ(decision.verdict, MountVerdict::one_sided);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ class CellObservations : public testing::TestWithParam<std::string> {
   }
 
   void observe_all(CellSize size = CellSize::any) {
-    grid_.set([](float x, float y) { return ground(x, y); });
+    grid_.set([this](float x, float y) { return ground(x, y); });
     std::vector<MovedPoint> readable = points_;
     readable.resize(points_.size() + 16);
     observe({.points = readable.data(),
@@ -123,7 +123,9 @@ class CellObservations : public testing::TestWithParam<std::string> {
   }
 
   /// Tilted, so that heights are not z.
-  static float ground(float x, float y) { return -1.75f + 0.25f * x - 0.125f * y; }
+  [[nodiscard]] float ground(float x, float y) const {
+    return heights_are_z_ ? 0 : -1.75f + 0.25f * x - 0.125f * y;
+  }
 
   [[nodiscard]] double reach(std::size_t row, std::size_t column) const {
     const Grid& grid = grid_.grid();
@@ -131,6 +133,7 @@ class CellObservations : public testing::TestWithParam<std::string> {
                                gate_per_metre * std::hypot(grid.center(column), grid.center(row)));
   }
 
+  bool heights_are_z_ = false;
   std::mt19937 random_{1};
   std::uniform_real_distribution<float> spread{-0.5f, 0.5f};
   OwnedGrid grid_{1, 8};
@@ -209,6 +212,14 @@ TEST_P(CellObservations, WhereSeveralPointsLieBelowTheModeThereIsNoSaying) {
   heights.insert(heights.end(), 20, 0.1f);
 
   EXPECT_EQ(said_of(heights).weight, 0);
+}
+
+TEST_P(CellObservations, APointBelowTheModeIsFartherBelowThanTheLimitNotAtIt) {
+  heights_are_z_ = true;  // exactly
+  std::vector<float> heights(20, 0.0f);
+  heights.insert(heights.end(), 2, -0.144f);
+
+  EXPECT_EQ(said_of(heights).weight, 1);
 }
 
 TEST_P(CellObservations, ABushSaysNothingUnlessItReachesBelowTheSurface) {
