@@ -160,21 +160,26 @@ Status ScanWorker::write(const ScanInput& input, const ScanOutputs& outputs, Sca
     return Status(StatusCode::unwritable,
                   fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
   }
-  Status status = job_.format == OutputFormat::split ? write_split(outputs, report)
-                                                     : write_labels(outputs, report);
+  Status status;
+  if (job_.format != OutputFormat::split) report.outputs = {outputs.labels};
+  switch (job_.format) {
+    case OutputFormat::label:
+      status = label_writer_.write_label_file(outputs.labels, result_.labels());
+      break;
+    case OutputFormat::u8:
+      status = label_writer_.write_label_npy(outputs.labels, result_.labels());
+      break;
+    case OutputFormat::npy:
+    case OutputFormat::pcd:
+    case OutputFormat::ply: status = write_cloud(outputs); break;
+    case OutputFormat::split: status = write_split(outputs, report); break;
+  }
   if (status.ok() && job_.heights) status = write_heights(outputs, report);
   if (status.ok() && job_.surface) status = write_surface(input, report);
   return status;
 }
 
-Status ScanWorker::write_labels(const ScanOutputs& outputs, ScanReport& report) {
-  report.outputs = {outputs.labels};
-  if (job_.format == OutputFormat::label) {
-    return label_writer_.write_label_file(outputs.labels, result_.labels());
-  }
-  if (job_.format == OutputFormat::u8) {
-    return label_writer_.write_label_npy(outputs.labels, result_.labels());
-  }
+Status ScanWorker::write_cloud(const ScanOutputs& outputs) {
   io::Cloud labelled;
   Status status = io::with_labels(reader_.cloud(), result_.labels(), labelled);
   if (status.ok() && job_.heights) {

@@ -80,7 +80,7 @@ class ScanWorker {
   [[nodiscard]] std::optional<MountReport> mount_report() const;
   Status work(const ScanInput& input, const ScanInput* later, ScanReport& report);
   Status write(const ScanInput& input, const ScanOutputs& outputs, ScanReport& report);
-  Status write_labels(const ScanOutputs& outputs, ScanReport& report);
+  Status write_cloud(const ScanOutputs& outputs);
   Status write_split(const ScanOutputs& outputs, ScanReport& report);
   Status write_heights(const ScanOutputs& outputs, ScanReport& report);
   Status write_surface(const ScanInput& input, ScanReport& report);
