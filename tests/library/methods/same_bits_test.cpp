@@ -14,11 +14,11 @@
 #include "files/io/read_cloud.hpp"
 #include "forced_target.hpp"
 #include "library/methods/methods.hpp"
+#include "numbers.hpp"
 #include "random_cloud.hpp"
 #include "real_scans.hpp"
 #ifdef FLAGSTONE_HAS_SIMULATOR
 #include "lab/sim/drive.hpp"
-#include "numbers.hpp"
 #endif
 
 namespace flagstone {
