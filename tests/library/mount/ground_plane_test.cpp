@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace flagstone::mount {
@@ -51,8 +52,12 @@ TEST(PlaneSearch, FindsGroundThatLeansBelowALevelHedge) {
   // leads astray; 5 degrees do not.
   std::vector<NearPoint> points;
   add_level(points, 1.7f, 40);
-  for (NearPoint& p : points) p.z -= 0.0875f * (p.x + p.y);
+  for (NearPoint& p : points) p.z -= 2 * 0.0875f * (p.x + p.y);
   add_level(points, 1.3f, 40);
+  for (NearPoint& p : points) {  // up to 8 m away
+    p.x *= 2;
+    p.y *= 2;
+  }
 
   PlaneSearch search(MountLimits{}, true);
   const std::optional<GroundPlane> plane = search.find(points, 0);
@@ -98,6 +103,15 @@ TEST(Judge, BelievesHalfOfWhatIsHalfwayAndSaysWhy) {
     judge(decision, 0.49f);
     EXPECT_EQ(decision.verdict, MountVerdict::accepted) << what;
   }
+}
+
+TEST(MountSentence, TellsATiltThatRoundsToATenthOfADegree) {
+  MountDecision decision = sure();
+  decision.verdict = MountVerdict::accepted;
+  decision.tilt = 0.05f;
+  EXPECT_NE(to_sentence(decision).find("tilted by 0.1 degrees"), std::string::npos);
+  decision.tilt = 0.04f;
+  EXPECT_EQ(to_sentence(decision).find("tilted"), std::string::npos);
 }
 
 TEST(Judge, AsksForGroundInThreeDirections) {

@@ -138,6 +138,18 @@ TEST(Presets, TheReferencesZonesHave544Bins) {
   EXPECT_EQ(bins, 544u);
 }
 
+TEST(Presets, TheTermsHaveTheNumbersOfThePaperAndOfThePublicCode) {
+  const PatchworkConfig paper = PatchworkConfig::preset("paper");
+  const PatchworkConfig reference = PatchworkConfig::preset("reference");
+
+  EXPECT_EQ(paper.elevation.range, 22.025f);
+  EXPECT_EQ(paper.flatness.gain, 1.2f);
+  EXPECT_THAT(paper.flatness.thresholds, ElementsAre(0.00012f, 0.00012f, 0.0002f));
+  EXPECT_EQ(reference.elevation.range, 13.266f);
+  EXPECT_EQ(reference.flatness.gain, 1.2f);
+  EXPECT_THAT(reference.flatness.thresholds, ElementsAre(0.0005f, 0.000725f, 0.001f));
+}
+
 TEST(Presets, ThePapersHeightMarginIsTightInTheFirstZoneAndLooserOutward) {
   const std::vector<Zone> zones = PatchworkConfig::preset("paper").zones;
 

@@ -274,6 +274,17 @@ TEST(PatchworkForSensor, RingsGrowWithTheSensorsHeight) {
   EXPECT_NEAR(of_high.elevation.range, 2 * of_low.elevation.range, 0.02);
 }
 
+TEST(PatchworkForSensor, ANarrowViewIsADegreeWiderOnBothSides) {
+  Sensor narrow = Sensor::named("hdl-64e");
+  narrow.azimuth_begin = -45;
+  narrow.azimuth_end = 45;
+
+  const FieldOfView view = PatchworkConfig::for_sensor(narrow).field_of_view;
+
+  EXPECT_EQ(view.begin, -46);
+  EXPECT_EQ(view.width, 92);
+}
+
 TEST(PatchworkForSensor, ASensorThatSeesNoGroundIsRefusedWithTheReason) {
   Sensor sensor = Sensor::named("vlp-16");
   sensor.elevations = {15, 0};

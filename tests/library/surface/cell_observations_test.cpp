@@ -222,6 +222,14 @@ TEST_P(CellObservations, APointBelowTheModeIsFartherBelowThanTheLimitNotAtIt) {
   EXPECT_EQ(said_of(heights).weight, 1);
 }
 
+TEST_P(CellObservations, WhatStandsThereIsHigherThanTheLimitNotAtIt) {
+  heights_are_z_ = true;  // exactly
+  std::vector<float> heights(20, 0.0f);
+  heights.insert(heights.end(), 11, 0.18f);
+
+  EXPECT_EQ(said_of(heights).weight, 1);
+}
+
 TEST_P(CellObservations, ABushSaysNothingUnlessItReachesBelowTheSurface) {
   const std::vector<float> bush = rising(0.1f, 0.04f, 20);
 
