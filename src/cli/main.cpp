@@ -12,11 +12,9 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "cli/commands.hpp"
@@ -27,6 +25,7 @@
 #include "cli/sweep_command.hpp"
 #include "cli/terminal.hpp"
 #include "flagstone/version.hpp"
+#include "library/core/did_you_mean.hpp"
 
 namespace {
 
@@ -42,20 +41,6 @@ class BriefListing : public CLI::Formatter {
   }
 };
 
-/// How many letters have to be inserted, removed or replaced to make one word of the other.
-std::size_t edit_distance(std::string_view one, std::string_view other) {
-  std::vector<std::size_t> row(other.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= one.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= other.size(); ++j) {
-      const std::size_t replaced = diagonal + (one[i - 1] == other[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
-    }
-  }
-  return row.back();
-}
-
 /// Throws std::invalid_argument if the first word is neither an option nor a command.
 void check_command(CLI::App& app, std::string_view word) {
   std::vector<std::string> names;
@@ -63,13 +48,12 @@ void check_command(CLI::App& app, std::string_view word) {
     names.push_back(command->get_name());
   }
   if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return;
-  const auto nearest = std::ranges::min_element(
-      names, {}, [&](const std::string& name) { return edit_distance(word, name); });
-  const bool is_near = edit_distance(word, *nearest) <= 2;
-  throw std::invalid_argument(
-      fmt::format("{}: is not a command ({}; see 'flagstone --help')", word,
-                  is_near ? fmt::format("did you mean {}?", *nearest)
-                          : fmt::format("expected {}", fmt::join(names, ", "))));
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const std::string_view nearest = flagstone::closest_name(word, known);
+  throw std::invalid_argument(fmt::format("{}: is not a command ({}; see 'flagstone --help')", word,
+                                          nearest.empty()
+                                              ? fmt::format("expected {}", fmt::join(names, ", "))
+                                              : fmt::format("did you mean {}?", nearest)));
 }
 
 int run(int argc, char** argv) {

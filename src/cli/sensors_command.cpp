@@ -65,7 +65,8 @@ int list_sensors(const SensorsOptions& options) {
       sensors.push_back(std::move(sensor));
     }
   }
-  if (sensors.empty()) return 1;
+  constexpr int usage_error = 2;  // as with --sensor
+  if (sensors.empty()) return usage_error;
   fmt::print("{:<12} {:<24} {:>7} {:>7} {:>6} {:>6} {:>8} {:>5} {:>5} {:>5} {:>11}\n", "name",
              "title", "beams", "from °", "to °", "view °", "height m", "rings", "zones", "bins",
              "range m");
@@ -77,7 +78,7 @@ int list_sensors(const SensorsOptions& options) {
       all_read = false;
     }
   }
-  return all_read ? 0 : 1;
+  return all_read ? 0 : usage_error;
 }
 
 }  // namespace

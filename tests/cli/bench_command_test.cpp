@@ -148,6 +148,18 @@ TEST(Bench, WithoutAnyScanToTimeListsTheErrorsAlone) {
   EXPECT_THAT(outcome.err, is_one_line_with("missing.bin"));
 }
 
+TEST(Bench, ATrackedHeightIsOfOneThread) {
+  const io::TemporaryFolder folder;
+  put_scan(folder / "1.bin", small_scan(1000, 1));
+
+  const Outcome outcome =
+      run({"bench", (folder / "1.bin").string(), "--sensor-height", "track", "--threads", "5"});
+
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err, is_one_line_with("--threads 5"));
+}
+
 TEST(Bench, APeerIsMeasuredByItsOwnClockAndAMissingOneIsLeftOutByName) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scans/1.bin", small_scan(1000, 1));

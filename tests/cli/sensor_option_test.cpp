@@ -197,7 +197,7 @@ TEST(SensorsCommand, ListsEveryKnownSensorWithWhatFollowsFromIt) {
 TEST(SensorsCommand, ListsThoseThatAreNamedAndSaysWhichItCannot) {
   const Outcome outcome = run({"sensors", "vlp-16", "os9"});
 
-  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(lines_of(outcome.out).size(), 2U);
   EXPECT_THAT(outcome.err, HasSubstr("no sensor is named 'os9'"));
 }
