@@ -106,7 +106,8 @@ class Reference:
         lines = [
             "# C++ reference\n",
             "A page for each header of `include/flagstone`. `#include <flagstone/flagstone.hpp>` brings all but",
-            "`make_segmenter.hpp` and the baselines; these are in the target `flagstone::baselines`.",
+            "`make_segmenter.hpp` and the baselines. The target is `flagstone::flagstone`, of the baselines",
+            "`flagstone::baselines`.",
         ]
         headers = {page_of(header): header for header in self.headers}
         for group, pages in groups.items():

@@ -37,6 +37,7 @@ class MethodConfig {
   [[nodiscard]] Config* get_if() noexcept {
     return std::any_cast<Config>(&value_);
   }
+  /// What it holds; null if that is of another type.
   template <class Config>
   [[nodiscard]] const Config* get_if() const noexcept {
     return std::any_cast<Config>(&value_);
