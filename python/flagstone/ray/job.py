@@ -7,6 +7,8 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import signal
+import threading
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -131,13 +133,33 @@ def run(task: Task, scans: list[Scan], workers: int, writer: StatisticsWriter, t
     try:
         with contextlib.closing(send(task, in_batches(scans, workers), tally.workers)) as done:
             for rows in done:
-                writer.add(rows)
-                tally.add(rows)
+                with uninterrupted():
+                    writer.add(rows)
+                    tally.add(rows)
                 bar.add(rows.num_rows)
     except (KeyboardInterrupt, SystemExit):  # the latter is how Ray answers SIGTERM
         raise Interrupted(tally.summary()) from None
     finally:
         writer.flush()
+
+
+@contextlib.contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Lets SIGINT and SIGTERM wait until the context ends: what is written is also counted."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    waiting: list[int] = []
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    for number in handlers:
+        signal.signal(number, lambda received, _: waiting.append(received))
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, signal.SIG_DFL if handler is None else handler)
+    if waiting:
+        signal.raise_signal(waiting[0])
 
 
 def in_batches(scans: list[Scan], workers: int) -> Iterator[list[Scan]]:
