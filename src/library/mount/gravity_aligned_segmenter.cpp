@@ -167,17 +167,19 @@ struct ToLevel {
   }
 };
 
+namespace {
+
 /// `floats` a point, known when this is compiled.
 template <std::size_t floats>
-static void level_packed(const float* from, std::size_t count, const ToLevel& to_level,
-                         float* to) noexcept {
+void level_packed(const float* from, std::size_t count, const ToLevel& to_level,
+                  float* to) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
     to_level({from[floats * i], from[floats * i + 1], from[floats * i + 2]}, to + 3 * i);
   }
 }
 
 /// Floats a point if x, y and z stand first in records of aligned floats, else 0.
-static std::ptrdiff_t floats_a_point(CloudView cloud) noexcept {
+std::ptrdiff_t floats_a_point(CloudView cloud) noexcept {
   constexpr std::ptrdiff_t size = sizeof(float);
   const CloudLayout& layout = cloud.layout();
   const bool is_packed = layout.x == 0 && layout.y == size && layout.z == 2 * size &&
@@ -185,6 +187,8 @@ static std::ptrdiff_t floats_a_point(CloudView cloud) noexcept {
                          reinterpret_cast<std::uintptr_t>(cloud.data()) % alignof(float) == 0;
   return is_packed ? layout.stride / size : 0;
 }
+
+}  // namespace
 
 void GravityAlignment::set(const Mount& mount) noexcept {
   mount_ = mount;
