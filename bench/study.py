@@ -91,7 +91,7 @@ def share_within(t, degrees):
 
 
 def mean_of(differences):
-    """Mean and the half width of its 95 % interval; scans are taken for independent."""
+    """Mean and the half width of its 95 % interval; assumes that scans are independent."""
     count = len(differences)
     half_width = None
     if count > 1:

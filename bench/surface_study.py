@@ -128,7 +128,7 @@ class Study(Runs):
 
 
 def surface_settings(runs, options=""):
-    """The settings of `surface` but for the sensor's height: key -> (value, meaning with unit)."""
+    """The settings of `surface` except the sensor height: key -> (value, meaning with unit)."""
     import tomllib  # from Python 3.11 on; tables are written and checked with less
 
     text = runs.call(f"flagstone config --method surface{options}")
@@ -180,7 +180,7 @@ REMOVALS = [
     ("noise below the surface", ["point.noise_depth=1000"]),
 ]
 
-# Settings are halved and doubled, but for these, which take other values.
+# Settings are halved and doubled, except these.
 OTHER_VALUES = {
     "max_range": (50, 80),
     "acceptance.upright_angle": (40, 60),

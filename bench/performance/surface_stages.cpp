@@ -69,7 +69,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// A grid that owns what it holds, as src/library/surface takes it.
+/// A grid with its own memory, in the form that src/library/surface uses.
 struct OwnGrid {
   explicit OwnGrid(float cell, std::size_t width)
       : heights(width * width),
