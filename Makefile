@@ -63,14 +63,14 @@ bench-steps: PROGRAM = sharpness ## errors of the surface at kerbs, ditches and 
 bench-edges: PROGRAM = edges ## labels on both sides of kerbs, ditches and drops, and of ghost points
 latency: PROGRAM = latency ## time of 10,000 different scans, adversarial scans included
 soak-test: PROGRAM = soak ## memory of one segmenter over 100,000 different scans
-surface-figures: PROGRAM = surface_stages ## the figures of docs/surface.md
+surface-figures: PROGRAM = surface_stages ## the figures of docs/explanation/surface.md
 $(MEASUREMENTS):
 	@scripts/setup build plot && scripts/benchmark $(PROGRAM)
 
-surface-study: build ## measure the method surface, write the tables of docs/surface.md; WORK: a directory with 4 GB free
+surface-study: build ## measure the method surface, write the tables of docs/explanation/surface.md; WORK: a directory with 4 GB free
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/surface_study.py run --work $(or $(WORK),out/study)
 
-worlds-study: build ## measure both methods in every simulated scene, write docs/robustness.md; WORK: a directory with 8 GB free
+worlds-study: build ## measure both methods in every simulated scene, write docs/benchmarks/robustness.md; WORK: a directory with 8 GB free
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/worlds_study.py run --work $(or $(WORK),out/worlds)
 
 contact-sheet: build ## draw every scene as three sensors see it: docs/images/worlds.png; SHEET: options of bench/contact_sheet.py

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Runs the paper's experiments and writes their figures into docs/experiments.md. Needs nothing but Python.
+"""Runs the paper's experiments and writes their figures into docs/benchmarks/patchwork-paper.md. Needs nothing but Python.
 
     python3 bench/experiments.py run --work /tmp/experiments   # all of them, some ten minutes
     python3 bench/experiments.py page                          # the tables, from docs/results/experiments.json
@@ -16,7 +16,7 @@ import sys
 
 from study import ROOT, Runs, main, paired, percent, rounded, show_progress, table, with_interval
 
-PAGE = ROOT / "docs" / "experiments.md"
+PAGE = ROOT / "docs" / "benchmarks" / "patchwork-paper.md"
 RESULTS = ROOT / "docs" / "results" / "experiments.json"
 SCENES = ["flat_street", "steep_street", "parked_cars", "bushes_and_lawn", "bumpy_field"]
 PRESETS = ["default", "reference", "paper"]

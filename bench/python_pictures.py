@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of docs/python/pictures.md: docs/images/birds-eye.png and docs/images/viewer.png.
+"""Draws the pictures of docs/how-to/plot-results.md: docs/images/birds-eye.png and docs/images/viewer.png.
 
 Needs the package with its extras (pip install 'flagstone[all]'), playwright (pip install playwright) and Chromium
 (apt-get install chromium). Chromium draws the viewer in software: no graphics card is needed, a minute is.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Draws the figures of docs/surface.md from simulated scans. Needs Matplotlib.
+"""Draws the figures of docs/explanation/surface.md from simulated scans. Needs Matplotlib.
 
     make surface-figures       # builds what it needs, writes docs/images/surface-*.png
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Measures the method `surface` and writes the tables of docs/surface.md. Wants Python 3.11 and NumPy.
+"""Measures the method `surface` and writes the tables of docs/explanation/surface.md. Wants Python 3.11 and NumPy.
 
     python3 bench/surface_study.py run --work /tmp/study               # all of it, some ten minutes
     python3 bench/surface_study.py run --work /tmp/study --only robustness
@@ -25,7 +25,7 @@ import typing
 
 from study import ROOT, Runs, main, mean_of, paired, percent, points_more, rounded, show_progress, table, with_interval
 
-PAGE = ROOT / "docs" / "surface.md"
+PAGE = ROOT / "docs" / "explanation" / "surface.md"
 RESULTS = ROOT / "docs" / "results" / "surface.json"
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Measures the methods in every simulated world with every sensor, and writes the tables of docs/robustness.md.
+"""Measures the methods in every simulated world with every sensor, and writes the tables of docs/benchmarks/robustness.md.
 
     python3 bench/worlds_study.py run --work /tmp/worlds                  # all of it
     python3 bench/worlds_study.py run --work /tmp/worlds --only faults
@@ -22,7 +22,7 @@ import typing
 
 from study import ROOT, Runs, main, percent, rounded, show_progress, table
 
-PAGE = ROOT / "docs" / "robustness.md"
+PAGE = ROOT / "docs" / "benchmarks" / "robustness.md"
 RESULTS = ROOT / "docs" / "results" / "worlds.json"
 PICTURE = ROOT / "docs" / "images" / "worlds-f1.png"
 

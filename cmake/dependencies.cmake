@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# What the library, its command and its tests need, and why: docs/dependencies.md.
+# What the library, its command and its tests need, and why: docs/contributing/dependencies.md.
 # A package of the system comes first; where there is none, or only an older one, the project's own
 # archive of a pinned version is fetched and checked against its checksum.
 include(FetchContent)

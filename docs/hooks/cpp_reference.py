@@ -3,7 +3,7 @@
 """The C++ reference: a page for each public header, in the order of the header, from what its comments say.
 
 What doxygen has to complain about (something public without a comment, a name in a comment that is not there) is a
-warning of the site, and so fails a strict build. The pages and their groups are those of `cpp/` in mkdocs.yml's `nav`;
+warning of the site, and so fails a strict build. The pages and their groups are those of `reference/cpp/` in mkdocs.yml's `nav`;
 a header that is missing there is a warning too.
 """
 
@@ -40,9 +40,9 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
         log.warning("%s", complaint)
     reference = Reference(compounds)
     groups = groups_of_nav(config.nav or [])
-    files.append(File.generated(config, "cpp/index.md", content=reference.index(groups)))
+    files.append(File.generated(config, "reference/cpp/index.md", content=reference.index(groups)))
     for header in reference.headers:
-        files.append(File.generated(config, f"cpp/{page_of(header)}", content=reference.page(header)))
+        files.append(File.generated(config, f"reference/cpp/{page_of(header)}", content=reference.page(header)))
     return files
 
 
@@ -238,17 +238,17 @@ def first_sentence(markdown: str) -> str:
 
 
 def page_of(header: str) -> str:
-    """The name of a header's page, within `cpp/`."""
+    """The name of a header's page, within `reference/cpp/`."""
     return Path(header).stem + ".md"
 
 
 def groups_of_nav(nav: list[Any]) -> dict[str, list[str]]:
-    """Those sections of the navigation that hold pages of `cpp/`, with the names of these pages."""
+    """Those sections of the navigation that hold pages of `reference/cpp/`, with the names of these pages."""
     groups: dict[str, list[str]] = {}
     for entry in nav:
         for title, below in entry.items() if isinstance(entry, dict) else ():
             if isinstance(below, list):
-                pages = [page for page in below if isinstance(page, str) and page.startswith("cpp/")]
-                pages = [Path(page).name for page in pages if page != "cpp/index.md"]
+                pages = [page for page in below if isinstance(page, str) and page.startswith("reference/cpp/")]
+                pages = [Path(page).name for page in pages if page != "reference/cpp/index.md"]
                 groups |= ({title: pages} if pages else {}) | groups_of_nav(below)
     return groups

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("mkdocs.hooks.repository")
 
-ROOT_PAGES = {"changelog.md": "CHANGELOG.md", "contributing.md": "CONTRIBUTING.md"}
+ROOT_PAGES = {"contributing/changelog.md": "CHANGELOG.md", "contributing/contributing.md": "CONTRIBUTING.md"}
 LINK = re.compile(r"(?<!!)\[(?P<text>[^\[\]]*)\]\((?P<target>[^()\s#]+)(?P<anchor>#[^()\s]*)?\)")
 
-NAMED_PAGE = re.compile(r"\bdocs/(?P<page>[\w/]+\.md)\b")
+NAMED_PAGE = re.compile(r"\bdocs/(?P<page>[\w/-]+\.md)\b")
 
 
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:
@@ -60,7 +60,7 @@ def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: 
 
 
 def on_page_content(html: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
-    """Docstrings and comments name pages as `docs/sensors.md`; here these are links."""
+    """Docstrings and comments name pages as `docs/reference/sensors.md`; here these are links."""
 
     def replace(named: re.Match[str]) -> str:
         target = files.get_file_from_path(named["page"])
@@ -69,7 +69,7 @@ def on_page_content(html: str, *, page: Page, config: MkDocsConfig, files: Files
             return named[0]
         return f'<a href="{target.url_relative_to(page.file)}">{named["page"].removesuffix(".md")}</a>'
 
-    return NAMED_PAGE.sub(replace, html) if page.file.src_uri.startswith(("reference/", "cpp/")) else html
+    return NAMED_PAGE.sub(replace, html) if page.file.src_uri.startswith("reference/") else html
 
 
 def root(config: MkDocsConfig) -> Path:

@@ -11,7 +11,7 @@
 #     pip install flagstone[pandas,plot] pypatchworkpp open3d
 #     python side_by_side.py                                         # prints the tables
 #     python side_by_side.py --quick                                 # fewer scans and rounds
-#     python side_by_side.py --write docs/python/side_by_side.md     # fills the tables in, draws the picture
+#     python side_by_side.py --write docs/benchmarks/side-by-side.md     # fills the tables in, draws the picture
 #
 # It also opens as a notebook: the cells begin with `# %%`. Scans are simulated; where the environment variable
 # `FLAGSTONE_DATA` names a folder with real ones, those in `kitti` are taken too.

@@ -85,7 +85,7 @@ struct FlatnessTerm {
 /// Three presets of one parameter set, never three code paths:
 /// - `paper`: the equations and numbers as printed;
 /// - `reference`: how the authors' public code behaves;
-/// - `default`: what measures best; see docs/presets.md.
+/// - `default`: what measures best; see docs/explanation/patchwork.md.
 struct PatchworkConfig {
   /// h_s: height of the cloud's origin above the ground, metres, -100 to 100. Usually the origin is
   /// in the sensor. At 0 and below it is not: lengths that grow with the sensor's height are then
@@ -172,7 +172,7 @@ struct PatchworkConfig {
   static std::span<const std::string_view> preset_names() noexcept;
 
   /// Settings derived from a sensor: zones, field of view, ranges and margins that suit its beams
-  /// and its height, by the rule of docs/sensors.md. What the rule does not speak of is as in
+  /// and its height, by the rule of docs/reference/sensors.md. What the rule does not speak of is as in
   /// `default`. Throws std::invalid_argument where the sensor's check() does, and where its height
   /// is 0 or none of its beams meets flat ground within its range.
   static PatchworkConfig for_sensor(const Sensor& sensor);

@@ -13,7 +13,7 @@ namespace flagstone {
 ///
 /// Settings are derived from it (`PatchworkConfig::for_sensor`, `SurfaceConfig::for_sensor`), the
 /// simulator casts its beams, and `flagstone doctor` compares scans with those that are known. A
-/// sensor of one's own is a TOML file with these fields; see docs/sensors.md.
+/// sensor of one's own is a TOML file with these fields; see docs/reference/sensors.md.
 struct Sensor {
   std::string name;   ///< short, for the command line: "hdl-64e"
   std::string title;  ///< maker and model

@@ -12,7 +12,7 @@ namespace flagstone {
 
 /// The method `surface`: planes of square patches, those that are ground joined to one continuous
 /// surface, that surface refined where points say more, and every point judged by its height above
-/// it. See docs/surface.md.
+/// it. See docs/explanation/surface.md.
 ///
 /// One object serves one thread at a time; make one for each.
 class Surface final : public Segmenter {

@@ -93,7 +93,7 @@ struct SurfaceConfig {
   Refinement refinement{};       ///< how it follows the points
   PointRule point{};             ///< which points are ground
 
-  /// Settings derived from a sensor: its height and its range; see docs/sensors.md. Throws
+  /// Settings derived from a sensor: its height and its range; see docs/reference/sensors.md. Throws
   /// std::invalid_argument where the sensor's check() does.
   static SurfaceConfig for_sensor(const Sensor& sensor);
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Files of points and of labels: the readers and writers of the command.
 
-Which formats there are, and what each may hold, says docs/formats.md.
+Which formats there are, and what each may hold, says docs/reference/file-formats.md.
 """
 
 from __future__ import annotations

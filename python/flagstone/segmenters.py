@@ -124,7 +124,7 @@ class Segmenter:
 class Surface(Segmenter):
     """The method `surface`: planes of square patches, those that are ground joined to one continuous surface.
 
-    The surface is refined where points say more, and every point judged by its height above it: docs/surface.md. One
+    The surface is refined where points say more, and every point judged by its height above it: docs/explanation/surface.md. One
     set of settings serves all sensors.
     """
 
@@ -188,7 +188,7 @@ class Patchwork(Segmenter):
         """Makes a segmenter.
 
         Args:
-            sensor: What to derive zones, field of view, ranges and margins from (docs/sensors.md): a name that
+            sensor: What to derive zones, field of view, ranges and margins from (docs/reference/sensors.md): a name that
                 `sensors()` lists, or the path of a .toml file of your own.
             sensor_height: h_s, metres above the ground, -100 to 100; "estimate": from the first scan that tells it;
                 "track": from every scan, smoothed. Without it the sensor's, or 1.73.

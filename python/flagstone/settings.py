@@ -86,7 +86,7 @@ class SurfaceSettings(TypedDict, total=False):
     refinement: SurfaceRefinement
     point: SurfacePoint
     mount: Mapping[str, object]
-    """How the sensor stands, where more is to be said than its height and tilt: docs/mount.md."""
+    """How the sensor stands, where more is to be said than its height and tilt: docs/explanation/sensor-height-and-tilt.md."""
 
 
 class PatchworkFieldOfView(TypedDict, total=False):
@@ -173,4 +173,4 @@ class PatchworkSettings(TypedDict, total=False):
     zones: Sequence[Zone]
     """Z_1, Z_2, ... from the sensor outward, 1 to 16."""
     mount: Mapping[str, object]
-    """How the sensor stands, where more is to be said than its height and tilt: docs/mount.md."""
+    """How the sensor stands, where more is to be said than its height and tilt: docs/explanation/sensor-height-and-tilt.md."""

@@ -91,7 +91,7 @@ std::string derivation_text(const Sensor& sensor, const PatchworkConfig& config)
       "ring\n"
       "# shorter than 15 % of its distance. Bins are about as wide as long and have 20 points or "
       "more.\n"
-      "# {} rings, {} zones, {} bins. See docs/sensors.md.\n",
+      "# {} rings, {} zones, {} bins. See docs/reference/sensors.md.\n",
       sensor.name, sensor.title, layout.rings, config.zones.size(), layout.bins);
 }
 

@@ -70,7 +70,7 @@ TEST_F(SensorOption, TellsTheSensorAndTheRuleInTheHeader) {
   EXPECT_THAT(
       config_of_patchwork({"--sensor", "os0-128"}).out,
       AllOf(testing::StartsWith("# flagstone, method patchwork, derived from sensor os0-128\n"),
-            HasSubstr("h / tan(-elevation)"), HasSubstr("docs/sensors.md")));
+            HasSubstr("h / tan(-elevation)"), HasSubstr("docs/reference/sensors.md")));
 }
 
 TEST_F(SensorOption, TakesAFile) {

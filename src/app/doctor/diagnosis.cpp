@@ -411,7 +411,7 @@ Finding sensor(const std::vector<const Sensor*>& sensors) {
   Finding finding{.id = "sensor", .values = {{"matches", static_cast<double>(sensors.size())}}};
   if (sensors.empty()) {
     finding.sentence = "No sensor that is known by name looks like this.";
-    finding.remedy = "Nothing to set; a file of your own can describe it: docs/sensors.md.";
+    finding.remedy = "Nothing to set; a file of your own can describe it: docs/reference/sensors.md.";
     return finding;
   }
   finding.sentence =

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// The rule of docs/sensors.md: Patchwork's settings from where a sensor's beams meet flat ground.
+// The rule of docs/reference/sensors.md: Patchwork's settings from where a sensor's beams meet flat ground.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -73,7 +73,7 @@ TEST(PatchworkAccuracy, OfTheReferencePresetIsWithinHalfAPointOfTheAuthorsPackag
   const auto scans = tests::real_scans("kitti");
   FLAGSTONE_REQUIRE_SCANS(scans);
 
-  // pypatchworkpp 1.4.1, class patchwork, sensor height 1.73 m, on the same scans; docs/presets.md
+  // pypatchworkpp 1.4.1, class patchwork, sensor height 1.73 m, on the same scans; docs/explanation/patchwork.md
   EXPECT_NEAR(of_preset("reference", scans, patchwork_protocol()), 95.07, 0.5);
   EXPECT_NEAR(of_preset("reference", scans, patchwork_plusplus_protocol()), 98.07, 0.5);
 }

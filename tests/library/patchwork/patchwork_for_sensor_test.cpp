@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// The rule of docs/sensors.md: what Patchwork's settings owe to a sensor.
+// The rule of docs/reference/sensors.md: what Patchwork's settings owe to a sensor.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
