@@ -26,62 +26,72 @@ class SurfaceAcceptance(TypedDict, total=False):
     """Table `acceptance` of `Surface`'s settings."""
 
     upright_angle: float
-    """smallest angle between a patch's normal and the x-y plane; 0 to 90 degrees."""
+    """minimum angle between the normal of a ground patch and the x-y plane; 0 to 90 degrees."""
     max_clutter_ratio: float
-    """share of points just above a patch, of those in it, from which on it is no ground; 0 to 1000, or inf for none."""
+    """a patch is not ground if the number of points just above its plane exceeds this multiple of the number of points
+    in its plane; 0 to 1000, or inf for none.
+    """
     max_height: float
-    """how high above -h_s ground is believed; 0 to 1000 m."""
+    """maximum height of a ground patch above -h_s (max_slope * range applies if it is larger); 0 to 1000 m."""
     max_slope: float
-    """the same as a share of the range; the larger of both holds; 0 to 10 m/m."""
+    """maximum slope of the ground as seen from below the sensor: a ground patch may also be up to max_slope * range
+    above -h_s; 0 to 10 m/m.
+    """
     max_step: float
-    """how far above the height that nearer patches let expect a patch may lie; 0 to 100 m, or inf for none."""
+    """maximum height of a ground patch above the height predicted by nearer ground patches (0.5 m more is allowed below
+    it); 0 to 100 m, or inf for none.
+    """
     max_step_per_metre: float
-    """more of it for each metre to the nearest of them; 0 to 10 m/m."""
+    """increase of max_step per metre of distance to the nearest ground patch, up to 15 m; 0 to 10 m/m."""
 
 
 class SurfaceRefinement(TypedDict, total=False):
     """Table `refinement` of `Surface`'s settings."""
 
     levels: int
-    """levels of cells of 2, 1, 0.5, 0.25 m that refine the surface; 0 to 4."""
+    """number of levels that refine the surface, with cells of 2, 1, 0.5 and 0.25 m; 0 to 4."""
     gate: float
-    """points within this of the surface say where it is, in cells of 2 m; above 0, up to 10 m."""
+    """points at most this far above or below the surface correct it, in cells of 2 m; above 0, up to 10 m."""
     gate_factor: float
-    """gate of a level as a share of that of the one before; above 0, up to 1."""
+    """gate of each finer level, as a fraction of the gate of the level before; above 0, up to 1."""
     gate_per_metre: float
-    """added to the gate for each metre of range; 0 to 1 m/m."""
+    """increase of the gate of every level per metre of range; 0 to 1 m/m."""
     max_clutter_ratio: float
-    """share of points just above the surface in a cell, of those at it, from which on something stands there; 0 to
-    1000, or inf for none.
+    """a cell contains an obstacle if the number of points just above the surface exceeds this multiple of the number of
+    points at the surface; 0 to 1000, or inf for none.
     """
     lower_bound_weight: float
-    """weight of the lowest point of such cells; 0 to 1."""
+    """weight of the lowest point of a cell that contains an obstacle, relative to a fully observed cell; 0 to 1."""
 
 
 class SurfacePoint(TypedDict, total=False):
     """Table `point` of `Surface`'s settings."""
 
     margin: float
-    """ground lies lower than this above the surface; 0 to 10 m."""
+    """points lower than this above the surface are ground, in cells without an obstacle; 0 to 10 m."""
     obstacle_margin: float
-    """the same where something stands; 0 to 10 m."""
+    """points lower than this above the surface are ground, in cells that contain an obstacle; 0 to 10 m."""
     obstacle_height: float
-    """how high, within a quarter, a point must be for something to stand there; 0 to 2 m."""
+    """obstacle height above the surface: a cell with a point above 1.25 times this value uses obstacle_margin, above
+    0.75 times the mean of both margins; 0 to 2 m.
+    """
     noise_depth: float
-    """points farther below the surface are noise; 0 to 1000 m."""
+    """points farther than this below the surface are noise, unless they form a separate plane; 0 to 1000 m."""
     noise_depth_per_metre: float
-    """added to that for each metre of range; 0 to 10 m/m."""
+    """increase of point.noise_depth per metre of range; 0 to 10 m/m."""
 
 
 class SurfaceSettings(TypedDict, total=False):
     """Settings of `Surface` by name."""
 
     max_range: float
-    """points farther away are out of range; 8 to 200 m."""
+    """points at this horizontal range or beyond are out of range; 8 to 200 m."""
     noise_depth: float
     """points lower than -h_s - noise_depth - noise_slope * range are noise; 0 to 1000 m."""
     noise_slope: float
-    """steepest descent of ground still believed; 0 to 10 m/m."""
+    """maximum downward slope of the ground: the noise limit (see noise_depth) is lower by this much per metre of range;
+    0 to 10 m/m.
+    """
     acceptance: SurfaceAcceptance
     refinement: SurfaceRefinement
     point: SurfacePoint

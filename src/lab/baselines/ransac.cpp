@@ -19,21 +19,18 @@ std::vector<Setting> settings_of(RansacConfig& c) {
   return {
       {"distance_threshold",
        &c.distance_threshold,
-       "points at most this far from the plane agree with it",
+       "points at most this far from a plane are its inliers",
        {.low = 0, .high = 100, .unit = "m", .exclusive_min = true}},
       {"confidence",
        &c.confidence,
-       "z: probability wanted of one trial without outliers",
+       "z: required probability that at least one trial draws no outlier",
        {.low = 0, .high = 0.999999, .exclusive_min = true}},
-      {"max_trials",
-       &c.max_trials,
-       "trials after which the search ends",
-       {.low = 1, .high = 1000000}},
+      {"max_trials", &c.max_trials, "maximum number of trials", {.low = 1, .high = 1000000}},
       {"min_consensus",
        &c.min_consensus,
-       "t: a plane that fewer points agree on is none",
+       "t: minimum number of inliers of a plane",
        {.low = 3, .high = 1000000}},
-      {"seed", &c.seed, "start of the random numbers", {.low = 0, .high = 1e9}},
+      {"seed", &c.seed, "seed of the random number generator", {.low = 0, .high = 1e9}},
   };
 }
 
