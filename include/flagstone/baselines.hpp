@@ -9,14 +9,15 @@
 #include "flagstone/baselines/ransac.hpp"
 #include "flagstone/make_segmenter.hpp"
 
-/// What Patchwork is compared with; the target is flagstone::baselines.
+/// The methods that Patchwork is compared with. Link the CMake target flagstone::baselines.
 namespace flagstone {
 
-/// Makes the baselines and the rows of the paper's ablation known to `method_names()` and
-/// `make_segmenter()`. Further calls do nothing. Call it before other threads use methods by name.
+/// Registers the baselines and the rows of the paper's ablation, so that `method_names()` and
+/// `make_segmenter()` include them. Further calls do nothing. Not thread-safe: call it before other
+/// threads use methods by name.
 void register_baselines();
 
-/// The methods of the paper's Table I, in its order: those that register_baselines() adds.
+/// Names of the methods in the paper's Table I, in its order.
 std::span<const std::string_view> table_1_methods() noexcept;
 
 }  // namespace flagstone

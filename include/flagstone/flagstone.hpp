@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Everything a user of the library includes.
+/// Includes the whole public API except make_segmenter.hpp and the baselines.
 
 #include "flagstone/cloud_view.hpp"                 // IWYU pragma: export
 #include "flagstone/gravity_aligned_segmenter.hpp"  // IWYU pragma: export

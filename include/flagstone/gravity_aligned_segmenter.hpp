@@ -9,47 +9,48 @@
 
 namespace flagstone {
 
-/// Any method on clouds of any mount: it hands the method each cloud turned so that z is up, in
-/// metres from the sensor, and moved in z so that the ground lies where the method was told to
-/// expect it.
+/// Wraps any method so that it accepts clouds with any mounting pose. The method receives each
+/// cloud rotated so that z is up, in metres from the sensor, and shifted in z so that the ground is
+/// at the height the method expects.
 ///
-/// It keeps state from scan to scan where the settings say `estimate` or `track`, and only there:
-/// the result of a scan then depends on those before it, until reset().
+/// With `estimate` or `track`, the wrapper keeps state between scans: the result of a scan depends
+/// on the scans since construction or reset(). Otherwise it is stateless. Not thread-safe: use one
+/// instance per thread.
 class GravityAlignedSegmenter final : public Segmenter {
  public:
-  /// `method` was configured with `method_height`: it expects the ground below the sensor at
-  /// z = -method_height, metres, -100 to 100; of no meaning for methods that expect it nowhere.
-  /// Throws std::invalid_argument for a null method and for settings out of range, and
-  /// std::bad_alloc.
+  /// Takes ownership of `method`. `method_height` is the sensor height that `method` is configured
+  /// with, metres, -100 to 100: it expects the ground below the sensor at z = -method_height. The
+  /// value does not matter for methods without a sensor height. Throws std::invalid_argument if
+  /// `method` is null or a value is out of range, or std::bad_alloc.
   GravityAlignedSegmenter(std::unique_ptr<Segmenter> method, float method_height,
                           const MountSettings& settings);
   ~GravityAlignedSegmenter() override;
   GravityAlignedSegmenter(GravityAlignedSegmenter&&) noexcept;
   GravityAlignedSegmenter& operator=(GravityAlignedSegmenter&&) noexcept;
 
-  /// See Segmenter::segment. First, where the settings ask for it, finds out how the sensor stands;
-  /// the scan itself is already segmented with what was found. Then:
-  /// - labels are those of the points in input order; what is all zero or not finite in the cloud
-  ///   given here is `invalid`;
-  /// - heights are metres above the ground along `up`;
-  /// - mean, normal and d of patches are in the frame and the units of the cloud given here
-  /// (normals
-  ///   point up: their product with `up` is not negative); eigenvalues stay square metres;
-  /// - the surface is in the level frame, see Mount, its heights relative to the sensor.
-  /// With a mount that leaves nothing to do (level, in metres, the origin in the sensor, the height
-  /// as the method has it) the method gets the cloud itself.
+  /// Estimates the mounting pose if the settings require it, and segments the scan with the pose in
+  /// use, which includes the estimate of this scan. See also Segmenter::segment.
+  ///
+  /// - Labels are in input order. Points of `cloud` that are all zero or not finite are `invalid`.
+  /// - Heights are in metres above the ground, along `up`.
+  /// - Mean, normal and d of the patches are in the frame and the units of `cloud`. Normals point
+  ///   up: their dot product with `up` is not negative. Eigenvalues stay in square metres.
+  /// - The ground surface is in the level frame (see Mount), with heights relative to the sensor.
+  ///
+  /// If there is nothing to transform (level, in metres, origin at the sensor, height as configured
+  /// in the method), the method receives `cloud` itself, without copying.
   Status segment(CloudView cloud, Segmentation& result) noexcept override;
 
-  /// The mount in use: the one of the last scan, before the first the given one.
+  /// The mounting pose used for the last scan; before the first scan, the configured one.
   [[nodiscard]] const Mount& mount() const noexcept;
 
-  /// What the last scan was found to say; `given` if it was not asked.
+  /// The decision about the last scan. Its verdict is `fixed` if nothing was estimated from it.
   [[nodiscard]] const MountDecision& decision() const noexcept;
 
-  /// Forgets all scans: as newly made.
+  /// Clears the state from previous scans.
   void reset() noexcept;
 
-  /// The settings it was made with.
+  /// The settings passed to the constructor.
   [[nodiscard]] const MountSettings& settings() const noexcept;
 
  private:

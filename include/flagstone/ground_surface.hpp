@@ -9,53 +9,57 @@
 
 namespace flagstone {
 
-/// What the ground is like at one place.
+/// The ground at one position.
 struct GroundSample {
-  float height = 0;               ///< z of the ground, metres, sensor frame; NaN: not known here
-  std::array<float, 3> normal{};  ///< unit length, z > 0; NaN: not known here
-  float slope = 0;       ///< angle between normal and z axis, radians, 0 to pi/2, or NaN too
-  float confidence = 0;  ///< 0 (not known) to 1 (measured right here)
+  float height = 0;               ///< z of the ground, metres, sensor frame; NaN if unknown
+  std::array<float, 3> normal{};  ///< unit length, z > 0; NaN if unknown
+  float slope = 0;       ///< angle between normal and z axis, radians, 0 to pi/2; NaN if unknown
+  float confidence = 0;  ///< 0 (unknown) to 1 (measured at this position)
 };
 
-/// The ground of a scan as one continuous surface, z = height(x, y) in the sensor frame, made by
-/// methods that join patches to one (`surface`).
+/// The ground of a scan as one continuous surface, z = height(x, y) in the sensor frame.
 ///
-/// It is a nest of square grids around the sensor, finer towards it. A grid holds heights at the
-/// centres of its cells, between which they are bilinear. A place belongs to the finest grid among
-/// whose centres it lies; where grids meet they agree but for what lies between centres: the
-/// surface is continuous to some millimetres, where it bends strongly to some centimetres. Where
-/// nothing lies beyond, in the outer half of the outermost cells, the ground is as at the nearest
-/// place between centres.
+/// The surface is a set of nested square grids around the sensor, finer towards the sensor. A grid
+/// contains heights at the centres of its cells, with bilinear interpolation between them. A query
+/// uses the finest grid that has cell centres on all sides of the position. At the boundary of two
+/// grids the heights agree to a few millimetres, or a few centimetres if the ground bends strongly.
+/// In the outer half of the outermost cells, the height is that of the nearest
+/// position between cell centres.
+///
+/// Const member functions can be called from several threads at once.
 class GroundSurface {
  public:
   /// A square grid of heights, centred on the sensor.
   struct Grid {
-    float cell = 0;         ///< side of a cell, metres
-    std::size_t width = 0;  ///< cells along a side, even
-    /// Row by row, y ascending, x ascending within a row: cell (row, column) has its centre at
-    /// x = (column + 0.5 - width / 2) * cell, y = (row + 0.5 - width / 2) * cell.
-    std::vector<float> heights;      ///< metres; NaN where not known
-    std::vector<float> confidences;  ///< 0 to 1
+    float cell = 0;         ///< cell size, metres
+    std::size_t width = 0;  ///< number of cells along a side, even
+    /// Heights of the cell centres, metres; NaN if unknown. Row by row, y ascending, x ascending
+    /// within a row: the centre of cell (row, column) is x = (column + 0.5 - width / 2) * cell,
+    /// y = (row + 0.5 - width / 2) * cell.
+    std::vector<float> heights;
+    std::vector<float> confidences;  ///< confidence of each height, 0 to 1
 
-    /// It covers |x| <= extent and |y| <= extent, metres.
+    /// Half the side of the grid, metres: it covers |x| <= extent and |y| <= extent.
     [[nodiscard]] float extent() const noexcept { return static_cast<float>(width) * cell / 2; }
   };
 
-  /// Is there no surface? Queries then answer "not known".
+  /// True if there is no surface. Every query then returns "unknown".
   [[nodiscard]] bool empty() const noexcept { return grids().empty(); }
 
-  /// It covers |x| <= extent() and |y| <= extent(), metres; 0 if empty.
+  /// Half the side of the surface, metres: it covers |x| <= extent() and |y| <= extent(). 0 if
+  /// empty.
   [[nodiscard]] float extent() const noexcept;
 
-  /// Side of the cells at (x, y), metres; NaN outside.
+  /// Cell size at (x, y), metres; NaN outside the surface.
   [[nodiscard]] float resolution(float x, float y) const noexcept;
 
-  /// The ground at (x, y), metres. Not known outside of the extent and far from any measured
-  /// ground: its height is NaN if one of the four around it is and has a share in it, and its
-  /// normal and slope if one of the four is. Any bit pattern is allowed.
+  /// The ground at (x, y), in metres. The ground is unknown outside the extent and far from any
+  /// measured ground. The height is NaN if one of the four surrounding heights is NaN and has a
+  /// weight above 0. The normal and the slope are NaN if any of the four is NaN. x and y may have
+  /// any value, including NaN and infinity.
   [[nodiscard]] GroundSample at(float x, float y) const noexcept;
 
-  /// at(x, y).height, in less time.
+  /// Same as at(x, y).height, but faster.
   [[nodiscard]] float height(float x, float y) const noexcept;
 
   /// The grids, coarsest and largest first.
@@ -63,14 +67,13 @@ class GroundSurface {
     return filled_ ? std::span<const Grid>(grids_) : std::span<const Grid>();
   }
 
-  /// @name For those who write a Segmenter
+  /// @name For implementations of Segmenter
   /// @{
 
-  /// Empty from now on; memory is kept.
+  /// Makes the surface empty but keeps its memory.
   void clear() noexcept { filled_ = false; }
 
-  /// The grids to fill: coarsest first, each inside the one before. They hold what they held before
-  /// the surface was cleared.
+  /// The grids to fill: coarsest first, each inside the previous one. They contain old values.
   [[nodiscard]] std::vector<Grid>& start() noexcept {
     filled_ = true;
     return grids_;

@@ -7,20 +7,20 @@
 
 namespace flagstone {
 
-/// What a point is. The codes are part of the data contract: they are what label files hold and
-/// will not change. Every input point gets exactly one.
+/// The class of a point. Every input point gets exactly one label. Label files contain these codes,
+/// so the codes will not change.
 enum class Label : std::uint8_t {
-  nonground = 0,  ///< stands on the ground, hangs above it, or lies in a patch that is not ground
-  ground = 1,     ///< belongs to the ground surface
-  noise = 2,      ///< below any ground there can be at that place (multipath, reflections)
-  out_of_range = 3,  ///< too far, too near or out of view for the method, or over 10 km up or down
-  invalid = 4,       ///< a coordinate is not finite, or all three are zero ("no echo")
+  nonground = 0,     ///< on an object, above the ground, or in a patch that is not ground
+  ground = 1,        ///< on the ground surface
+  noise = 2,         ///< below any possible ground, such as ghost points from reflections
+  out_of_range = 3,  ///< too far, too near, outside the field of view, or |z| above 10 km
+  invalid = 4,       ///< a coordinate is not finite, or all three are zero (missing return)
 };
 
-/// Number of label codes; codes run from 0 to label_count - 1.
+/// Number of label codes. Codes are 0 to label_count - 1.
 inline constexpr std::size_t label_count = 5;
 
-/// Name of a label as the data contract spells it, e.g. "out_of_range".
+/// Name of a label, for example "out_of_range".
 constexpr const char* to_string(Label label) noexcept {
   switch (label) {
     case Label::nonground: return "nonground";

@@ -15,46 +15,49 @@
 #include "flagstone/sensor.hpp"
 #include "flagstone/surface_config.hpp"
 
-/// Methods by name. The library has `patchwork` and `surface`; `register_baselines()` of
-/// `flagstone/baselines.hpp` adds those that Patchwork is compared with.
+/// Methods by name. The library provides `patchwork` and `surface`; `register_baselines()` in
+/// `flagstone/baselines.hpp` adds the methods that Patchwork is compared with.
 namespace flagstone {
 
 struct ConfigType;
 struct Setting;
 
-/// The configuration of any method: a `SurfaceConfig`, a `PatchworkConfig`, or that of a baseline.
+/// The configuration of any method: a `SurfaceConfig`, a `PatchworkConfig` or the configuration of
+/// a baseline. Not thread-safe: use one instance per thread.
 class MethodConfig {
  public:
-  /// Holds a copy of `config`. Throws std::invalid_argument if no registered method has a
+  /// Stores a copy of `config`. Throws std::invalid_argument if no registered method has a
   /// configuration of this type.
   template <class Config>
     requires(!std::same_as<Config, MethodConfig> && std::copyable<Config> &&
              requires(const Config& c) { c.check(); })
   MethodConfig(Config config) : MethodConfig(std::any(std::move(config))) {}  // NOLINT: converts
 
-  /// What it holds; null if that is of another type.
+  /// The stored configuration; null if it has another type. Valid as long as this object.
   template <class Config>
   [[nodiscard]] Config* get_if() noexcept {
     return std::any_cast<Config>(&value_);
   }
-  /// What it holds; null if that is of another type.
+  /// The stored configuration; null if it has another type. Valid as long as this object.
   template <class Config>
   [[nodiscard]] const Config* get_if() const noexcept {
     return std::any_cast<Config>(&value_);
   }
 
-  /// All settings in the order they are printed; they point into this object. Patchwork's zones are
-  /// not among them.
+  /// All settings except Patchwork's zones, in the order in which they are printed. They point into
+  /// this object.
   [[nodiscard]] std::vector<Setting> settings();
 
-  /// Throws std::invalid_argument naming the setting, its value and the range allowed.
+  /// Checks all settings. Throws std::invalid_argument naming the setting, its value and the
+  /// allowed range, for the first value out of range.
   void check() const;
 
-  /// A segmenter with this configuration; `threads` work on one scan together. Throws
-  /// std::invalid_argument if a value or the number of threads is not allowed.
+  /// Creates a segmenter with this configuration. `threads` is the number of threads that process
+  /// one scan together, 1 to 1,024; baselines support only 1. Throws std::invalid_argument if a
+  /// setting or the number of threads is out of range.
   [[nodiscard]] std::unique_ptr<Segmenter> make(unsigned threads = 1) const;
 
-  /// How its type is handled.
+  /// Functions for this type of configuration. For internal use.
   [[nodiscard]] const ConfigType& type() const noexcept { return *type_; }
 
  private:
@@ -64,32 +67,36 @@ class MethodConfig {
   const ConfigType* type_;
 };
 
-/// The methods that are registered. With the baselines, in the order of the paper's Table I:
-/// - `ransac`, `gpf`, `line_fit`, `cascaded`, `r_gpf`: what Patchwork is compared with;
-/// - `r_gpf+u`: R-GPF judged by uprightness alone;
-/// - `czm+u`, `czm+u+e`, `czm+u+e+f`: Patchwork's zones and fit with one, two and all three terms
-///   of the ground likelihood;
+/// Names of the registered methods. The span is valid until more methods are registered. With the
+/// baselines, the methods are, in the order of the paper's Table I:
+/// - `ransac`, `gpf`, `line_fit`, `cascaded`, `r_gpf`: the methods that Patchwork is compared with;
+/// - `r_gpf+u`: R-GPF with uprightness as the only test;
+/// - `czm+u`, `czm+u+e`, `czm+u+e+f`: Patchwork's zones and fit with one, two or all three terms of
+///   the ground likelihood;
 /// - `patchwork`;
 /// - `surface`, which is not in that table.
 std::span<const std::string_view> method_names() noexcept;
 
-/// The name of a method in tables: "CZM + U". Throws as default_config().
+/// Name of a method for tables, such as "CZM + U". Throws std::invalid_argument listing the methods
+/// if `name` is unknown.
 std::string_view method_title(std::string_view name);
 
-/// The default settings of a method. Throws std::invalid_argument listing the methods for an
-/// unknown name.
+/// The default settings of a method. Throws std::invalid_argument listing the methods if `name` is
+/// unknown.
 MethodConfig default_config(std::string_view name);
 
-/// The settings of a method for a sensor: derived from it where the method has a rule (`for_sensor`
-/// of Patchwork and Surface), else the default ones with the sensor's height. Throws
-/// std::invalid_argument likewise.
+/// The settings of a method for a sensor. For `patchwork` and `surface` they are derived from the
+/// sensor (see PatchworkConfig::for_sensor and SurfaceConfig::for_sensor); other methods get their
+/// default settings with the sensor's height. Throws std::invalid_argument if `name` is unknown or
+/// the method cannot derive settings from the sensor.
 MethodConfig default_config(std::string_view name, const Sensor& sensor);
 
-/// A segmenter of that name with its default configuration.
+/// Creates a segmenter with its default configuration. Throws std::invalid_argument if `name` is
+/// unknown.
 std::unique_ptr<Segmenter> make_segmenter(std::string_view name);
 
-/// A segmenter of that name with this configuration. Throws std::invalid_argument for an unknown
-/// name, a configuration of another method and a value out of range.
+/// Creates a segmenter with the given configuration. Throws std::invalid_argument if `name` is
+/// unknown, `config` belongs to another method or a setting is out of range.
 std::unique_ptr<Segmenter> make_segmenter(std::string_view name, const MethodConfig& config);
 
 }  // namespace flagstone

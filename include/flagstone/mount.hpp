@@ -11,153 +11,162 @@
 
 namespace flagstone {
 
-/// How the frame that a cloud is given in stands to the ground.
+/// Mounting pose: height, tilt, origin and scale of the frame of a cloud (the part of the sensor's
+/// extrinsic calibration that segmentation needs).
 ///
-/// A point p of the cloud lies at `scale * p - origin` metres from the sensor. Turned the shortest
-/// way that brings `up` to z, that is its place in the level frame: metres, the origin in the
-/// sensor, z up, the ground below the sensor at z = -sensor_height.
+/// A point p of the cloud is at `scale * p - origin`, in metres relative to the sensor. The
+/// shortest rotation that brings `up` to z transforms it to the level frame: metres, origin at the
+/// sensor, z up, ground below the sensor at z = -sensor_height.
 struct Mount {
-  /// h_s: from the sensor down to the ground along `up`, metres, -100 to 100.
+  /// h_s: height of the sensor above the ground along `up`, metres, -100 to 100.
   float sensor_height = 1.73f;
-  /// Where up is in the cloud's frame: {0, 0, 1} for a level one, minus the measured gravity of an
-  /// IMU for any other. Any length but 0; its direction counts.
+  /// Up direction in the frame of the cloud: {0, 0, 1} if the frame is level, otherwise for example
+  /// the negated gravity vector of an IMU. Any length except 0; only the direction is used.
   std::array<float, 3> up{0, 0, 1};
-  /// Where the sensor is in the cloud's frame, metres, each -10,000 to 10,000: {0, 0, 1.8} for a
-  /// cloud whose frame lies on the ground 1.8 m below it.
+  /// Position of the sensor in the frame of the cloud, metres, each -10,000 to 10,000: {0, 0, 1.8}
+  /// if the origin of the frame is on the ground, 1.8 m below the sensor.
   std::array<float, 3> origin{0, 0, 0};
-  /// Metres a unit of the cloud, 1e-6 to 1e6: 0.001 for millimetres.
+  /// Metres per unit of the cloud, 1e-6 to 1e6: 0.001 for millimetres.
   float scale = 1;
 };
 
-/// Where the height of the sensor is taken from.
+/// Source of the height of the sensor.
 enum class HeightSource : std::uint8_t {
-  fixed,     ///< from the given mount
-  estimate,  ///< from the first scan that tells it, from then on; until then the given mount's
-  track,     ///< from every scan that tells it, smoothed
+  fixed,     ///< the configured height
+  estimate,  ///< the first accepted estimate; the configured height until then
+  track,     ///< the running mean of the accepted estimates of all scans
 };
 
-/// Where `up` is taken from.
+/// Source of the up direction.
 enum class TiltSource : std::uint8_t {
-  off,       ///< up is z, whatever the given mount says
-  fixed,     ///< from the given mount
-  estimate,  ///< from the scans, as the height is, looked for around the given mount's
+  off,       ///< z is up; the configured up direction is ignored
+  fixed,     ///< the configured up direction
+  estimate,  ///< estimated from the scans, as the height is, near the configured up direction
 };
 
-/// Name as configurations spell it, e.g. "estimate".
+/// Name as spelled in configurations, for example "estimate".
 const char* to_string(HeightSource height) noexcept;
-/// Name as configurations spell it, e.g. "fixed".
+/// Name as spelled in configurations, for example "fixed".
 const char* to_string(TiltSource tilt) noexcept;
 
-/// What is believed of an estimate.
+/// Limits of an estimate. Estimates beyond a limit are rejected.
 struct MountLimits {
-  float min_height = 0.15f;     ///< metres above the ground, 0.01 to 100
-  float max_height = 6;         ///< metres, more than `min_height`, up to 100
-  float max_tilt = 32;          ///< degrees between `up` and the given mount's, 0 to 45
-  float min_confidence = 0.5f;  ///< 0 to 1
-  /// Points nearer than this are the own vehicle, metres, 0 to 60.
+  /// Minimum height above the ground, metres, 0.01 to 100.
+  float min_height = 0.15f;
+  /// Maximum height above the ground, metres, above `min_height`, up to 100.
+  float max_height = 6;
+  /// Maximum angle between the estimated and the configured up direction, degrees, 0 to 45.
+  float max_tilt = 32;
+  /// Minimum confidence of an estimate, 0 to 1.
+  float min_confidence = 0.5f;
+  /// Points nearer than this belong to the ego vehicle and are ignored; metres, 0 to 60.
   float ego_radius = 2.7f;
-  /// Points farther than this say nothing about the ground below the vehicle, metres; 2 to 100, and
-  /// at least 1.5 times `ego_radius`. Where the ground begins so far away that it is badly told
-  /// within it, 2.5 times as far is looked.
+  /// Points farther than this are ignored; metres, 2 to 100, and at least 1.5 times `ego_radius`.
+  /// If the ground found within this distance is too far away to show the ground below the sensor,
+  /// a second pass uses 2.5 times this distance (the distant pass).
   float reach = 16;
 };
 
-/// How `track` smooths. The state is the mount and how many scans have told it: the first counts in
-/// full, the k-th with 1 / k, and once there are `window` of them each with 1 / `window`.
+/// Smoothing of `track`. The state is a running mean: the first accepted scan has weight 1, the
+/// k-th has weight 1 / k, and from scan number `window` on every scan has weight 1 / `window`.
 struct MountTracking {
-  int window = 20;  ///< scans, 1 to 10,000
-  /// A height that differs by more from the state is an outlier and not followed; metres, above 0,
-  /// up to 100.
+  int window = 20;  ///< number of scans in the running mean, 1 to 10,000
+  /// An estimate whose height differs from the state by more than this is an outlier and is not
+  /// used; metres, above 0, up to 100.
   float max_height_step = 0.25f;
-  /// The same for the direction of `up`; degrees, above 0, up to 90.
+  /// An estimate whose up direction differs from the state by more than this is an outlier and is
+  /// not used; degrees, above 0, up to 90.
   float max_tilt_step = 5;
-  /// So many outliers on end, all within `max_height_step` and `max_tilt_step` of the one before,
-  /// are the new state; 1 to 10,000.
+  /// Number of consecutive outliers, each within `max_height_step` and `max_tilt_step` of the
+  /// previous one, after which the last of them becomes the new state; 1 to 10,000.
   int patience = 10;
 };
 
-/// How the mount is known.
+/// Sources, values and limits of the mounting pose.
 struct MountSettings {
-  HeightSource height = HeightSource::fixed;  ///< where the height is taken from
-  TiltSource tilt = TiltSource::off;          ///< where `up` is taken from
-  Mount mount{};                              ///< what is given
-  MountLimits limits{};                       ///< what is believed of an estimate
-  MountTracking tracking{};                   ///< how `track` smooths
+  HeightSource height = HeightSource::fixed;  ///< source of the height
+  TiltSource tilt = TiltSource::off;          ///< source of the up direction
+  Mount mount{};                              ///< configured mounting pose
+  MountLimits limits{};                       ///< limits of an estimate
+  MountTracking tracking{};                   ///< smoothing of `track`
 
-  /// Is anything to be found out from scans?
+  /// True if the height or the tilt is estimated from scans.
   [[nodiscard]] bool estimates() const noexcept {
     return height != HeightSource::fixed || tilt == TiltSource::estimate;
   }
-  /// Does it change from scan to scan for as long as there are scans?
+  /// True if the pose is updated with every scan.
   [[nodiscard]] bool tracks() const noexcept { return height == HeightSource::track; }
 
-  /// Throws std::invalid_argument naming the field, its value and the range allowed, for the first
-  /// value out of range.
+  /// Checks all values. Throws std::invalid_argument naming the field, its value and the allowed
+  /// range, for the first value out of range.
   void check() const;
 };
 
-/// What was made of a scan, and why.
+/// Whether the estimate of a scan was accepted, and if not, why.
 enum class MountVerdict : std::uint8_t {
-  fixed,           ///< nothing was asked of this scan: the mount is given, or already estimated
-  accepted,        ///< the scan tells the mount
-  too_few_points,  ///< refused: hardly any points where ground can be
-  no_plane,        ///< refused: no plane that near points agree on
-  obstructed,      ///< refused: what agrees is the foot of what stands above it: walls, bushes
-  points_below,    ///< refused: too much lies below it
-  one_sided,       ///< refused: seen in too few directions to tell how it lies
-  height_limit,    ///< refused: the height is not within the limits
-  tilt_limit,      ///< refused: the tilt is beyond the limit
-  outlier,         ///< refused: too far from what scans before have told (`track`)
+  fixed,           ///< no estimate: the pose is configured or was already estimated
+  accepted,        ///< the estimate is accepted
+  too_few_points,  ///< rejected: too few points where ground can be
+  no_plane,        ///< rejected: near points do not fit one plane
+  obstructed,      ///< rejected: the plane is at the base of obstacles such as walls and bushes
+  points_below,    ///< rejected: too many points below the plane
+  one_sided,       ///< rejected: ground is seen in too few directions
+  height_limit,    ///< rejected: the height is outside the limits
+  tilt_limit,      ///< rejected: the tilt exceeds the limit
+  outlier,         ///< rejected: too far from the estimates of previous scans (`track`)
 };
 
-/// Name of a verdict, e.g. "points_below".
+/// Name of a verdict, for example "points_below".
 const char* to_string(MountVerdict verdict) noexcept;
 
-/// The decision about one scan and the numbers it stands on.
+/// The estimate from one scan, whether it was accepted, and the values behind that decision.
 struct MountDecision {
-  MountVerdict verdict = MountVerdict::fixed;  ///< what was decided, and why
-  /// What the scan says, if `accepted`; what it seems to say, if refused for another reason than
-  /// too few points; else the given mount.
+  MountVerdict verdict = MountVerdict::fixed;  ///< accepted, or the reason for rejection
+  /// The estimate if `accepted`; the rejected estimate if a plane was found; otherwise the
+  /// configured mounting pose.
   Mount mount{};
-  float confidence = 0;  ///< 0 to 1: the product of what each number below lets believe
-  float tilt = 0;        ///< degrees between `mount.up` and the cloud's z axis
+  float confidence = 0;  ///< 0 to 1: a product of factors computed from the values below
+  float tilt = 0;        ///< angle between `mount.up` and the z axis of the cloud, degrees
 
-  std::uint32_t points =
-      0;                    ///< places of 0.5 m (1.25 m from afar) with a point where ground can be
-  std::uint32_t cells = 0;  ///< cells of 1 m (2.5 m from afar) with ground in them
-  float free = 0;           ///< share of them with nothing standing on it, 0 to 1
-  float below = 0;          ///< what lies below the ground, as a share of both, 0 to 1
-  float spread = 0;         ///< root mean square distance of ground from its plane, metres
-  int directions = 0;       ///< of sixteen around the sensor, how many show ground
-  int seen = 0;             ///< and how many show anything
+  /// Number of 0.5 m cubes (1.25 m in the distant pass) with a point where ground can be.
+  std::uint32_t points = 0;
+  std::uint32_t cells = 0;  ///< number of 1 m cells (2.5 m in the distant pass) with ground
+  float free = 0;           ///< fraction of the ground cells without an obstacle, 0 to 1
+  /// Number of cells below the ground, as a fraction of all cells on and below the ground, 0 to 1.
+  float below = 0;
+  float spread = 0;    ///< RMS distance of ground points below the plane from the plane, metres
+  int directions = 0;  ///< number of directions with ground, of sixteen around the sensor
+  int seen = 0;        ///< number of directions with any points, of sixteen
 
-  /// Does the scan tell the mount?
+  /// True if the estimate is accepted.
   [[nodiscard]] bool accepted() const noexcept { return verdict == MountVerdict::accepted; }
 };
 
-/// The decision in one plain sentence without a full stop, e.g. "sensor 1.74 m above the ground,
-/// confidence 0.93". May throw std::bad_alloc.
+/// The decision as one sentence without a full stop, for example "sensor 1.74 m above the ground,
+/// confidence 0.93". Throws std::bad_alloc if memory runs out.
 std::string to_sentence(const MountDecision& decision);
 
-/// Finds height and tilt of a sensor from one scan: the ground under and near the vehicle is what
-/// counts. The vehicle stands on it, so on a slope an untilted mount has its up along z.
+/// Estimates the height and tilt of a sensor from the ground near the vehicle in one scan. The
+/// vehicle stands on that ground: on a slope, the up direction of an untilted sensor is still z.
 ///
-/// The same cloud gives the same bits, whatever came before; any bit pattern is allowed in the
-/// coordinates. All memory is taken when it is made. One object serves one thread at a time.
+/// The estimate is deterministic: the same cloud gives bit-identical results, whatever was
+/// estimated before. All memory is allocated on construction. Not thread-safe: use one instance per
+/// thread.
 class MountEstimator {
  public:
-  /// Estimates the height, and `up` too if `settings.tilt` is `estimate`; else `up` is as `tilt`
-  /// says. `settings.height` is not looked at. Throws what MountSettings::check throws, or
-  /// std::bad_alloc.
+  /// Prepares estimates of the height, and of `up` if `settings.tilt` is `estimate`. Otherwise `up`
+  /// follows from `settings.tilt`. `settings.height` is ignored. Throws what MountSettings::check
+  /// throws, or std::bad_alloc.
   explicit MountEstimator(const MountSettings& settings = {});
   ~MountEstimator();
   MountEstimator(MountEstimator&&) noexcept;
   MountEstimator& operator=(MountEstimator&&) noexcept;
 
-  /// What one scan says. A null cloud that claims points has none.
+  /// Estimates the mounting pose from one scan. Coordinates may have any value, including NaN,
+  /// infinity and denormals. A cloud with a null pointer counts as empty.
   [[nodiscard]] MountDecision estimate(CloudView cloud) noexcept;
 
-  /// The settings it was made with.
+  /// The settings passed to the constructor.
   [[nodiscard]] const MountSettings& settings() const noexcept;
 
  private:

@@ -10,19 +10,25 @@
 
 namespace flagstone {
 
-/// Patchwork: concentric zone-based region-wise ground segmentation with ground likelihood
-/// estimation. Comments give the numbers of the paper's equations: (2) and (3) zones and bins,
-/// (4) planes, (5) and (6) ground sets, (7) to (11) likelihood, (12) the ground.
+/// The method Patchwork: it fits a plane to each bin of a polar grid with concentric zones and uses
+/// a ground likelihood to decide which bins are ground. Not thread-safe: use one instance per
+/// thread.
+///
+/// Comments refer to the equations of the paper: (2) and (3) zones and bins, (4) planes, (5) and
+/// (6) ground sets, (7) to (11) likelihood, (12) the ground.
 ///
 /// H. Lim, M. Oh, H. Myung, "Patchwork: Concentric Zone-based Region-wise Ground Segmentation with
 /// Ground Likelihood Estimation Using a 3D LiDAR Sensor", IEEE RA-L 6(4), 2021.
 class Patchwork final : public Segmenter {
  public:
-  /// `threads` work on one scan together, 1 to 1,024; the result does not depend on how many. All
-  /// but the caller's are started here (fewer if the system has no more), and again by the
-  /// child of a fork() when it first segments. It holds 52 bytes for each point
-  /// of its largest scan, and 17 more for each thread but the first. Throws std::invalid_argument
-  /// naming the field, its value and the range allowed, or std::bad_alloc.
+  /// `threads` is the number of threads that process one scan together, 1 to 1,024, including the
+  /// calling thread. The result does not depend on it. The constructor starts the other threads, or
+  /// fewer if the system cannot provide them. After a fork(), the child starts its own threads when
+  /// it first calls segment().
+  ///
+  /// Memory: 52 bytes per point of the largest scan, plus 17 bytes per point for each additional
+  /// thread. Throws std::invalid_argument naming the field, its value and the allowed range, or
+  /// std::bad_alloc.
   explicit Patchwork(PatchworkConfig config = {}, unsigned threads = 1);
   ~Patchwork() override;
   Patchwork(Patchwork&&) noexcept;
@@ -31,12 +37,12 @@ class Patchwork final : public Segmenter {
   /// See Segmenter::segment. Also fills result.patches().
   Status segment(CloudView cloud, Segmentation& result) noexcept override;
 
-  /// The configuration it was made with.
+  /// The configuration passed to the constructor.
   [[nodiscard]] const PatchworkConfig& config() const noexcept;
 
-  /// From now on adds to `*times`, which must live as long, the seconds that the calling thread
-  /// spent on each stage of a scan; waiting for other threads belongs to none. nullptr stops that.
-  /// Taking times costs about 1 % of a scan.
+  /// Starts timing: every later call of segment() adds to `*times` the seconds that the calling
+  /// thread spent in each stage. Waiting for other threads is not counted. `*times` must outlive
+  /// this object; nullptr stops timing. Timing takes about 1 % of the time per scan.
   void time_stages(StageTimes* times) noexcept;
 
  private:

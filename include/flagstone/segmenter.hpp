@@ -8,19 +8,23 @@
 
 namespace flagstone {
 
-/// A ground segmentation method. It owns its working memory: use one object per thread.
+/// Base class of all ground segmentation methods. A segmenter owns its working memory. Not
+/// thread-safe: use one instance per thread.
 class Segmenter {
  public:
   virtual ~Segmenter() = default;
 
-  /// Labels every point of `cloud` and replaces what `result` held.
+  /// Labels every point of `cloud` and replaces the contents of `result`.
   ///
-  /// The same cloud gives the same bytes every time, whatever came before. Once buffers have grown
-  /// to the largest scan nothing is allocated; nothing is thrown or printed. Any bit pattern is
-  /// allowed in the coordinates.
+  /// `cloud` is one scan in the sensor frame, in metres; see Point. Coordinates may have any value,
+  /// including NaN, infinity and denormals.
   ///
-  /// Fails with `out_of_memory`, or with `invalid_argument` for a null cloud that claims points or
-  /// one of more than 2^32 - 1 points; `result` then holds no labels.
+  /// The result is deterministic: the same cloud gives a bit-identical result, whatever was
+  /// segmented before. Memory is allocated only until the buffers fit the largest scan. The method
+  /// neither throws nor prints.
+  ///
+  /// Errors: `out_of_memory`; `invalid_argument` if the cloud has a null pointer but a size above
+  /// 0, or more than 2^32 - 1 points. `result` is then empty.
   virtual Status segment(CloudView cloud, Segmentation& result) noexcept = 0;
 
  protected:

@@ -8,24 +8,24 @@
 
 namespace flagstone {
 
-/// What Patchwork::segment does, in order.
+/// The stages of Patchwork::segment and Surface::segment, in order.
 enum class Stage : std::uint8_t {
-  bin,      ///< read every point, find its bin, note where runs of one bin begin (III-B)
-  group,    ///< sort the runs by bin, list the patches, label points without one
-  gather,   ///< pack the points of each bin
-  seed,     ///< mean height of the lowest points, eq. (5)
-  moments,  ///< sums over the ground sets, eq. (6)
-  solve,    ///< planes and their likelihood, eqs. (4), (8) to (12)
-  join,     ///< which patches are ground, and one surface of them; `surface` alone
-  refine,   ///< the residual pyramid; `surface` alone
-  measure,  ///< heights of points above the surface; `surface` alone
-  label,    ///< write labels
+  bin,      ///< read each point, find its bin, record runs of points in the same bin (III-B)
+  group,    ///< sort the runs by bin, list the patches, label points without a patch
+  gather,   ///< copy the points of each bin next to each other
+  seed,     ///< compute the mean height of the lowest points, eq. (5)
+  moments,  ///< sum over the ground sets, eq. (6)
+  solve,    ///< compute planes and their likelihood, eqs. (4), (8) to (12)
+  join,     ///< select ground patches and merge them into a surface; `surface` only
+  refine,   ///< refine the surface level by level; `surface` only
+  measure,  ///< compute the height of each point above the surface; `surface` only
+  label,    ///< write the labels
 };
 
 /// Number of stages.
 inline constexpr std::size_t stage_count = 10;
 
-/// Name of a stage, e.g. "gather".
+/// Name of a stage, for example "gather".
 constexpr const char* to_string(Stage stage) noexcept {
   switch (stage) {
     case Stage::bin: return "bin";

@@ -7,32 +7,32 @@
 
 namespace flagstone {
 
-/// Why something did not succeed.
+/// Outcome of an operation: success, or the kind of error.
 enum class StatusCode {
-  ok,                ///< it did succeed
-  invalid_argument,  ///< the caller's arguments are off (null cloud with points, unknown name)
+  ok,                ///< success
+  invalid_argument,  ///< an argument is invalid, such as a null cloud with points
   out_of_memory,     ///< a buffer could not be allocated
-  not_found,         ///< a file or folder is not there
-  unreadable,        ///< a file exists, the system would not read it
-  bad_file,          ///< a file's contents are not what its format allows
-  unwritable,        ///< the system would not write a file
+  not_found,         ///< a file or directory does not exist
+  unreadable,        ///< a file exists, but reading it failed
+  bad_file,          ///< the contents of a file do not match its format
+  unwritable,        ///< writing a file failed
 };
 
-/// Success, or a code and one line that says what is wrong, where, and what to do.
-/// A successful status holds no text and allocates nothing.
+/// Success, or an error code with a message. The message is one line: where the problem is, what it
+/// is and how to fix it. A successful status has no message and allocates nothing.
 class Status {
  public:
   /// Success.
   Status() noexcept = default;
-  /// `message` is one line without a newline; may be empty where the code says it all.
+  /// An error. `message` is one line without a newline; it can be empty if the code is enough.
   explicit Status(StatusCode code, std::string message = {}) noexcept
       : code_(code), message_(std::move(message)) {}
 
-  /// Did it succeed?
+  /// True on success.
   [[nodiscard]] bool ok() const noexcept { return code_ == StatusCode::ok; }
-  /// Why not, or `ok`.
+  /// The kind of error, or `ok`.
   [[nodiscard]] StatusCode code() const noexcept { return code_; }
-  /// One line without a newline; empty where the code says it all.
+  /// The message: one line without a newline, or empty if the code is enough.
   [[nodiscard]] const std::string& message() const noexcept { return message_; }
 
  private:

@@ -10,16 +10,16 @@
 
 namespace flagstone {
 
-/// The method `surface`: planes of square patches, those that are ground joined to one continuous
-/// surface, that surface refined where points say more, and every point judged by its height above
-/// it. See docs/explanation/surface.md.
+/// The method `surface`: it fits planes to square patches, merges the ground patches into one
+/// continuous surface, refines the surface with the points, and labels each point by its height
+/// above the surface. See docs/explanation/surface.md.
 ///
-/// One object serves one thread at a time; make one for each.
+/// Not thread-safe: use one instance per thread.
 class Surface final : public Segmenter {
  public:
-  /// `threads` work on one scan together, 1 to 1,024; the result does not depend on how many. See
-  /// Patchwork::Patchwork. Throws std::invalid_argument naming the field, its value and the range
-  /// allowed, or std::bad_alloc.
+  /// `threads` is the number of threads that process one scan together, 1 to 1,024, including the
+  /// calling thread; see Patchwork::Patchwork. The result does not depend on it. Throws
+  /// std::invalid_argument naming the field, its value and the allowed range, or std::bad_alloc.
   explicit Surface(SurfaceConfig config = {}, unsigned threads = 1);
   ~Surface() override;
   Surface(Surface&&) noexcept;
@@ -28,7 +28,7 @@ class Surface final : public Segmenter {
   /// See Segmenter::segment. Also fills result.patches(), result.heights() and result.surface().
   Status segment(CloudView cloud, Segmentation& result) noexcept override;
 
-  /// The configuration it was made with.
+  /// The configuration passed to the constructor.
   [[nodiscard]] const SurfaceConfig& config() const noexcept;
 
   /// See Patchwork::time_stages.

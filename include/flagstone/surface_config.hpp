@@ -8,100 +8,103 @@ namespace flagstone {
 
 struct Sensor;
 
-/// Which patches are believed to be ground.
+/// Tests that decide which patches are ground.
 struct PatchAcceptance {
-  /// Smallest angle between the normal and the x-y plane, degrees, 0 to 90; below 2.9 it counts as
-  /// 2.9. The larger, the stricter: steep banks are lost.
+  /// Minimum angle between the normal and the x-y plane, degrees, 0 to 90; values below 2.9 have
+  /// the effect of 2.9. A larger angle is stricter and rejects steep banks.
   float upright_angle = 53.0f;
 
-  /// As many points as this share of those within 12.5 cm of the plane may lie 19 to 89 cm above
-  /// it; 0 to 1,000, or infinity for no limit. A wall or bush has as many just above its foot as in
-  /// it, ground has not.
+  /// Maximum clutter ratio: the number of points 19 to 89 cm above the plane, divided by the number
+  /// within 12.5 cm of it; 0 to 1,000, or infinity for no limit. A wall or a bush has as many
+  /// points just above its base as at its base; ground does not.
   float max_clutter_ratio = 0.6f;
 
-  /// Ground is believed up to this height above -h_s, or up to `max_slope` times the range if that
-  /// is more; metres, 0 to 1,000.
+  /// Maximum height of ground above -h_s, or `max_slope` times the range if that is larger; metres,
+  /// 0 to 1,000.
   float max_height = 1.5f;
-  /// Metres a metre, 0 to 10.
+  /// Maximum slope of the ground as seen from below the sensor, m/m, 0 to 10; see `max_height`.
   float max_slope = 0.35f;
 
-  /// How far a patch may lie above what nearer patches let expect (0.5 m more below it), next to
-  /// them; metres, 0 to 100, or infinity for no limit.
+  /// Maximum height of a patch above the height that nearer patches predict, right next to them;
+  /// metres, 0 to 100, or infinity for no limit. A patch may be 0.5 m farther below that height.
   float max_step = 0.5f;
-  /// How much more for each metre to the nearest of them, up to 15 m; metres a metre, 0 to 10.
+  /// Added to `max_step` per metre of distance to the nearest of those patches, up to 15 m; m/m,
+  /// 0 to 10.
   float max_step_per_metre = 0.15f;
 };
 
-/// How the surface follows the points closer than the patches do.
+/// Refinement of the surface with the points.
 struct Refinement {
-  /// Levels of cells of 2, 1, 0.5 and 0.25 m that refine it, 0 to 4. Fewer take less time.
+  /// Number of refinement levels, with cells of 2, 1, 0.5 and 0.25 m; 0 to 4. Fewer levels take
+  /// less time.
   int levels = 4;
 
-  /// Points within this of the surface say where it really is, in cells of 2 m; metres, above 0, up
-  /// to 10. A wider gate follows rougher ground, and more of what stands on it.
+  /// Points within this distance of the surface correct its height, in cells of 2 m; metres, above
+  /// 0, up to 10. A wider gate follows rougher ground, but also the objects on it.
   float gate = 0.45f;
-  /// What the gate of one level is of that of the one before; above 0, up to 1.
+  /// Ratio of the gate of each level to the gate of the previous level; above 0, up to 1.
   float gate_factor = 0.65f;
-  /// Added to every gate for each metre of range; metres a metre, 0 to 1.
+  /// Added to every gate per metre of range; m/m, 0 to 1.
   float gate_per_metre = 0.004f;
 
-  /// In a cell, as many points as this share of those at the surface may lie 18 to 88 cm above it;
-  /// 0 to 1,000, or infinity for no limit. Where there are more, something stands there, and the
-  /// cell says only that the ground is not above its lowest point.
+  /// Maximum clutter ratio of a cell: the number of points 18 to 88 cm above the surface, divided
+  /// by the number at the surface; 0 to 1,000, or infinity for no limit. A cell with a larger ratio
+  /// contains an obstacle: it shows only that the ground is not above its lowest point.
   float max_clutter_ratio = 0.5f;
 
-  /// Weight of that lower bound beside a measured cell's 1; 0 to 1, 0 for none.
+  /// Weight of that lower bound, compared with 1 for a measured cell; 0 to 1, 0 to disable it.
   float lower_bound_weight = 0.15f;
 };
 
-/// When a point is ground.
+/// Limits that decide whether a point is ground.
 struct PointRule {
   /// Points lower than this above the surface are ground; metres, 0 to 10.
   float margin = 0.24f;
 
-  /// The same where something stands: in cells of 0.5 m with a point 1.25 times `obstacle_height`
-  /// to 2.5 m above the surface. Where the highest lies above 0.75 times `obstacle_height` only,
-  /// the mean of both margins holds. Metres, 0 to 10. Smaller keeps feet of walls out, and loses
-  /// ground beside them.
+  /// Used instead of `margin` near obstacles: in cells of 0.5 m with a point between 1.25 times
+  /// `obstacle_height` and 2.5 m above the surface. If the highest point is only above 0.75 times
+  /// `obstacle_height`, the mean of both margins is used. Metres, 0 to 10. A smaller value rejects
+  /// more of the base of walls, but also loses ground next to them.
   float obstacle_margin = 0.06f;
-  /// Metres, 0 to 2.
+  /// Height of an obstacle above the surface, metres, 0 to 2; see `obstacle_margin`.
   float obstacle_height = 0.72f;
 
-  /// Points farther below the surface are noise; metres, 0 to 1,000.
+  /// Points farther below the surface than this are noise; metres, 0 to 1,000.
   float noise_depth = 0.15f;
-  /// Added to that for each metre of range; metres a metre, 0 to 10.
+  /// Added to `noise_depth` per metre of range; m/m, 0 to 10.
   float noise_depth_per_metre = 0.02f;
 };
 
-/// Settings of the method `surface`. They are the same for every sensor but for its height.
+/// Settings of the method `surface`. Only the sensor height and the range depend on the sensor.
 struct SurfaceConfig {
-  /// h_s: height of the sensor above the ground, metres, -100 to 100. The surface finds its height
-  /// by itself; this says where to begin. 0.3 m off changes hardly a label.
+  /// h_s: approximate height of the sensor above the ground, metres, -100 to 100. The method finds
+  /// the exact height itself: an error of 0.3 m changes very few labels.
   float sensor_height = 1.73f;
 
-  /// Points as far away as this, seen from above, or farther are out of range; metres, 8 to 200.
+  /// Points at this horizontal distance or farther are out of range; metres, 8 to 200.
   float max_range = 100.0f;
 
-  /// Points lower than -h_s - noise_depth - noise_slope * range are noise before all else. Metres,
-  /// 0 to 1,000.
+  /// Points lower than -h_s - noise_depth - noise_slope * range are noise and not used by any later
+  /// stage. Metres, 0 to 1,000.
   float noise_depth = 2.0f;
-  /// Steepest descent of ground from below the sensor that is still believed, metres a metre, 0 to
-  /// 10.
+  /// Maximum downward slope of the ground as seen from below the sensor, m/m, 0 to 10; see
+  /// `noise_depth`.
   float noise_slope = 0.35f;
 
-  PatchAcceptance acceptance{};  ///< which patches the surface is made of
-  Refinement refinement{};       ///< how it follows the points
+  PatchAcceptance acceptance{};  ///< which patches are ground
+  Refinement refinement{};       ///< how the points refine the surface
   PointRule point{};             ///< which points are ground
 
-  /// Settings derived from a sensor: its height and its range; see docs/reference/sensors.md. Throws
-  /// std::invalid_argument where the sensor's check() does.
+  /// Settings derived from a sensor: its height and its range; see docs/reference/sensors.md.
+  /// Throws std::invalid_argument if Sensor::check throws.
   static SurfaceConfig for_sensor(const Sensor& sensor);
 
-  /// The same for a known sensor at its usual height; see Sensor::named.
+  /// Settings derived from a known sensor at its usual height. Throws std::invalid_argument if
+  /// there is no such sensor; see Sensor::named.
   static SurfaceConfig for_sensor(std::string_view name);
 
-  /// Throws std::invalid_argument naming the field, its value and the range allowed, for the first
-  /// value out of range.
+  /// Checks all values. Throws std::invalid_argument naming the field, its value and the allowed
+  /// range, for the first value out of range.
   void check() const;
 };
 

@@ -2,5 +2,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Semantic version of the library, "major.minor.patch". The build reads it from here.
+/// Semantic version of the library, "major.minor.patch". The build reads the version from here.
 #define FLAGSTONE_VERSION "0.1.0"

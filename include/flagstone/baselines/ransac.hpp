@@ -8,61 +8,63 @@
 
 namespace flagstone {
 
-/// Settings of Ransac. The paper leaves the numbers to the problem; these are what a plane through
-/// a scan is commonly searched with.
+/// Settings of Ransac. The paper does not give values; these are common for fitting a plane to a
+/// scan.
 struct RansacConfig {
-  /// Error tolerance, section II-A: points at most this far from the plane, above or below, are of
-  /// its consensus set. Metres, above 0, up to 100.
+  /// Error tolerance, section II-A: points at most this far above or below the plane are in its
+  /// consensus set. Metres, above 0, up to 100.
   float distance_threshold = 0.2f;
 
-  /// z, section II-B: probability wanted that at least one trial drew three points of the ground.
-  /// Above 0, up to 0.999999.
+  /// z, section II-B: required probability that at least one trial draws three ground points. Above
+  /// 0, up to 0.999999.
   float confidence = 0.99f;
 
-  /// Trials after which the search ends however few agree, 1 to 1,000,000.
+  /// Maximum number of trials, 1 to 1,000,000.
   int max_trials = 1000;
 
-  /// t, section II-C: a plane that fewer points agree on is none; 3 to 1,000,000. The paper asks
-  /// for the n = 3 points of a sample and 5 more.
+  /// t, section II-C: minimum size of the consensus set of a plane, 3 to 1,000,000. The paper
+  /// requires the n = 3 points of a sample and 5 more.
   int min_consensus = 8;
 
-  /// Start of the random numbers, 0 to 1,000,000,000: the same seed draws the same samples from
-  /// the same scan.
+  /// Seed of the random numbers, 0 to 1,000,000,000. The same seed draws the same samples from the
+  /// same scan.
   int seed = 0;
 
-  /// Throws std::invalid_argument naming the field, its value and the range allowed.
+  /// Checks all values. Throws std::invalid_argument naming the field, its value and the allowed
+  /// range, for the first value out of range.
   void check() const;
 };
 
-/// Random sample consensus: the one plane that most points of the scan agree on is the ground.
+/// Random sample consensus: the plane with the largest consensus set in the scan is the ground. Not
+/// thread-safe: use one instance per thread.
 ///
 /// M. A. Fischler, R. C. Bolles, "Random Sample Consensus: A Paradigm for Model Fitting with
 /// Applications to Image Analysis and Automated Cartography", Communications of the ACM 24(6),
 /// 1981.
 ///
-/// Every trial draws three points and counts all points of the scan within the tolerance of their
-/// plane. The number of trials, eq. of section II-B, k = log(1 - z) / log(1 - w^3), is taken anew
-/// whenever a larger consensus shows a larger share w. The plane is then fitted by least squares to
-/// its consensus set, and once more with the points that agree with the fit.
+/// Each trial draws three points and counts all points of the scan within the tolerance of their
+/// plane. The number of trials, section II-B, is k = log(1 - z) / log(1 - w^3). It is computed
+/// again whenever a larger consensus set increases the inlier ratio w. The plane is then fitted by
+/// least squares to its consensus set, and once more to the points within the tolerance of that
+/// fit.
 ///
-/// The method knows no up: it takes a wall that holds more points than the ground for the ground,
-/// and a point below the plane is as far from it as one above. Ground is what lies within the
-/// tolerance on either side; all else is nonground, never noise. The order of the input decides
-/// which points a seed draws.
+/// The method has no up direction. A wall with more points than the ground is mistaken for the
+/// ground. Points within the tolerance on either side of the plane are ground; all others are
+/// nonground, never noise. The samples depend on the seed and on the order of the input.
 class Ransac final : public Segmenter {
  public:
-  /// Throws std::invalid_argument naming the field, its value and the range allowed.
+  /// Throws std::invalid_argument naming the field, its value and the allowed range.
   explicit Ransac(RansacConfig config = {});
   ~Ransac() override;
   Ransac(Ransac&&) noexcept;
   Ransac& operator=(Ransac&&) noexcept;
 
-  /// See Segmenter::segment. result.patches() holds one patch, the whole scan with its plane
-  /// (verdict ground) or without one (no_plane), or none if no point can be used. Nothing judges
-  /// the plane: the terms of the likelihood stay zero.
+  /// See Segmenter::segment. result.patches() contains one patch for the whole scan, with its plane
+  /// (verdict `ground`) or without a plane (`no_plane`), or no patch if no point is usable. The
+  /// terms of the likelihood are zero.
   Status segment(CloudView cloud, Segmentation& result) noexcept override;
 
-  /// The configuration it was made with.
+  /// The configuration passed to the constructor.
   [[nodiscard]] const RansacConfig& config() const noexcept;
 
  private:
