@@ -155,7 +155,7 @@ def test_it_is_shown_as_a_table(evaluation: flagstone.Evaluation, simulated: Pat
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"protocol": "kitti"}, 'no protocol is named "kitti"; there are patchwork'),
+        ({"protocol": "kitti"}, 'no protocol is named "kitti" .expected patchwork'),
         ({"methods": "surfaces"}, "no method is named 'surfaces'"),
         ({"sensor_height": "high"}, "sensor_height: high is no number of metres"),
         ({"tilt": "left"}, "tilt: left is not off, estimate or where up is"),
@@ -178,7 +178,7 @@ def test_a_wrong_argument_is_one_line_that_names_it(simulated: Path, arguments: 
 def test_a_dataset_that_is_not_there_or_holds_no_scans_is_told(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match="none: no such dataset"):
         flagstone.evaluate(tmp_path / "none")
-    with pytest.raises(ValueError, match="no dataset; allowed: a folder with"):
+    with pytest.raises(ValueError, match="not a dataset .expected a directory with"):
         flagstone.evaluate(tmp_path)
 
 

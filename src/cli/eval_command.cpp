@@ -48,7 +48,7 @@ void print_height_tables(const eval::Results& results, const eval::TextStyle& st
   fmt::print(
       "Heights above the ground against the truth, points of the ground, by horizontal range. "
       "Means over scans,\ncm: median of the absolute error, 95 %: its 95th percentile, bias: mean "
-      "error. Share: percent of points with a height\n\n{}\n",
+      "error. Coverage: percentage of points with a height\n\n{}\n",
       eval::height_table(results, &eval::HeightResult::ground, style));
   fmt::print("The same over all points, also where the ground is hidden\n\n{}\n",
              eval::height_table(results, &eval::HeightResult::everywhere, style));
@@ -59,7 +59,7 @@ void print_tables(const eval::Results& results, bool speed) {
   fmt::print(
       "Protocol {}, {}; percent. Means over scans, std: sample standard deviation, ±95%: half "
       "width of the\n95 % interval of the mean (Student's t, scans taken for independent). "
-      "F1/area: each 0.5 m cell of each scan counts once. Hz: with {}.\n\n{}\n",
+      "F1/cell: each 0.5 m BEV cell of each scan counts once. Hz: with {}.\n\n{}\n",
       results.protocol, app::scans_text(results),
       results.threads == 1 ? "one thread" : fmt::format("{} threads at work", results.threads),
       eval::accuracy_table(results, style));

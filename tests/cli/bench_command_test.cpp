@@ -196,7 +196,7 @@ TEST(Bench, APeerThatFailsIsLeftOutAndTheOthersGoOn) {
   const json bench = json::parse(outcome.out);
   EXPECT_EQ(bench["rounds"], 300);
   EXPECT_EQ(bench["external_tools"]["pypatchworkpp-patchwork"]["left_out"],
-            "its worker ended too early");
+            "its worker exited early");
   EXPECT_EQ(bench["external_tools"]["pypatchworkpp-patchwork"]["samples"], 1);
 }
 

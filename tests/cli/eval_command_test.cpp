@@ -726,8 +726,8 @@ TEST_F(EvalCommand, WrongUsageIsOneLine) {
       {{"--methods", "surface", "--preset", "paper"}, "surface has no presets"},
       {{"--images", "-1"}, "--images"},
       {{"--label-map", "mine"}, "{flagstone,semantic-kitti}"},
-      {{path("empty")}, "empty: no dataset"},
-      {{path("gone")}, "gone: no such folder"},
+      {{path("empty")}, "empty: not a dataset"},
+      {{path("gone")}, "gone: no such directory"},
       {{path("kitti")}, "scan kitti/a is listed twice"},
   };
   fs::create_directories(folder_ / "empty");

@@ -81,7 +81,8 @@ Trial TimedSegment::run_trial(std::size_t scan) {
   const double milliseconds = stopwatch.lap();
   allocations_ = allocation_count().calls - calls_before;
   if (status.code() == StatusCode::out_of_memory) {
-    throw std::runtime_error("not enough memory to segment a scan; bench fewer at a time");
+    throw std::runtime_error(
+        "not enough memory to segment a scan (benchmark fewer scans at a time)");
   }
   if (!status.ok()) throw std::runtime_error(status.message());
   return {

@@ -87,7 +87,7 @@ std::string reason_of(int error) { return std::generic_category().message(error)
 std::array<int, 2> connected_sockets() {
   std::array<int, 2> sockets{};
   if (::socketpair(AF_UNIX, SOCK_STREAM, 0, sockets.data()) != 0) {
-    throw ExternalToolError(fmt::format("cannot be talked to: {}", reason_of(errno)));
+    throw ExternalToolError(fmt::format("cannot be connected: {}", reason_of(errno)));
   }
   for (const int socket : sockets) ::fcntl(socket, F_SETFD, FD_CLOEXEC);
 #ifdef SO_NOSIGPIPE
@@ -127,7 +127,7 @@ void ExternalProcess::send(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t sent = ::send(socket_.get(), bytes.data(), bytes.size(), send_flags);
     if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) throw ExternalToolError("its worker ended too early");
+    if (sent < 0) throw ExternalToolError("its worker exited early");
     bytes = bytes.subspan(static_cast<std::size_t>(sent));
   }
 }
@@ -141,16 +141,18 @@ std::string ExternalProcess::read_line(std::chrono::seconds patience) {
   constexpr std::size_t longest = 1000;
   const std::chrono::milliseconds wait = patience;
   while (unread_.find('\n') == std::string::npos) {
-    if (unread_.size() > longest) throw ExternalToolError("its worker talks without end");
+    if (unread_.size() > longest)
+      throw ExternalToolError("its worker printed a line of more than 1000 bytes");
     pollfd waiting{.fd = socket_.get(), .events = POLLIN, .revents = 0};
     const int ready = ::poll(&waiting, 1, static_cast<int>(wait.count()));
     if (ready < 0) throw ExternalToolError("interrupted");
     if (ready == 0) {
-      throw ExternalToolError(fmt::format("its worker said nothing for {} s", patience.count()));
+      throw ExternalToolError(
+          fmt::format("its worker did not answer within {} s", patience.count()));
     }
     std::array<char, 256> part{};
     const ssize_t size = ::read(socket_.get(), part.data(), part.size());
-    if (size <= 0) throw ExternalToolError("its worker ended too early");
+    if (size <= 0) throw ExternalToolError("its worker exited early");
     unread_.append(part.data(), static_cast<std::size_t>(size));
   }
   const std::size_t end = unread_.find('\n');
@@ -201,7 +203,7 @@ ExternalToolCommand python_tool(const ExternalToolPaths& places, const std::stri
       name, {places.python, worker, name, fmt::format("{}", sensor_height)}, ""};
   if (!is_file(worker)) {
     tool.missing = fmt::format(
-        "{}: no such file; name bench/peer_worker.py of flagstone's sources with --compare-worker",
+        "{}: no such file (pass bench/peer_worker.py of flagstone's sources with --compare-worker)",
         io::printable(worker));
   }
   return tool;
@@ -210,7 +212,7 @@ ExternalToolCommand python_tool(const ExternalToolPaths& places, const std::stri
 ExternalToolCommand pcl_tool() {
   const std::string worker = beside_this_program("bench/pcl_ransac");
   if (is_file(worker)) return {"pcl-ransac", {worker}, ""};
-  return {"pcl-ransac", {}, "not built, since CMake found no PCL (Debian: libpcl-dev)"};
+  return {"pcl-ransac", {}, "not built, because CMake did not find PCL (Debian: libpcl-dev)"};
 }
 
 /// The two numbers of "NANOSECONDS GROUND"; what it says instead is why it failed.
@@ -221,7 +223,7 @@ std::array<std::uint64_t, 2> numbers_of(std::string_view answer) {
   for (std::uint64_t& number : numbers) {
     const auto [after, error] = std::from_chars(at, end, number);
     if (error != std::errc()) {
-      throw ExternalToolError(fmt::format("its worker said {}", io::quote(answer)));
+      throw ExternalToolError(fmt::format("its worker answered {}", io::quote(answer)));
     }
     at = after == end ? end : after + 1;
   }

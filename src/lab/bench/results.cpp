@@ -120,7 +120,7 @@ std::string row(const Results& results, std::string_view name, const Measured& m
       "{:<27}{}{}{}{}{}{}{:>9}\n", name, cell(times.median(), 10, 3),
       cell(times.percentile_99(), 10, 3),
       cell(times.points_per_second(results.points) / 1e6, 12, 1),
-      cell(times.ratio_to(results.floor.times), 9, 2),
+      cell(times.ratio_to(results.floor.times), 12, 2),
       cell(times.ratio_to(results.segment.times), 11, 3),
       finds_ground ? cell(100 * ground_share(results, measured), 10, 2) : cell(NAN, 10, 2),
       times.count());
@@ -128,10 +128,10 @@ std::string row(const Results& results, std::string_view name, const Measured& m
 
 std::string candidates(const Results& results) {
   std::string text =
-      fmt::format("{:<27}{:>10}{:>10}{:>12}{:>9}{:>11}{:>10}{:>9}\n", "", "median ms", "p99 ms",
-                  "Mpoints/s", "x floor", "x segment", "ground %", "samples");
+      fmt::format("{:<27}{:>10}{:>10}{:>12}{:>12}{:>11}{:>10}{:>9}\n", "", "median ms", "p99 ms",
+                  "Mpoints/s", "x baseline", "x segment", "ground %", "samples");
   text += row(results, "segment", results.segment);
-  text += row(results, "read baseline (floor)", results.floor, false);
+  text += row(results, "read-only baseline", results.floor, false);
   text += row(results, "segment, scalar build", results.scalar);
   for (const ExternalToolResult& tool : results.external_tools) {
     if (tool.measured.times.count() > 0) text += row(results, tool.name, tool.measured);
@@ -142,15 +142,15 @@ std::string candidates(const Results& results) {
 std::string stages(const Results& results) {
   double sum = 0;
   for (const StageResult& stage : results.stages) sum += stage.times.median();
-  std::string text = fmt::format("{:<27}{:>10}{:>10}{:>12}{:>9}{:>11}\n", "stage", "median µs",
-                                 "p99 µs", "ns a point", "x floor", "share %");
+  std::string text = fmt::format("{:<27}{:>10}{:>10}{:>12}{:>12}{:>11}\n", "stage", "median µs",
+                                 "p99 µs", "ns/point", "x baseline", "time %");
   for (const StageResult& stage : results.stages) {
     const SampleTimes& times = stage.times;
     text += fmt::format(
         "{:<27}{}{}{}{}{}\n", to_string(stage.stage), cell(1000 * times.median(), 10, 1),
         cell(1000 * times.percentile_99(), 10, 1),
         cell(1e6 * times.median() / mean_points(results), 12, 3),
-        cell(times.ratio_to(results.floor.times), 9, 2), cell(100 * times.median() / sum, 11, 1));
+        cell(times.ratio_to(results.floor.times), 12, 2), cell(100 * times.median() / sum, 11, 1));
   }
   return text + fmt::format("{:<27}{}\n", "sum of the medians", cell(1000 * sum, 10, 1));
 }
@@ -161,8 +161,8 @@ std::string memory(const Results& results) {
   }
   const auto held = static_cast<double>(*results.bytes_held);
   return fmt::format(
-      "allocations in a scan after warm-up: {}\n"
-      "memory held by segmenter and result: {:.1f} bytes a point of the largest scan ({:.2f} MB)\n",
+      "maximum allocations per scan after warm-up: {}\n"
+      "memory of segmenter and result: {:.1f} bytes per point of the largest scan ({:.2f} MB)\n",
       *results.allocations, held / static_cast<double>(std::ranges::max(results.points)),
       held / 1e6);
 }
@@ -170,7 +170,7 @@ std::string memory(const Results& results) {
 std::string left_out(const Results& results) {
   std::string text;
   for (const ExternalToolResult& tool : results.external_tools) {
-    if (!tool.left_out.empty()) text += fmt::format("{} left out: {}\n", tool.name, tool.left_out);
+    if (!tool.left_out.empty()) text += fmt::format("{} excluded: {}\n", tool.name, tool.left_out);
   }
   return text;
 }

@@ -143,9 +143,10 @@ Status Checkpoint::open(const std::filesystem::path& path) {
 
 Status Checkpoint::start(const std::filesystem::path& path, const std::string& evaluation) {
   if (holds_scans(path)) {
-    return io::refuse(path,
-                      "holds the scans that an interrupted run finished; go on with --resume, or "
-                      "delete it to start afresh");
+    return io::refuse(
+        path,
+        "contains the finished scans of an interrupted run (continue it with --resume, or "
+        "delete the file to start again)");
   }
   Status status = io::write_file(path, std::string_view(heading_of(evaluation)));
   return status.ok() ? open(path) : status;
@@ -158,12 +159,13 @@ Status Checkpoint::resume(const std::filesystem::path& path, const std::string& 
   std::string line;
   std::getline(old, line);
   if (!line.starts_with(heading_begin)) {
-    return io::with_path(path, Status(StatusCode::bad_file, "is no checkpoint of an evaluation"));
+    return io::with_path(path,
+                         Status(StatusCode::bad_file, "is not a checkpoint of an evaluation"));
   }
   if (line + "\n" != heading_of(evaluation)) {
     return io::refuse(path,
-                      "is of an evaluation with other datasets, methods, settings or protocol; "
-                      "delete it to start afresh");
+                      "belongs to an evaluation with other datasets, methods, settings or protocol "
+                      "(delete the file to start again)");
   }
   // Written anew and whole, so that a line cut short does not spoil the next.
   std::string kept = heading_of(evaluation);

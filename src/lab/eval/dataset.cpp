@@ -63,7 +63,9 @@ Status add_velodyne(const fs::path& folder, const std::string& prefix, std::size
                      .ground = is_file(ground) ? ground : fs::path()});
   }
   if (labelled == 0) {
-    return io::refuse(folder, "no scan in velodyne/ has a .label file of its name in labels/");
+    return io::refuse(
+        folder,
+        "no scan in velodyne/ has labels (expected labels/NAME.label for velodyne/NAME.bin)");
   }
   return {};
 }
@@ -94,8 +96,8 @@ Status add_tree(const fs::path& folder, const Selection& selection,
   }
   if (sequences.empty()) {
     return io::refuse(folder,
-                      "no sequence has both velodyne/ and labels/; SemanticKITTI's labels "
-                      "are a download of their own");
+                      "no sequence has both velodyne/ and labels/ (SemanticKITTI's labels are a "
+                      "separate download)");
   }
   for (const fs::path& sequence : sequences) {
     const std::string prefix = sequence.filename().string() + "/";
@@ -119,21 +121,22 @@ Status add_lidarseg(const fs::path& folder, std::size_t every, std::vector<Label
   }
   if (labelled > 0) return {};
   return io::refuse(folder,
-                    "no dataset; allowed: a folder with sequences/NN/velodyne and labels, with "
-                    "velodyne/ and labels/, or with NAME.pcd.bin and NAME_lidarseg.bin");
+                    "not a dataset (expected a directory with sequences/NN/velodyne/ and "
+                    "sequences/NN/labels/, with velodyne/ and labels/, or with NAME.pcd.bin and "
+                    "NAME_lidarseg.bin)");
 }
 
 }  // namespace
 
 Status list_dataset(const fs::path& folder, const Selection& selection,
                     std::vector<LabelledScan>& scans) {
-  if (!is_folder(folder)) return io::refuse(folder, "no such folder");
+  if (!is_folder(folder)) return io::refuse(folder, "no such directory");
   const std::size_t every = std::max<std::size_t>(selection.every, 1);
   if (const fs::path tree = folder_of_sequences(folder); !tree.empty()) {
     return add_tree(tree, {selection.sequences, every}, scans);
   }
   if (!selection.sequences.empty()) {
-    return io::refuse(folder, fmt::format("has no sequences/ to pick {} from",
+    return io::refuse(folder, fmt::format("has no sequences/ to select {} from",
                                           fmt::join(selection.sequences, ", ")));
   }
   if (is_folder(folder / "velodyne")) return add_velodyne(folder, "", every, scans);

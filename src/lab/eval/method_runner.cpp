@@ -29,10 +29,9 @@ void MethodRunner::prepare(const io::Cloud& cloud) {
 Status MethodRunner::segment(const io::Cloud& cloud, Segmentation& result) {
   Status status = levelled_->segment(cloud.view(), result);
   if (status.ok() || !status.message().empty()) return status;
-  return Status(status.code(),
-                status.code() == StatusCode::out_of_memory
-                    ? fmt::format("{} points are more than the memory holds", cloud.size())
-                    : fmt::format("{} points cannot be segmented", cloud.size()));
+  return Status(status.code(), status.code() == StatusCode::out_of_memory
+                                   ? fmt::format("not enough memory for {} points", cloud.size())
+                                   : fmt::format("cannot segment {} points", cloud.size()));
 }
 
 }  // namespace flagstone::eval

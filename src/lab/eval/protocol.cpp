@@ -131,21 +131,24 @@ Json parse(std::string_view text, bool is_toml) {
     refuse(fmt::format("line {}, column {}: {}", error.source().begin.line,
                        error.source().begin.column, error.description()));
   } catch (const Json::parse_error& error) {
-    refuse(fmt::format("byte {}: not JSON", error.byte));
+    refuse(fmt::format("byte {}: invalid JSON", error.byte));
   } catch (const Json::out_of_range&) {
-    refuse("holds a number beyond what a double can be; allowed: class ids and heights in metres");
+    refuse(
+        "contains a number beyond the range of a double (expected class ids and heights in "
+        "metres)");
   }
 }
 
 /// What a value is, briefly: lists and tables may be of any depth.
 std::string text_of(const Json& value) {
-  return value.is_primitive() ? value.dump() : std::string("a ") + value.type_name();
+  return value.is_primitive() ? value.dump() : std::string("an ") + value.type_name();
 }
 
 std::uint32_t id_of(const Json& value, const std::string& key) {
   const bool is_id = value.is_number_integer() && value >= 0 && value <= last_id;
   if (!is_id)
-    refuse(fmt::format("{} holds {}; allowed: class ids, 0 to {}", key, text_of(value), last_id));
+    refuse(
+        fmt::format("{} contains {} (expected class ids, 0 to {})", key, text_of(value), last_id));
   return value.get<std::uint32_t>();
 }
 
@@ -153,7 +156,7 @@ std::vector<std::uint32_t> ids_of(const Json& root, const std::string& key) {
   std::vector<std::uint32_t> ids;
   const auto found = root.find(key);
   if (found == root.end()) return ids;
-  if (!found->is_array()) refuse(fmt::format("{} is no list of class ids", key));
+  if (!found->is_array()) refuse(fmt::format("{} must be a list of class ids", key));
   for (const Json& id : *found) ids.push_back(id_of(id, key));
   return ids;
 }
@@ -162,7 +165,7 @@ float height_of(const Json& value) {
   constexpr double most = 1000;
   const auto height = value.get<double>();
   if (!(std::abs(height) <= most)) {
-    refuse(fmt::format("low_ground.height is {}; allowed: -{} to {} m", height, most, most));
+    refuse(fmt::format("low_ground.height is {} (expected -{} to {} m)", height, most, most));
   }
   return static_cast<float>(height);
 }
@@ -171,11 +174,11 @@ std::vector<Protocol::LowGround> low_ground_of(const Json& root) {
   std::vector<Protocol::LowGround> all;
   const auto found = root.find("low_ground");
   if (found == root.end()) return all;
-  if (!found->is_array()) refuse("low_ground is no list of {id, height}");
+  if (!found->is_array()) refuse("low_ground must be a list of {id, height}");
   for (const Json& low : *found) {
     if (!low.is_object() || !low.contains("id") || !low.contains("height") ||
         !low["height"].is_number()) {
-      refuse(fmt::format("low_ground holds {}; allowed: {{id, height}}, height in metres",
+      refuse(fmt::format("low_ground contains {} (expected {{id, height}}, height in metres)",
                          text_of(low)));
     }
     all.push_back({id_of(low["id"], "low_ground.id"), height_of(low["height"])});
@@ -195,7 +198,7 @@ void check_lists(const Protocol& protocol, const std::vector<std::uint32_t>& not
   const auto twice = std::ranges::adjacent_find(all);
   if (twice != all.end()) refuse(fmt::format("class {} is listed twice", *twice));
   if (protocol.ground.empty() && protocol.low_ground.empty()) {
-    refuse("ground is missing or empty; list the class ids that are ground");
+    refuse("ground is missing or empty (list the class ids that are ground)");
   }
 }
 
@@ -205,7 +208,8 @@ void check_keys(const Json& root) {
                                 "low_ground", "labels", "names",   "note"};
   for (const auto& [key, value] : root.items()) {
     if (std::ranges::find(known, key) == known.end()) {
-      refuse(fmt::format("{} is no key of a protocol; allowed: {}", key, fmt::join(known, ", ")));
+      refuse(fmt::format("{} is not a key of a protocol (expected one of {})", key,
+                         fmt::join(known, ", ")));
     }
   }
 }
@@ -213,21 +217,22 @@ void check_keys(const Json& root) {
 /// Figures go by the protocol's name: it is one line, and no other protocol's.
 void check_name(const std::string& name) {
   if (name.empty() || io::printable(name) != name) {
-    refuse("name is empty or holds what cannot be printed");
+    refuse("name is empty or contains unprintable characters");
   }
   for (const Protocol* known : known_protocols()) {
     if (known->name == name) {
-      refuse(fmt::format("a protocol of its own cannot be called {}; give it another name", name));
+      refuse(
+          fmt::format("the name {} is taken by a built-in protocol (choose another name)", name));
     }
   }
 }
 
 Protocol protocol_of(const Json& root, std::string name) {
-  if (!root.is_object()) refuse("is no table with the key ground");
+  if (!root.is_object()) refuse("must be a table with the key ground");
   Protocol protocol;
   check_keys(root);
   if (const auto own = root.find("name"); own != root.end()) {
-    if (!own->is_string()) refuse(fmt::format("name is {}; allowed: text", text_of(*own)));
+    if (!own->is_string()) refuse(fmt::format("name must be a string, got {}", text_of(*own)));
     name = own->get<std::string>();
   }
   check_name(name);
@@ -244,7 +249,7 @@ Protocol protocol_of(const Json& root, std::string name) {
 Status read_protocol(const std::filesystem::path& path, Protocol& out) {
   const bool is_toml = path.extension() == ".toml";
   if (!is_toml && path.extension() != ".json") {
-    return io::refuse(path, "a protocol's file ends in .toml or .json");
+    return io::refuse(path, "unknown file extension of a protocol (expected .toml or .json)");
   }
   std::vector<std::byte> bytes;
   if (Status status = io::load_bytes(path, bytes); !status.ok()) return status;
@@ -269,7 +274,7 @@ Status find_protocol(const std::string& name_or_file, Protocol& out) {
   if (name_or_file.ends_with(".toml") || name_or_file.ends_with(".json")) {
     return read_protocol(name_or_file, out);
   }
-  return io::invalid("no protocol is named \"{}\"; there are {}or a .toml or .json file",
+  return io::invalid("no protocol is named \"{}\" (expected {}or a .toml or .json file)",
                      name_or_file, known);
 }
 

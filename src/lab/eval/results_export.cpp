@@ -18,7 +18,7 @@
 
 namespace flagstone::eval {
 std::string machine_name() {
-  std::string name = "processor of unknown name";
+  std::string name = "unknown CPU";
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);) {
     const std::size_t colon = line.find(": ");

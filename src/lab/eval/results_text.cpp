@@ -77,8 +77,8 @@ std::string footnotes(const Results& results) {
   std::string text;
   for (const MethodResult& result : results.methods) {
     if (is_complete(results, result)) continue;
-    text += fmt::format("{}: {} of {} scans\n", io::printable(result.title), result.scans.size(),
-                        results.scans);
+    text += fmt::format("{}: scored on {} of {} scans\n", io::printable(result.title),
+                        result.scans.size(), results.scans);
   }
   return text;
 }
@@ -132,7 +132,7 @@ std::string accuracy_table(const Results& results, const TextStyle& style) {
       {"±95%", 6, 2, [](const auto& r) { return in_percent(r.f1.ci95); }, false, false},
       {"accuracy", 10, 2, [](const auto& r) { return in_percent(r.accuracy.mean); }},
       {"IoU", 8, 2, [](const auto& r) { return in_percent(r.iou.mean); }},
-      {"F1/area", 9, 2, [](const auto& r) { return in_percent(r.by_area.f1()); }},
+      {"F1/cell", 9, 2, [](const auto& r) { return in_percent(r.by_area.f1()); }},
       {"Hz", 9, 1, [](const auto& r) { return r.hz; }},
   };
   std::string text = table(results, columns, style);
@@ -191,7 +191,7 @@ std::string height_table(const Results& results, HeightFiguresByRange HeightResu
     add(headings[band], 11, mean_of(&HeightFigures::median), true, true);
     add("95 %", 7, mean_of(&HeightFigures::percentile95), true, true);
     add("bias", 7, mean_of(&HeightFigures::bias), true, false);
-    add("share", 7, [](const auto& figures) { return in_percent(figures.share); }, false, true);
+    add("coverage", 9, [](const auto& figures) { return in_percent(figures.share); }, false, true);
   }
   return table(judged, columns, style);
 }
@@ -225,7 +225,7 @@ std::string time_shares(const Results& results) {
   if (all <= 0) return "";
   return fmt::format(
       "time: reading {:.0f} %, segmenting {:.0f} %, scoring {:.0f} % of {:.1f} s "
-      "over {} threads\n",
+      "(sum of {} threads)\n",
       percent * time.read / all, percent * time.segment / all, percent * time.score / all,
       all / 1000, results.threads);
 }

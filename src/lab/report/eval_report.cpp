@@ -104,7 +104,7 @@ std::string method_table(const Json& methods) {
       {"F1, %", "± 95 %", "/f1/ci95", percent, false},
       {"Mean, %", "Accuracy", "/accuracy/mean", percent, true},
       {"Mean, %", "IoU", "/iou/mean", percent, true},
-      {"By area, %", "F1", "/by_area/f1", percent, true},
+      {"Per BEV cell, %", "F1", "/by_area/f1", percent, true},
       {"Speed, Hz", "mean", "/hz", number, true},
       {"Speed, Hz", "slowest 1 %", "/hz_slowest_1_percent", number, true},
   }};
@@ -116,19 +116,19 @@ std::string pooled_table(const Json& results) {
   using enum Format;
   std::vector<Column> columns = {
       {"", "Method", "/title", text, false},
-      {"All points, %", "Precision", "/pooled/precision", percent, true},
-      {"All points, %", "Recall", "/pooled/recall", percent, true},
-      {"All points, %", "F1", "/pooled/f1", percent, true},
-      {"All points, %", "Accuracy", "/pooled/accuracy", percent, true},
-      {"All points, %", "IoU", "/pooled/iou", percent, true},
+      {"Micro-average, %", "Precision", "/pooled/precision", percent, true},
+      {"Micro-average, %", "Recall", "/pooled/recall", percent, true},
+      {"Micro-average, %", "F1", "/pooled/f1", percent, true},
+      {"Micro-average, %", "Accuracy", "/pooled/accuracy", percent, true},
+      {"Micro-average, %", "IoU", "/pooled/iou", percent, true},
   };
   const std::vector<std::string> bands = range_bands(results);
   for (std::size_t band = 0; band < bands.size(); ++band)
     columns.push_back(
         {"F1 by range, %", bands[band], fmt::format("/by_range/{}/f1", band), percent, true});
-  columns.push_back({"By area, %", "Precision", "/by_area/precision", percent, true});
-  columns.push_back({"By area, %", "Recall", "/by_area/recall", percent, true});
-  columns.push_back({"By area, %", "F1", "/by_area/f1", percent, true});
+  columns.push_back({"Per BEV cell, %", "Precision", "/by_area/precision", percent, true});
+  columns.push_back({"Per BEV cell, %", "Recall", "/by_area/recall", percent, true});
+  columns.push_back({"Per BEV cell, %", "F1", "/by_area/f1", percent, true});
   return table(results.at("methods"), columns);
 }
 
@@ -144,7 +144,7 @@ std::string height_table(const Json& methods, const Json& bands, std::string_vie
     columns.push_back({group, "Median", path("median/mean"), length, true});
     columns.push_back({group, "95 %", path("percentile95/mean"), length, true});
     columns.push_back({group, "Bias", path("bias/mean"), length, false});
-    columns.push_back({group, "Share, %", path("with_height"), percent, true});
+    columns.push_back({group, "Coverage, %", path("with_height"), percent, true});
   }
   return table(methods, columns);
 }
@@ -156,12 +156,13 @@ std::string height_section(const Json& methods) {
   if (judged.empty()) return {};
   const Json& bands = judged.front().at("heights").at("ground").at("by_range");
   return fmt::format(
-      "<section>\n<h2>Heights above the ground</h2>\n<h3>Points of the ground</h3>\n{}"
+      "<section>\n<h2>Heights above the ground</h2>\n<h3>Ground points</h3>\n{}"
       "<h3>All points</h3>\n{}"
-      "<p class=\"note\">Against the true ground, by distance from the sensor; means over the "
-      "scans. Median and 95 %: half of the points, and 95 in a hundred, have an absolute error of "
-      "at most that. Bias: mean error, above 0 where the ground is put too low. Share: points for "
-      "which the method has a height. All points: also those on what hides the ground.</p>\n"
+      "<p class=\"note\">Estimated height minus true height, by distance from the sensor, averaged "
+      "over the scans. Median and 95 %: median and 95th percentile of the absolute error. Bias: "
+      "mean error; a positive bias means that the estimated ground is too low. Coverage: fraction "
+      "of the points for which the method provides a height. All points: ground points and points "
+      "on objects that hide the ground.</p>\n"
       "</section>\n",
       height_table(judged, bands, "ground"), height_table(judged, bands, "everywhere"));
 }
@@ -188,10 +189,10 @@ std::string worst_scans(const Json& methods) {
 
 std::string failed_scans(const Json& failed) {
   if (failed.empty()) return {};
-  std::string html = fmt::format(
-      "<section>\n<h2>Scans left out</h2>\n<p>{} could not be evaluated and count nowhere.</p>\n"
-      "<ul class=\"failed\">\n",
-      failed.size() == 1 ? "One scan" : fmt::format("{} scans", failed.size()));
+  std::string html =
+      "<section>\n<h2>Failures</h2>\n<p>A scan that cannot be read is excluded from all results. A "
+      "scan on which a method fails is excluded from the results of that method.</p>\n"
+      "<ul class=\"failed\">\n";
   for (const Json& scan : failed)
     html +=
         fmt::format("<li><code>{}</code> {}</li>\n", escaped(scan.at("scan").get<std::string>()),
@@ -202,8 +203,9 @@ std::string failed_scans(const Json& failed) {
 std::string picture_gallery(std::span<const ReportPicture> pictures) {
   if (pictures.empty()) return {};
   std::string html =
-      "<section>\n<h2>Pictures</h2>\n<p>Scans from above, x (forward) up. Green: ground found; "
-      "blue: ground missed; red: taken for ground and is not; grey: rightly not ground.</p>\n";
+      "<section>\n<h2>Images</h2>\n<p>Bird's-eye views of scans, with x (forward) up. Green: "
+      "ground labelled ground (true positives); blue: missed ground (false negatives); red: other "
+      "points labelled ground (false positives); grey: other points (true negatives).</p>\n";
   for (const ReportPicture& picture : pictures) {
     const std::string title = escaped(picture.title);
     html += fmt::format(
@@ -215,9 +217,8 @@ std::string picture_gallery(std::span<const ReportPicture> pictures) {
 }
 
 std::string title_of(const Json& results) {
-  return fmt::format("Ground segmentation under protocol {}: {} of {}",
-                     results.at("protocol").get<std::string>(), scan_count(results),
-                     dataset_names(results));
+  return fmt::format("Ground segmentation of {} ({}), protocol {}", dataset_names(results),
+                     scan_count(results), results.at("protocol").get<std::string>());
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ std::string page(std::string_view title, std::string_view body, const nlohmann::
 std::string facts(const nlohmann::ordered_json& results) {
   return fact("Protocol", results.at("protocol").get<std::string>()) +
          fact("Scans", number_text(results.at("scans"))) +
-         fact("Data sets", dataset_names(results)) +
+         fact("Datasets", dataset_names(results)) +
          fact("Machine", results.at("machine").get<std::string>()) +
          fact("Date", results.at("date").get<std::string>()) +
          fact("flagstone", results.at("flagstone").get<std::string>());

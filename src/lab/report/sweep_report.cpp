@@ -68,11 +68,12 @@ class SweepGrid {
 
 SweepGrid::SweepGrid(const Json& results)
     : keys_(results.at("keys").get<std::vector<std::string>>()), values_(keys_.size()) {
-  if (keys_.empty() || keys_.size() > 2) throw std::invalid_argument("a sweep has one or two keys");
+  if (keys_.empty() || keys_.size() > 2)
+    throw std::invalid_argument("a sweep must have one or two keys");
   for (const Json& cell : results.at("cells")) {
     auto place = cell.at("values").get<std::vector<std::string>>();
     if (place.size() != keys_.size())
-      throw std::invalid_argument("a cell of a sweep has a value per key");
+      throw std::invalid_argument("a cell of a sweep must have one value per key");
     for (std::size_t key = 0; key < place.size(); ++key)
       if (std::ranges::find(values_[key], place[key]) == values_[key].end())
         values_[key].push_back(place[key]);
@@ -139,8 +140,8 @@ std::string all_settings(const Json& results) {
 
 std::string canvases() {
   std::string html =
-      "<section>\n<h2>Plots</h2>\n<noscript><p>The plots need JavaScript; the table holds the same "
-      "numbers.</p></noscript>\n<div class=\"plots\">\n";
+      "<section>\n<h2>Plots</h2>\n<noscript><p>The plots need JavaScript; the table contains the "
+      "same numbers.</p></noscript>\n<div class=\"plots\">\n";
   for (const auto& [name, title] : metrics)
     html += fmt::format(
         "<div class=\"plot\"><h3>{1}</h3><p>Mean and standard deviation over the scans, %</p>\n"
@@ -175,8 +176,8 @@ std::string heat_table(const SweepGrid& grid, const Metric& metric) {
 
 std::string heat_tables(const SweepGrid& grid) {
   std::string html =
-      "<section>\n<h2>Means of all settings</h2>\n<p class=\"note\">The darker a cell, the higher "
-      "its mean among all settings.</p>\n";
+      "<section>\n<h2>Means of all settings</h2>\n<p class=\"note\">Darker cells have a higher "
+      "mean.</p>\n";
   for (const Metric& metric : metrics) html += heat_table(grid, metric);
   return html + "</section>\n";
 }
@@ -206,10 +207,10 @@ std::string sweep_report(const Json& results) {
   constexpr std::size_t most_lines = 6;
   const bool heat = grid.keys().size() == 2 && grid.values(1).size() > most_lines &&
                     grid.is_numeric(0) && grid.is_numeric(1);
-  const std::string title = fmt::format(
-      "{} of {} under protocol {}: {} of {}", fmt::join(grid.keys(), " and "),
-      results.at("method").get<std::string>(), results.at("protocol").get<std::string>(),
-      scan_count(results), dataset_names(results));
+  const std::string title =
+      fmt::format("Sweep of {} for {} on {} ({}), protocol {}", fmt::join(grid.keys(), " and "),
+                  results.at("method").get<std::string>(), dataset_names(results),
+                  scan_count(results), results.at("protocol").get<std::string>());
   const std::string heading = escaped(title);
   const std::string fact_list = facts(results);
   const std::string winner = escaped(results.at("winner").get<std::string>());

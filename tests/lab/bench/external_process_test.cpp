@@ -49,20 +49,21 @@ TEST(ExternalProcess, ThatDoesNotExistIsNamed) {
 TEST(ExternalProcess, ThatEndsIsAnErrorForReaderAndWriter) {
   ExternalProcess tool({"true"});
 
-  EXPECT_EQ(error_of([&] { tool.read_line(60s); }), "its worker ended too early");
-  EXPECT_EQ(error_of([&] { tool.send_line("run 1"); }), "its worker ended too early");
+  EXPECT_EQ(error_of([&] { tool.read_line(60s); }), "its worker exited early");
+  EXPECT_EQ(error_of([&] { tool.send_line("run 1"); }), "its worker exited early");
 }
 
 TEST(ExternalProcess, ThatSaysNothingIsNotWaitedForForever) {
   ExternalProcess tool({"sleep", "600"});
 
-  EXPECT_EQ(error_of([&] { tool.read_line(1s); }), "its worker said nothing for 1 s");
+  EXPECT_EQ(error_of([&] { tool.read_line(1s); }), "its worker did not answer within 1 s");
 }
 
 TEST(ExternalProcess, ThatNeverEndsItsLineIsAnError) {
   ExternalProcess tool({"sh", "-c", "while :; do printf 0123456789; done"});
 
-  EXPECT_EQ(error_of([&] { tool.read_line(60s); }), "its worker talks without end");
+  EXPECT_EQ(error_of([&] { tool.read_line(60s); }),
+            "its worker printed a line of more than 1000 bytes");
 }
 
 }  // namespace

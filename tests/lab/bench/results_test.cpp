@@ -104,15 +104,14 @@ TEST(Results, TextHasARowForEveryCandidateAndStage) {
                               "rotation, 1 round after"));
   EXPECT_THAT(text, HasSubstr("pinned to core 3"));
   EXPECT_THAT(text, ContainsRegex("segment +0.400 +0.400 +5.0 +4.00 +1.000 +25.00 +2\n"));
-  EXPECT_THAT(text,
-              ContainsRegex("read baseline \\(floor\\) +0.100 +0.100 +20.0 +1.00 +0.250 +- +2\n"));
+  EXPECT_THAT(text, ContainsRegex("read-only baseline +0.100 +0.100 +20.0 +1.00 +0.250 +- +2\n"));
   EXPECT_THAT(text, ContainsRegex("there +8.000 +8.000 +0.1 +80.00 +20.000 +40.00 +1\n"));
   for (const char* stage : {"bin", "group", "gather", "seed", "moments", "solve", "label"}) {
     EXPECT_THAT(text,
                 ContainsRegex(std::string("\n") + stage + " +50.0 +50.0 +25.000 +0.50 +14.3\n"));
   }
-  EXPECT_THAT(text, AllOf(HasSubstr("after warm-up: 2\n"), HasSubstr("20.0 bytes a point"),
-                          HasSubstr("gone left out: No module named 'gone'\n")));
+  EXPECT_THAT(text, AllOf(HasSubstr("after warm-up: 2\n"), HasSubstr("20.0 bytes per point"),
+                          HasSubstr("gone excluded: No module named 'gone'\n")));
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ TEST_F(ThreeScans, AMethodThatMissesScansIsNotComparedAndSaysSo) {
   const Results results = gather(methods_, scans_, outcomes_);
 
   EXPECT_THAT(accuracy_table(results, {}), AllOf(HasSubstr("80.00*"), Not(HasSubstr("99.00*")),
-                                                 HasSubstr("second: 1 of 2 scans")));
+                                                 HasSubstr("second: scored on 1 of 2 scans")));
 }
 
 TEST_F(ThreeScans, AScanWithoutAScoredPointCountsNowhere) {

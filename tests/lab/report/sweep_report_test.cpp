@@ -25,7 +25,7 @@ TEST(SweepReport, SaysWhatWasSweptAndWhichSettingWon) {
   const std::string page = sweep_report(example_sweep(3, 2));
 
   for (const char* fact :
-       {"bins and uprightness.angle of r_gpf", "10 scans", "20x36 won by 1.3 intervals"})
+       {"Sweep of bins and uprightness.angle for r_gpf", "10 scans", "20x36 won by 1.3 intervals"})
     EXPECT_THAT(page, HasSubstr(fact));
 }
 

@@ -201,7 +201,7 @@ function scans_plot() {
         }},
       },
       scales: {
-        x: axis('Share of the scans, %', {type: 'linear', min: 0, max: 100}),
+        x: axis('Fraction of the scans, %', {type: 'linear', min: 0, max: 100}),
         y: axis('F1, %'),
       },
     },
