@@ -44,7 +44,7 @@ class GravityAlignedSegmenter final : public Segmenter {
   /// The mounting pose used for the last scan; before the first scan, the configured one.
   [[nodiscard]] const Mount& mount() const noexcept;
 
-  /// The decision about the last scan. Its verdict is `fixed` if nothing was estimated from it.
+  /// The decision about the last scan. Its `verdict` is `fixed` if nothing was estimated from it.
   [[nodiscard]] const MountDecision& decision() const noexcept;
 
   /// Clears the state from previous scans.

@@ -23,8 +23,8 @@ struct GroundSample {
 /// contains heights at the centres of its cells, with bilinear interpolation between them. A query
 /// uses the finest grid that has cell centres on all sides of the position. At the boundary of two
 /// grids the heights agree to a few millimetres, or a few centimetres if the ground bends strongly.
-/// In the outer half of the outermost cells, the height is that of the nearest
-/// position between cell centres.
+/// The outer half of the outermost cells has the height of the nearest position between cell
+/// centres.
 ///
 /// Const member functions can be called from several threads at once.
 class GroundSurface {

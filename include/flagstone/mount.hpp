@@ -116,7 +116,7 @@ enum class MountVerdict : std::uint8_t {
   outlier,         ///< rejected: too far from the estimates of previous scans (`track`)
 };
 
-/// Name of a verdict, for example "points_below".
+/// Name of a `MountVerdict`, for example "points_below".
 const char* to_string(MountVerdict verdict) noexcept;
 
 /// The estimate from one scan, whether it was accepted, and the values behind that decision.

@@ -19,7 +19,7 @@ enum class Verdict : std::uint16_t {
   off_surface,     ///< rejected by `surface`: too far from the height that nearer patches predict
 };
 
-/// Name of a verdict, for example "not_upright".
+/// Name of a `Verdict`, for example "not_upright".
 constexpr const char* to_string(Verdict verdict) noexcept {
   switch (verdict) {
     case Verdict::ground: return "ground";

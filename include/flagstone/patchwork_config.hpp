@@ -50,7 +50,7 @@ struct UprightnessTerm {
 };
 
 /// psi, eq. (10): near the sensor, the ground cannot be high.
-/// psi = 1 / (1 + exp((mean z - kappa(r)) / scale)), kappa(r) = -h_s + base * exp(growth * r).
+/// `psi = 1 / (1 + exp((mean z - kappa(r)) / scale))`, `kappa(r) = -h_s + base * exp(growth * r)`.
 struct ElevationTerm {
   /// If false, psi is 1 for every patch.
   bool enabled = true;
@@ -89,8 +89,8 @@ struct FlatnessTerm {
 struct PatchworkConfig {
   /// h_s: height of the origin of the cloud above the ground, metres, -100 to 100. Usually the
   /// origin is at the sensor. If the value is 0 or less, it is not: lengths that scale with the
-  /// height of the sensor are then those of a sensor 1.73 m above the ground. Results do not change
-  /// if all points and sensor_height are shifted together.
+  /// height of the sensor are then computed for a sensor 1.73 m above the ground. Results do not
+  /// change if all points and sensor_height are shifted together.
   float sensor_height = 1.73f;
 
   // Concentric Zone Model, section III-B
@@ -123,8 +123,8 @@ struct PatchworkConfig {
   /// Bins with fewer points than this get no plane, 3 to 1,000,000.
   int min_points = 6;
 
-  /// Label of the points in bins with fewer than `min_points` points: ground if true, nonground if
-  /// false.
+  /// Label of the points in bins with fewer than `min_points` points: `ground` if true, `nonground`
+  /// if false.
   bool sparse_bins_are_ground = false;
 
   /// N_seed: number of lowest points whose mean height starts the fit, 1 to 1,000.

@@ -18,8 +18,8 @@ enum class StatusCode {
   unwritable,        ///< writing a file failed
 };
 
-/// Success, or an error code with a message. The message is one line: where the problem is, what it
-/// is and how to fix it. A successful status has no message and allocates nothing.
+/// Success, or an error code with a message. The message is one line with the location of the
+/// problem, its description and a hint. A successful status has no message and allocates nothing.
 class Status {
  public:
   /// Success.

@@ -8,7 +8,7 @@
 
 namespace flagstone {
 
-/// Settings of Gpf. The initial values are those of the comparison by Patchwork's authors
+/// Settings of Gpf. The initial values are from the comparison by Patchwork's authors
 /// (url-kaist/Ground-Segmentation-Benchmark). Only Th_seeds differs from GPF's own paper.
 struct GpfConfig {
   /// h_s: height of the sensor above the ground, metres, above 0, up to 100.
@@ -61,7 +61,7 @@ struct GpfConfig {
 /// Ground has no lower bound, neither in the seeds nor in the final set: algorithm 1 compares the
 /// signed value of the plane equation, which is negative below the plane. All remaining points
 /// below the plane of a segment are ground. A segment with fewer than three seeds, or later fewer
-/// than three ground points, has no plane and all its points are nonground.
+/// than three ground points, has no plane and all its points are `nonground`.
 class Gpf final : public Segmenter {
  public:
   /// Throws std::invalid_argument naming the field, its value and the allowed range.
@@ -71,7 +71,7 @@ class Gpf final : public Segmenter {
   Gpf& operator=(Gpf&&) noexcept;
 
   /// See Segmenter::segment. result.patches() contains the segments with points, rearmost first,
-  /// numbered by Patch::sector, with verdict `ground` or `no_plane`. The terms of the likelihood
+  /// numbered by Patch::sector, with the status `ground` or `no_plane`. The terms of the likelihood
   /// are zero.
   Status segment(CloudView cloud, Segmentation& result) noexcept override;
 

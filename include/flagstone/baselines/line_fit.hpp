@@ -8,7 +8,7 @@
 
 namespace flagstone {
 
-/// Settings of LineFit. Except for the sensor height, the initial values are those of the
+/// Settings of LineFit. Except for the sensor height, the initial values are from the
 /// implementation that the Patchwork paper compares with (lorenwel/linefit_ground_segmentation).
 /// Two settings that it lacks are marked.
 struct LineFitConfig {

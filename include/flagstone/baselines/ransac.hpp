@@ -50,7 +50,7 @@ struct RansacConfig {
 ///
 /// The method has no up direction. A wall with more points than the ground is mistaken for the
 /// ground. Points within the tolerance on either side of the plane are ground; all others are
-/// nonground, never noise. The samples depend on the seed and on the order of the input.
+/// `nonground`, never `noise`. The samples depend on the seed and on the order of the input.
 class Ransac final : public Segmenter {
  public:
   /// Throws std::invalid_argument naming the field, its value and the allowed range.
@@ -60,7 +60,7 @@ class Ransac final : public Segmenter {
   Ransac& operator=(Ransac&&) noexcept;
 
   /// See Segmenter::segment. result.patches() contains one patch for the whole scan, with its plane
-  /// (verdict `ground`) or without a plane (`no_plane`), or no patch if no point is usable. The
+  /// (status `ground`) or without a plane (`no_plane`), or no patch if no point is usable. The
   /// terms of the likelihood are zero.
   Status segment(CloudView cloud, Segmentation& result) noexcept override;
 
