@@ -67,7 +67,7 @@ surface-figures: PROGRAM = surface_stages ## the figures of docs/explanation/sur
 $(MEASUREMENTS):
 	@scripts/setup build plot && scripts/benchmark $(PROGRAM)
 
-surface-study: build ## measure the method surface, write the tables of docs/explanation/surface.md; WORK: a directory with 4 GB free
+surface-study: build ## measure the method surface, write the tables of docs/benchmarks/accuracy.md and robustness.md; WORK: a directory with 4 GB free
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/surface_study.py run --work $(or $(WORK),out/study)
 
 worlds-study: build ## measure both methods in every simulated scene, write docs/benchmarks/robustness.md; WORK: a directory with 8 GB free

@@ -16,7 +16,7 @@ import sys
 
 from study import ROOT, Runs, main, paired, percent, rounded, show_progress, table, with_interval
 
-PAGE = ROOT / "docs" / "benchmarks" / "patchwork-paper.md"
+PAGES = (ROOT / "docs" / "benchmarks" / "patchwork-paper.md",)
 RESULTS = ROOT / "docs" / "results" / "experiments.json"
 SCENES = ["flat_street", "steep_street", "parked_cars", "bushes_and_lawn", "bumpy_field"]
 PRESETS = ["default", "reference", "paper"]
@@ -351,4 +351,4 @@ def tables(results):
 
 
 if __name__ == "__main__":
-    main(__doc__, PAGE, RESULTS, tables, measure)
+    main(__doc__, PAGES, RESULTS, tables, measure)

@@ -140,30 +140,47 @@ def rounded(value):
 
 
 def filled(page, found):
-    """The text of a page with the tables of `found`, by name."""
+    """The text of a page with the tables of `found`, by name. Tables of other studies stay as they are."""
 
     def replace(match):
         name = match.group(1)
-        if name not in found:
-            sys.exit(f"the page wants a table {name}; there are {', '.join(found)}")
-        return f"<!-- table {name} -->\n\n{found[name]}\n\n<!-- end -->"
+        return f"<!-- table {name} -->\n\n{found[name]}\n\n<!-- end -->" if name in found else match.group(0)
 
     return re.sub(r"<!-- table (\S+) -->.*?<!-- end -->", replace, page, flags=re.DOTALL)
 
 
-def check(path, found):
-    """Ends the program with exit code 1, and the differences, if the page's tables are not those found."""
-    page = path.read_text()
-    wanted = filled(page, found)
-    sys.stdout.writelines(difflib.unified_diff(page.splitlines(True), wanted.splitlines(True)))
-    sys.exit(page != wanted)
+def write_tables(pages, found):
+    """Replaces the tables of `found` in the pages."""
+    stop_if_missing(pages, found)
+    for path in pages:
+        path.write_text(filled(path.read_text(), found))
+
+
+def check(pages, found):
+    """Ends the program with exit code 1, and the differences, if the tables of the pages are not those found."""
+    stop_if_missing(pages, found)
+    is_same = True
+    for path in pages:
+        page = path.read_text()
+        expected = filled(page, found)
+        sys.stdout.writelines(difflib.unified_diff(page.splitlines(True), expected.splitlines(True), str(path), "expected"))
+        is_same &= page == expected
+    sys.exit(not is_same)
+
+
+def stop_if_missing(pages, found):
+    """Ends the program if a table of `found` is on none of the pages."""
+    text = "".join(path.read_text() for path in pages)
+    missing = [name for name in found if f"<!-- table {name} -->" not in text]
+    if missing:
+        sys.exit(f"{', '.join(map(str, pages))}: no place for the tables {', '.join(missing)} (expected <!-- table NAME -->)")
 
 
 # --- the command line ---------------------------------------------------------------------------------------
 
 
-def main(description, page, results_file, tables, measure, names=(), can_try=False, draw=None, verify=None):
-    """The command line of a study whose `tables(results)` stand in a page.
+def main(description, pages, results_file, tables, measure, names=(), can_try=False, draw=None, verify=None):
+    """The command line of a study whose `tables(results)` are on `pages`.
 
     `measure(options)` returns results that JSON can hold, of the measurements in `names` that were asked for. `draw`
     makes pictures from the results. `verify(results, flagstone)` returns what is stale in results that other settings
@@ -206,7 +223,7 @@ def main(description, page, results_file, tables, measure, names=(), can_try=Fal
     if options.command == "check":
         if verify and options.flagstone and (stale := verify(results, options.flagstone.resolve())):
             sys.exit(f"{results_file.name} was measured with other settings, run the study again: {'; '.join(stale)}")
-        check(page, tables(results))
-    page.write_text(filled(page.read_text(), tables(results)))
+        check(pages, tables(results))
+    write_tables(pages, tables(results))
     if draw:
         draw(results)

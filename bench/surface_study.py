@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Measures the method `surface` and writes the tables of docs/explanation/surface.md. Wants Python 3.11 and NumPy.
+"""Measures the method `surface` and writes the tables of docs/benchmarks/accuracy.md and robustness.md. Needs Python 3.11 and NumPy.
 
     python3 bench/surface_study.py run --work /tmp/study               # all of it, some ten minutes
     python3 bench/surface_study.py run --work /tmp/study --only robustness
@@ -17,7 +17,6 @@ page between <!-- table NAME --> and <!-- end -->.
 import json
 import os
 import pathlib
-import re
 import statistics
 import sys
 import tempfile
@@ -25,7 +24,7 @@ import typing
 
 from study import ROOT, Runs, main, mean_of, paired, percent, points_more, rounded, show_progress, table, with_interval
 
-PAGE = ROOT / "docs" / "explanation" / "surface.md"
+PAGES = (ROOT / "docs" / "benchmarks" / "accuracy.md", ROOT / "docs" / "benchmarks" / "robustness.md")
 RESULTS = ROOT / "docs" / "results" / "surface.json"
 
 
@@ -128,15 +127,14 @@ class Study(Runs):
 
 
 def surface_settings(runs, options=""):
-    """The settings of `surface` except the sensor height: key -> (value, meaning with unit)."""
+    """The settings of `surface` except the sensor height, by key."""
     import tomllib  # from Python 3.11 on; tables are written and checked with less
 
     text = runs.call(f"flagstone config --method surface{options}")
     text = text.partition("\n[mount]")[0]  # how the sensor is mounted belongs to no method
     values = flat(tomllib.loads(text))
-    meanings = dict(zip(values, re.findall(r"^\w+ = \S+  # (.*)$", text, flags=re.MULTILINE)))
     values.pop("sensor_height")
-    return {key: (value, meanings[key]) for key, value in values.items()}
+    return values
 
 
 def flat(values, prefix=""):
@@ -202,7 +200,7 @@ def level_of(study, name):
 
 
 def measure_ablation(study):
-    values = {key: value for key, (value, _) in study.surface_defaults().items()}
+    values = study.surface_defaults()
     rows = []
     for part, templates in REMOVALS:
         settings = [named(template, values) for template in templates]
@@ -228,13 +226,13 @@ def measure_settings(study):
     simulated = [name for name, scans in study.sets.items() if scans.simulated]
     rows = []
     defaults = study.surface_defaults()
-    for key, (value, meaning) in defaults.items():
+    for key, value in defaults.items():
         show_progress(f"setting {len(rows) // 2 + 1} of {len(defaults)}: {key}")
         for other in OTHER_VALUES.get(key, (value / 2, value * 2)):
             settings = [f"{key}={other:g}"]
             f1 = {name: difference(study, [name], settings) for name in real}
             f1["simulated"] = difference(study, simulated, settings)
-            rows.append({"setting": key, "meaning": meaning, "default": value, "value": other, "f1": f1})
+            rows.append({"setting": key, "default": value, "value": other, "f1": f1})
     return {"rows": rows}
 
 
@@ -252,11 +250,6 @@ def ablation_table(results, titles, simulated):
     ]
     head = ["without", "that is", *(titles[name]["title"] for name in names)]
     return table(head, [whole, *rows], left=2)
-
-
-def settings_table(results):
-    rows = {row["setting"]: [f"`{row['setting']}`", f"{row['default']:g}", row["meaning"]] for row in results["rows"]}
-    return table(["setting", "default", "meaning; allowed values and unit"], rows.values(), left=3)
 
 
 def effects_table(results, titles):
@@ -643,7 +636,6 @@ def tables(results):
         found["ablation-real"] = ablation_table(results["ablation"], sets, simulated=False)
         found["ablation-simulated"] = ablation_table(results["ablation"], sets, simulated=True)
     if "settings" in results:
-        found["settings"] = settings_table(results["settings"])
         found["settings-effect"] = effects_table(results["settings"], sets)
     if "accuracy" in results:
         found |= accuracy_tables(results["accuracy"], sets)
@@ -683,11 +675,11 @@ def changed_defaults(results, flagstone):
         defaults = surface_settings(Runs(pathlib.Path(place), flagstone))
     measured = {row["setting"]: row["default"] for row in results["settings"]["rows"]}
     return [
-        f"{key} is {defaults[key][0] if key in defaults else 'unknown'}, measured with {measured.get(key)}"
+        f"{key} is {defaults.get(key, 'unknown')}, measured with {measured.get(key)}"
         for key in {**defaults, **measured}
-        if key not in defaults or defaults[key][0] != measured.get(key)
+        if defaults.get(key) != measured.get(key)
     ]
 
 
 if __name__ == "__main__":
-    main(__doc__, PAGE, RESULTS, tables, measure, MEASUREMENTS, can_try=True, verify=changed_defaults)
+    main(__doc__, PAGES, RESULTS, tables, measure, MEASUREMENTS, can_try=True, verify=changed_defaults)

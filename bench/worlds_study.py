@@ -22,7 +22,7 @@ import typing
 
 from study import ROOT, Runs, main, percent, rounded, show_progress, table
 
-PAGE = ROOT / "docs" / "benchmarks" / "robustness.md"
+PAGES = (ROOT / "docs" / "benchmarks" / "robustness.md",)
 RESULTS = ROOT / "docs" / "results" / "worlds.json"
 PICTURE = ROOT / "docs" / "images" / "worlds-f1.png"
 
@@ -407,4 +407,4 @@ def measure(options):
 
 
 if __name__ == "__main__":
-    main(__doc__, PAGE, RESULTS, tables, measure, MEASUREMENTS, draw=draw)
+    main(__doc__, PAGES, RESULTS, tables, measure, MEASUREMENTS, draw=draw)
