@@ -76,14 +76,14 @@ def test_known_sensors_are_those_of_the_command() -> None:
 
 WRONG: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"colour": 1}, ValueError, "no setting 'colour'"),
-    ({"point": {"margin": -1}}, ValueError, r"point\.margin = -1 is out of range; allowed: 0 to 10 m"),
+    ({"point": {"margin": -1}}, ValueError, r"point\.margin = -1 is out of range \(expected 0 to 10 m"),
     ({"point": {"margin": "wide"}}, ValueError, r"point\.margin is a number, not a string"),
     ({"point": {"margin": None}}, TypeError, r"point\.margin is a NoneType"),
     ({"point": 3}, ValueError, "point is a table of settings, not a integer"),
-    ({"sensor": "hdl-65e"}, ValueError, r"no sensor is named 'hdl-65e' \(did you mean 'hdl-64e'"),
+    ({"sensor": "hdl-65e"}, ValueError, r"no sensor is named 'hdl-65e' \(expected .*; did you mean 'hdl-64e'"),
     ({"sensor_height": "guess"}, ValueError, "sensor_height: guess is no number of metres, estimate or track"),
     ({"sensor_height": float("nan")}, ValueError, "sensor_height = nan is out of range"),
-    ({"sensor_height": 1000}, ValueError, r"sensor_height = 1000 is out of range; allowed: -100 to 100 m"),
+    ({"sensor_height": 1000}, ValueError, r"sensor_height = 1000 is out of range \(expected -100 to 100 m"),
     ({"tilt": "left"}, ValueError, "tilt: left is not off, estimate or where up is"),
     ({"tilt": (0, 0, 0)}, ValueError, "up"),
     ({"threads": 0}, ValueError, "threads = 0 is out of range; allowed: 1 to 1024"),
@@ -109,7 +109,7 @@ def test_wrong_settings_are_refused_in_one_line(
 def test_an_unknown_method_is_refused_with_those_there_are() -> None:
     with pytest.raises(ValueError, match=r"ransac.*patchwork"):
         make_segmenter("patchwerk")
-    with pytest.raises(ValueError, match="threads = 2: method gpf has 1 thread"):
+    with pytest.raises(ValueError, match="threads = 2: method gpf supports only 1 thread"):
         make_segmenter("gpf", threads=2)
 
 

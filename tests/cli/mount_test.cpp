@@ -130,7 +130,7 @@ TEST_F(MountOfScans, WhereNoScanTellsItTheGivenOneIsTakenAndThatIsSaid) {
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(lines_of(outcome.out)[0],
-              AllOf(HasSubstr("mount: sensor 1.73 m above the ground, as given"),
+              AllOf(HasSubstr("mount: sensor 1.73 m above the ground, as configured"),
                     HasSubstr("told by none of the first 20 scans"), HasSubstr("too few points")));
 }
 
@@ -171,8 +171,8 @@ TEST_F(MountOfScans, TrackedHeightIsSaidOfEveryScanInOrder) {
   EXPECT_THAT(lines[0], HasSubstr("sensor taken for 1.00 m high: sensor 1.00 m above the ground"));
   EXPECT_THAT(lines[1], HasSubstr("sensor taken for 1.02 m high: sensor 1.04 m above the ground"));
   EXPECT_THAT(lines[2], HasSubstr("sensor taken for 1.04 m high: sensor 1.08 m above the ground"));
-  EXPECT_THAT(lines[3], AllOf(HasSubstr("sensor taken for 1.04 m high: not told by this scan"),
-                              HasSubstr("too far from what the scans before have told")));
+  EXPECT_THAT(lines[3], AllOf(HasSubstr("sensor taken for 1.04 m high: no estimate from this scan"),
+                              HasSubstr("too far from the estimates of previous scans")));
 }
 
 TEST_F(MountOfScans, JsonHasWhatWasDecidedAndWhy) {
@@ -270,7 +270,7 @@ TEST_F(MountOfScans, WhatIsNoMountIsRefusedInOneLine) {
   refused({"--config", path("height.toml")},
           R"(mount.height is one of "fixed", "estimate", "track")");
   refused({"--config", path("up.toml")}, "mount.up is an array of three numbers");
-  refused({"--set", "mount.reach=1"}, "mount.reach = 1 is out of range; allowed: 2 to 100 m");
+  refused({"--set", "mount.reach=1"}, "mount.reach = 1 is out of range (expected 2 to 100 m)");
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ TEST_F(SensorOption, IsRefusedInOneLineThatSaysWhatIsWrong) {
     EXPECT_EQ(lines_of(outcome.err).size(), 1U) << outcome.err;
   };
 
-  expect({"--sensor", "os9"}, "--sensor: no sensor is named 'os9'; there are: hdl-64e");
+  expect({"--sensor", "os9"}, "--sensor: no sensor is named 'os9' (expected hdl-64e");
   expect({"--sensor", bad}, "bad.toml: line 5, column 13: ");
   expect({"--sensor", blind}, "no beam meets flat ground");
   expect({"--sensor", "vlp-16", "--config", named}, "named.toml names a sensor too");

@@ -12,9 +12,9 @@ namespace {
 
 char lower(char c) noexcept { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Characters to insert, delete or replace, or neighbours to swap, to make `b` of `a`.
+/// Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before;  // the row of a's character before the last
+  std::vector<std::size_t> before;  // the row before `last`
   std::vector<std::size_t> last(b.size() + 1);
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t{0});
@@ -40,10 +40,9 @@ bool equal_but_for_case(std::string_view a, std::string_view b) noexcept {
 }
 
 std::string_view closest_name(std::string_view name, std::span<const std::string_view> known) {
-  constexpr std::size_t longest =
-      100;  // names are short; the time goes with the product of lengths
+  constexpr std::size_t longest = 100;  // the time is proportional to the product of the lengths
   std::string_view closest;
-  std::size_t least = std::min<std::size_t>(name.size(), 9) / 3 + 1;  // 1 to 4 changes are too many
+  std::size_t least = std::min<std::size_t>(name.size(), 9) / 3 + 1;  // too many changes: 1 to 4
   for (const std::string_view candidate : known) {
     if (name.size() > longest || candidate.size() > longest) continue;
     const std::size_t distance = edit_distance(name, candidate);
@@ -61,12 +60,13 @@ std::string did_you_mean(std::string_view name, std::span<const std::string_view
 
 std::string no_such(std::string_view kind, std::string_view name,
                     std::span<const std::string_view> known) {
-  std::string text = "no " + std::string(kind) + " is named '" + std::string(name) + "'" +
-                     did_you_mean(name, known) + "; there are: ";
+  std::string text = "no " + std::string(kind) + " is named '" + std::string(name) + "' (expected ";
   for (std::size_t i = 0; i < known.size(); ++i) {
     text += (i == 0 ? "" : ", ") + std::string(known[i]);
   }
-  return text;
+  const std::string_view closest = closest_name(name, known);
+  if (!closest.empty()) text += "; did you mean '" + std::string(closest) + "'?";
+  return text + ")";
 }
 
 }  // namespace flagstone

@@ -8,18 +8,18 @@
 
 namespace flagstone {
 
-/// The name that was probably meant: the nearest by single-character changes, whatever the case;
-/// empty if none is near.
+/// The known name with the fewest single-character changes from `name`, case-insensitive. Empty if
+/// no name is close.
 std::string_view closest_name(std::string_view name, std::span<const std::string_view> known);
 
-/// " (did you mean 'surface'?)", or nothing if no name is near.
+/// " (did you mean 'surface'?)", or an empty string if no name is close.
 std::string did_you_mean(std::string_view name, std::span<const std::string_view> known);
 
-/// "no method is named 'surfce' (did you mean 'surface'?); there are: patchwork, surface".
+/// "no method is named 'surfce' (expected patchwork, surface; did you mean 'surface'?)".
 std::string no_such(std::string_view kind, std::string_view name,
                     std::span<const std::string_view> known);
 
-/// Are these the same, whatever the case of ASCII letters?
+/// True if the texts are equal except for the case of ASCII letters.
 bool equal_but_for_case(std::string_view a, std::string_view b) noexcept;
 
 }  // namespace flagstone

@@ -14,7 +14,7 @@
 namespace flagstone {
 namespace {
 
-constexpr double most_metres = 1000;
+constexpr double max_metres = 1000;
 
 void check_elevations(const Sensor& sensor, const std::string& subject) {
   check_number(
@@ -25,7 +25,8 @@ void check_elevations(const Sensor& sensor, const std::string& subject) {
                  {.low = -90, .high = 90, .unit = "degrees"});
   }
   if (!std::ranges::is_sorted(sensor.elevations, std::greater_equal())) {
-    throw std::invalid_argument(subject + ": elevations do not descend; list the highest first");
+    throw std::invalid_argument(
+        subject + ": elevations are not in descending order (list the highest first)");
   }
 }
 
@@ -37,7 +38,7 @@ const std::vector<Sensor>& known_sensors() {
 }  // namespace
 
 void Sensor::check() const {
-  const std::string subject = "sensor " + (name.empty() ? "without a name" : name);
+  const std::string subject = "sensor " + (name.empty() ? "(unnamed)" : name);
   if (!rosette.empty()) {
     check_number(subject, "length of rosette", static_cast<double>(rosette.size()),
                  {.low = 2, .high = 2});
@@ -54,9 +55,9 @@ void Sensor::check() const {
                 .high = std::min(azimuth_begin + 360, 360.0),
                 .unit = "degrees",
                 .exclusive_min = true});
-  check_number(subject, "min_range", min_range, {.low = 0, .high = most_metres, .unit = "m"});
+  check_number(subject, "min_range", min_range, {.low = 0, .high = max_metres, .unit = "m"});
   check_number(subject, "max_range", max_range,
-               {.low = min_range, .high = most_metres, .unit = "m", .exclusive_min = true});
+               {.low = min_range, .high = max_metres, .unit = "m", .exclusive_min = true});
   check_number(subject, "range_sigma", range_sigma, {.low = 0, .high = 10, .unit = "m"});
   check_number(subject, "height", height, {.low = 0, .high = 100, .unit = "m"});
 }

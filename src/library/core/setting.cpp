@@ -12,7 +12,7 @@
 namespace flagstone {
 namespace {
 
-/// As people write it: "0.000001" and "1000000" rather than "1e-06" and "1e+06".
+/// Without an exponent if possible: "0.000001" and "1000000" instead of "1e-06" and "1e+06".
 std::string number_text(double number) {
   std::ostringstream text;
   text << number;
@@ -23,14 +23,14 @@ std::string number_text(double number) {
   return {digits.begin(), end.ptr};
 }
 
-/// The range as floats have it: 1e-6f is as good as the bound 1e-6.
+/// The range with its limits rounded to float, so that 1e-6f satisfies the limit 1e-6.
 ValidRange rounded_to_float(ValidRange range) {
   range.low = static_cast<float>(range.low);
   range.high = static_cast<float>(range.high);
   return range;
 }
 
-/// False for NaN.
+/// Whether the value is in range. False for NaN.
 bool is_allowed(double value, const ValidRange& allowed) {
   if (std::isinf(value)) return value > 0 && allowed.allow_infinity;
   const bool high_enough = allowed.exclusive_min ? value > allowed.low : value >= allowed.low;
@@ -55,7 +55,7 @@ struct Check {
   void operator()(const Choice& choice) const {
     if (choice.index() < choice.names().size()) return;
     throw_out_of_range(method, setting.key, static_cast<double>(choice.index()),
-                       "one of its names");
+                       "a value of the enumeration");
   }
 
   void check_each(std::span<const float> values) const {
@@ -76,19 +76,22 @@ std::string to_string(const ValidRange& allowed) {
   std::ostringstream text;
   if (allowed.exclusive_min) {
     text << "above " << number_text(allowed.low) << ", up to " << number_text(allowed.high);
+  } else if (allowed.low == allowed.high) {
+    text << number_text(allowed.low);
   } else {
     text << number_text(allowed.low) << " to " << number_text(allowed.high);
   }
   if (!allowed.unit.empty()) text << ' ' << allowed.unit;
-  if (allowed.allow_infinity) text << ", or inf for none";
-  if (!allowed.remark.empty()) text << " (" << allowed.remark << ')';
+  if (allowed.allow_infinity) text << ", or inf for no limit";
+  if (!allowed.remark.empty()) text << ", " << allowed.remark;
   return text.str();
 }
 
 void throw_out_of_range(std::string_view method, std::string_view key, double value,
                         std::string_view allowed) {
   std::ostringstream message;
-  message << method << ": " << key << " = " << value << " is out of range; allowed: " << allowed;
+  message << method << ": " << key << " = " << value << " is out of range (expected " << allowed
+          << ')';
   throw std::invalid_argument(message.str());
 }
 

@@ -14,20 +14,21 @@
 
 namespace flagstone {
 
-/// The values a number may take.
+/// The values that a number can have.
 struct ValidRange {
   double low = 0;
   double high = 0;
   std::string_view unit = {};    ///< "m", "degrees"; empty for none
   bool exclusive_min = false;    ///< `low` itself is not allowed
-  bool allow_infinity = false;   ///< infinity is allowed too and stands for "none"
-  std::string_view remark = {};  ///< in parentheses after the range
+  bool allow_infinity = false;   ///< infinity is also allowed and means "no limit"
+  std::string_view remark = {};  ///< appended to the range in texts
 };
 
-/// "0 to 100 m", "above 0, up to 100 m, or inf for none".
+/// For example "0 to 100 m", or "above 0, up to 100 m, or inf for no limit".
 std::string to_string(const ValidRange& allowed);
 
-/// A setting that is one of a few names: an enumeration of std::uint8_t that counts them from 0.
+/// A setting whose value is one of a few names: an enumeration of std::uint8_t with the values 0,
+/// 1, 2, ...
 class Choice {
  public:
   template <class Enumeration>
@@ -38,7 +39,7 @@ class Choice {
 
   [[nodiscard]] std::span<const std::string_view> names() const noexcept { return names_; }
   [[nodiscard]] std::size_t index() const noexcept { return *value_; }
-  /// `index` is less than there are names.
+  /// `index` must be less than names().size().
   void choose(std::size_t index) const noexcept { *value_ = static_cast<unsigned char>(index); }
 
  private:
@@ -46,25 +47,25 @@ class Choice {
   std::span<const std::string_view> names_;
 };
 
-/// One setting of a method: what it is called, where it is kept, what it means and may be. The
-/// check of a configuration, the TOML it is written as and read from, and the command line all go
-/// by a method's list of these.
+/// One setting of a method: its name, its location in memory, its meaning and its range. Each
+/// method has a list of these. Checks, TOML files and the command line use that list.
 struct Setting {
   std::string_view key;  ///< dotted: "elevation.scale" is `scale` in the table `elevation`
   std::variant<float*, int*, bool*, std::vector<float>*, std::array<float, 3>*, Choice> value;
   std::string_view meaning;
-  ValidRange allowed{};  ///< of each element of a list, which has 1 to 1,000, or of a vector
+  ValidRange
+      allowed{};  ///< range of the number, or of each element; lists have 1 to 1,000 elements
 };
 
-/// Throws std::invalid_argument "METHOD: KEY = VALUE is out of range; allowed: ..." for the first
-/// value out of range.
+/// Throws std::invalid_argument "METHOD: KEY = VALUE is out of range (expected RANGE)" for the
+/// first value out of range.
 void check_settings(std::string_view method, const std::vector<Setting>& settings);
 
-/// Throws that std::invalid_argument.
+/// Throws std::invalid_argument "METHOD: KEY = VALUE is out of range (expected ALLOWED)".
 [[noreturn]] void throw_out_of_range(std::string_view method, std::string_view key, double value,
                                      std::string_view allowed);
 
-/// Throws that std::invalid_argument if `value` is not allowed.
+/// Throws the same std::invalid_argument if `value` is out of range.
 void check_number(std::string_view method, std::string_view key, double value,
                   const ValidRange& allowed);
 

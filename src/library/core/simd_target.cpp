@@ -19,13 +19,13 @@ std::string name_of(std::int64_t target) {
   return name;
 }
 
-/// What this build and this machine have, whatever is forced.
+/// The targets that this build and this machine support, even if a subset is forced.
 std::int64_t supported() {
   static const std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS;
   return targets;
 }
 
-/// Has the dispatcher choose among `targets` from now on; 0: among all.
+/// Makes the dispatcher choose among `targets`; 0 for all.
 void choose_among(std::int64_t targets) {
   hwy::SetSupportedTargetsForTest(targets);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
@@ -35,7 +35,7 @@ void choose_among(std::int64_t targets) {
 
 std::vector<std::string> simd_targets() {
   std::vector<std::string> names;
-  // The better a target, the lower its bit.
+  // Better targets have lower bits.
   for (std::int64_t rest = supported(); rest != 0; rest &= rest - 1) {
     names.push_back(name_of(rest & -rest));
   }
@@ -56,7 +56,7 @@ void use_simd_target(std::string_view name) {
     known += (known.empty() ? "" : ", ") + name_of(target);
   }
   throw std::invalid_argument("instruction set \"" + std::string(name) +
-                              "\" is not to be had here; there are " + known);
+                              "\" is not available here (available: " + known + ")");
 }
 
 }  // namespace flagstone

@@ -33,8 +33,9 @@ void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old,
 
 unsigned checked_threads(std::string_view where, unsigned threads) {
   if (threads >= 1 && threads <= max_threads) return threads;
-  throw std::invalid_argument(std::string(where) + ": threads is " + std::to_string(threads) +
-                              ", allowed are 1 to " + std::to_string(max_threads));
+  throw std::invalid_argument(std::string(where) + ": threads = " + std::to_string(threads) +
+                              " is out of range (expected 1 to " + std::to_string(max_threads) +
+                              ")");
 }
 
 unsigned threads_or_cores(unsigned threads) noexcept {

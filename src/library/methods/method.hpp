@@ -18,16 +18,17 @@
 
 namespace flagstone {
 
-/// How configurations of one type are handled.
+/// Functions for one type of configuration.
 struct ConfigType {
-  std::string_view name;  ///< the method they belong to first of all
+  std::string_view name;  ///< the main method with this type of configuration
   const std::type_info* id;
   std::vector<Setting> (*settings)(std::any& config);
   void (*check)(const std::any& config);
   std::unique_ptr<Segmenter> (*make)(const std::any& config, unsigned threads);
 };
 
-/// That of `Config`, whose settings `settings_of(Config&)` lists and whose method is `Segmenter`.
+/// The functions for `Config`, which `Segmenter` is constructed from. `settings_of(Config&)` must
+/// list its settings.
 template <class Config, class Segmenter>
 const ConfigType& config_type(std::string_view name) {
   static const ConfigType type = {
@@ -42,56 +43,56 @@ const ConfigType& config_type(std::string_view name) {
           return std::make_unique<Segmenter>(own, threads);
         } else {
           if (threads == 1) return std::make_unique<Segmenter>(own);
-          throw std::invalid_argument("threads = " + std::to_string(threads) + ": method " +
-                                      std::string(type.name) +
-                                      " has 1 thread (surface and patchwork can have more)");
+          throw std::invalid_argument(
+              "threads = " + std::to_string(threads) + ": method " + std::string(type.name) +
+              " supports only 1 thread (surface and patchwork support more)");
         }
       }};
   return type;
 }
 
-/// A method by name.
+/// A method that can be selected by name.
 struct Method {
   std::string_view name;
-  std::string_view title;  ///< in tables
+  std::string_view title;  ///< name in tables
   const ConfigType* type;
   std::function<MethodConfig()> defaults;
   std::function<MethodConfig(const Sensor&)> for_sensor;
 
-  // Where there are none, "default" is the only preset.
+  // If empty, "default" is the only preset.
   std::span<const std::string_view> presets{};
   std::function<MethodConfig(std::string_view)> preset{};
 
-  /// The method whose settings this one starts from: "patchwork" for "czm+u". Its presets, and
-  /// what the user sets for it, hold for this one too, as far as `derive` leaves them.
+  /// The method that this method is derived from: "patchwork" for "czm+u". Its presets and the
+  /// user's settings for it also apply to this method, unless `derive` overrides them.
   std::string_view starts_from{};
   std::function<MethodConfig(const MethodConfig&)> derive{};
 };
 
-/// Makes methods known, before those that are known already.
+/// Registers methods, in front of those already registered.
 void register_methods(std::vector<Method> methods);
 
-/// Throws std::invalid_argument listing the methods for an unknown name.
+/// Throws std::invalid_argument listing the methods if `name` is unknown.
 const Method& find_method(std::string_view name);
 
-/// The settings of a method before the user's; those of the method that it starts from are not yet
-/// put through `derive`. Throws std::invalid_argument for an unknown preset.
+/// The settings of a preset of a method, before `derive` is applied. Throws std::invalid_argument
+/// if the method or the preset is unknown.
 MethodConfig preset_config(std::string_view name, std::string_view preset);
 
-/// The sensor's height in the settings of a method, metres; `otherwise` if it has none.
+/// The sensor height in the settings of a method, metres; `otherwise` if it has none.
 float sensor_height_of(MethodConfig config, float otherwise);
 
-/// Sets that height if the method has one.
+/// Sets the sensor height, metres, if the method has one.
 void set_sensor_height(float height, MethodConfig& config);
 
-/// A method that can use one more field of the points, where a scan has it.
+/// Interface of methods that can use one more field of the points, if a scan has it.
 class UsesField {
  public:
   virtual ~UsesField() = default;
   /// The name of the field in files.
   [[nodiscard]] virtual std::string_view field() const noexcept = 0;
-  /// The values of that field in the cloud that is segmented next, one for each point; empty if it
-  /// has no such field. May throw std::bad_alloc.
+  /// Sets the values of that field for the next cloud, one per point. They are empty if the cloud
+  /// does not have the field. May throw std::bad_alloc.
   virtual void set_field(CloudView cloud, std::span<const double> values) = 0;
 };
 

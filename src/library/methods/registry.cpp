@@ -57,7 +57,7 @@ const ConfigType& type_of(const std::any& config) {
     if (*method.type->id == config.type()) return *method.type;
   }
   throw std::invalid_argument(
-      "no registered method has a configuration of this type (for a baseline call "
+      "no registered method has a configuration of this type (for a baseline, call "
       "register_baselines() first)");
 }
 
@@ -107,8 +107,8 @@ std::unique_ptr<Segmenter> make_segmenter(std::string_view name) {
 
 std::unique_ptr<Segmenter> make_segmenter(std::string_view name, const MethodConfig& config) {
   if (find_method(name).type != &config.type()) {
-    throw std::invalid_argument("the configuration given to method " + std::string(name) +
-                                " is another method's");
+    throw std::invalid_argument("method " + std::string(name) +
+                                ": the configuration belongs to another method");
   }
   return config.make();
 }

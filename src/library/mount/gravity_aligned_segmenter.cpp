@@ -250,7 +250,7 @@ struct GravityAlignedSegmenter::Impl {
         track(mount::expected_mount(settings), settings.height != HeightSource::fixed,
               settings.tilt == TiltSource::estimate, settings.tracking),
         alignment(method_height) {
-    if (method == nullptr) throw std::invalid_argument("mount: there is no method to level for");
+    if (method == nullptr) throw std::invalid_argument("mount: the method is null");
     settings.check();
     check_number("mount", "method_height", method_height, {.low = -100, .high = 100, .unit = "m"});
     if (settings.estimates()) estimator.emplace(settings);

@@ -168,29 +168,29 @@ void add_reason(std::ostream& text, const MountDecision& decision) {
     case MountVerdict::fixed:
     case MountVerdict::accepted: break;
     case MountVerdict::too_few_points:
-      text << "too few points where ground can be, " << decision.points << " places, "
-           << decision.cells << " square metres";
+      text << "too few points where ground can be: " << decision.points << " cubes with points, "
+           << decision.cells << " cells with ground";
       break;
     case MountVerdict::no_plane:
-      text << "near points agree on no plane, they lie within " << decision.spread
-           << " m of the best";
+      text << "near points do not fit one plane, RMS distance " << decision.spread << " m";
       break;
     case MountVerdict::obstructed:
-      text << "what lies lowest is the foot of what stands on it, only ";
+      text << "the lowest points are at the base of objects, only ";
       percent(decision.free);
-      text << " of it is free";
+      text << " of the ground cells are unobstructed";
       break;
     case MountVerdict::points_below:
-      text << "too much lies below the best plane, ";
+      text << "too many points below the best plane, in ";
       percent(decision.below);
+      text << " of the cells";
       break;
     case MountVerdict::one_sided:
-      text << "that ground is seen in " << decision.directions << " directions of " << decision.seen
-           << " with any points";
+      text << "ground is visible in only " << decision.directions << " of the " << decision.seen
+           << " directions with points";
       break;
-    case MountVerdict::height_limit: text << "that height is not within the limits"; break;
-    case MountVerdict::tilt_limit: text << "that tilt is beyond the limit"; break;
-    case MountVerdict::outlier: text << "too far from what the scans before have told"; break;
+    case MountVerdict::height_limit: text << "the height is outside the limits"; break;
+    case MountVerdict::tilt_limit: text << "the tilt exceeds the limit"; break;
+    case MountVerdict::outlier: text << "too far from the estimates of previous scans"; break;
   }
 }
 
@@ -201,16 +201,16 @@ std::string to_sentence(const MountDecision& decision) {
   text << std::fixed << std::setprecision(2);
   if (decision.verdict == MountVerdict::fixed) {
     add_mount(text, decision);
-    text << ", as given";
+    text << ", as configured";
   } else if (decision.accepted()) {
     add_mount(text, decision);
     text << ", confidence " << decision.confidence;
   } else {
-    text << "not told by this scan: ";
+    text << "no estimate from this scan: ";
     add_reason(text, decision);
     const bool has_plane = decision.cells > 0;
     if (has_plane) {
-      text << " (it seems: ";
+      text << " (rejected estimate: ";
       add_mount(text, decision);
       text << ", confidence " << decision.confidence << ')';
     }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// The rule of docs/reference/sensors.md: Patchwork's settings from where a sensor's beams meet flat ground.
+// The rule of docs/reference/sensors.md: Patchwork's settings from where a sensor's beams meet flat
+// ground.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -269,9 +270,9 @@ ElevationTerm scaled(ElevationTerm term, double height) {
 PatchworkConfig PatchworkConfig::for_sensor(const Sensor& sensor) {
   sensor.check();
   if (sensor.height < lowest_height) {
-    throw std::invalid_argument("sensor " + sensor.name +
-                                ": height = " + std::to_string(sensor.height) +
-                                " m; allowed here: 0.01 m or more, for zones follow from it");
+    throw std::invalid_argument(
+        "sensor " + sensor.name + ": height = " + std::to_string(sensor.height) +
+        " m is out of range (expected at least 0.01 m; zones depend on it)");
   }
   const GroundBeams beams(sensor);
   const RingLengths lengths{.first = first_length * sensor.height,
@@ -284,9 +285,8 @@ PatchworkConfig PatchworkConfig::for_sensor(const Sensor& sensor) {
   if (rings.empty()) rings = ground_rings(beams, begin = 0, beams.reach(rise_beyond), lengths);
   if (rings.empty()) {
     throw std::invalid_argument(
-        "sensor " + sensor.name +
-        ": no beam meets flat ground within max_range = " + std::to_string(sensor.max_range) +
-        " m, " + std::to_string(sensor.height) + " m below the sensor");
+        "sensor " + sensor.name + ": no beam meets flat ground " + std::to_string(sensor.height) +
+        " m below the sensor within max_range = " + std::to_string(sensor.max_range) + " m");
   }
   rings.back().outer = std::min(rings.back().outer, sensor.max_range);
 

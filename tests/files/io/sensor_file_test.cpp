@@ -115,7 +115,7 @@ TEST(SensorFile, ErrorsSayWhereWhichFieldAndWhatIsAllowed) {
   EXPECT_THAT(refusal_of("elevations = [-1, 0]\nheight = 1\n"),
               AllOf(StartsWith("robot.toml: line 1"), HasSubstr("list the highest first")));
   EXPECT_THAT(refusal_of("elevations = [95, 0]\nheight = 1\n"),
-              HasSubstr("elevations[0] = 95 is out of range; allowed: -90 to 90 degrees"));
+              HasSubstr("elevations[0] = 95 is out of range (expected -90 to 90 degrees"));
   EXPECT_THAT(refusal_of("elevations = 3\nheight = 1\n"), HasSubstr("not an array of numbers"));
   EXPECT_THAT(refusal_of("elevations = [\"a\"]\nheight = 1\n"), HasSubstr("is not a number"));
   EXPECT_THAT(refusal_of("name = \"\"\n" + robot), HasSubstr("name is not a text"));

@@ -59,9 +59,10 @@ TEST(DidYouMean, SaysNothingWhereNothingIsNear) {
 }
 
 TEST(DidYouMean, AnUnknownNameIsSaidWithThoseThereAre) {
-  EXPECT_EQ(no_such("method", "surfce", names),
-            "no method is named 'surfce' (did you mean 'surface'?); there are: sensor_height, "
-            "surface, hdl-64e, gpf");
+  EXPECT_EQ(
+      no_such("method", "surfce", names),
+      "no method is named 'surfce' (expected sensor_height, surface, hdl-64e, gpf; did you mean "
+      "'surface'?)");
 }
 
 }  // namespace

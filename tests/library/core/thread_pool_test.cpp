@@ -160,9 +160,10 @@ TEST(ThreadCount, IsOneToMaxThreads) {
   EXPECT_EQ(checked_threads("here", 1), 1U);
   EXPECT_EQ(checked_threads("here", max_threads), 1024U);
   for (const unsigned threads : {0U, 1025U}) {
-    EXPECT_THAT([&] { checked_threads("here", threads); },
-                testing::ThrowsMessage<std::invalid_argument>(
-                    "here: threads is " + std::to_string(threads) + ", allowed are 1 to 1024"));
+    EXPECT_THAT(
+        [&] { checked_threads("here", threads); },
+        testing::ThrowsMessage<std::invalid_argument>("here: threads = " + std::to_string(threads) +
+                                                      " is out of range (expected 1 to 1024)"));
   }
 }
 

@@ -32,7 +32,7 @@ TYPED_TEST(LibraryContract, ThreadsOutsideOf1To1024AreRefusedWithTheirNumber) {
       const TypeParam segmenter({}, threads);
       ADD_FAILURE() << threads << " threads were accepted";
     } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("threads is " + std::to_string(threads)));
+      EXPECT_THAT(error.what(), testing::HasSubstr("threads = " + std::to_string(threads)));
       EXPECT_THAT(error.what(), testing::HasSubstr("1 to 1024"));
     }
   }

@@ -66,7 +66,7 @@ TEST(MountRefusal, OfWallsWithoutGround) {
 
   EXPECT_EQ(decision.verdict, MountVerdict::obstructed);
   EXPECT_LT(decision.confidence, 0.1f);
-  EXPECT_THAT(to_sentence(decision), HasSubstr("the foot of what stands on it"));
+  EXPECT_THAT(to_sentence(decision), HasSubstr("at the base of objects"));
 }
 
 TEST(MountRefusal, OfWallsWithoutGroundAlsoWhereTheTiltIsAskedFor) {
@@ -85,7 +85,7 @@ TEST(MountRefusal, OfATableWithTheFloorSeenBesideIt) {
   const MountDecision decision = decided(points);
 
   EXPECT_EQ(decision.verdict, MountVerdict::points_below) << to_sentence(decision);
-  EXPECT_THAT(to_sentence(decision), HasSubstr("lies below the best plane"));
+  EXPECT_THAT(to_sentence(decision), HasSubstr("too many points below the best plane"));
 }
 
 TEST(MountRefusal, OfACloudWithoutAnyLevel) {
@@ -122,7 +122,8 @@ TEST(MountRefusal, OfATiltBeyondTheLimit) {
 
   EXPECT_EQ(decision.verdict, MountVerdict::tilt_limit);
   EXPECT_NEAR(decision.tilt, 12, 1);
-  EXPECT_THAT(to_sentence(decision), HasSubstr("tilt is beyond the limit (it seems: sensor 1.7"));
+  EXPECT_THAT(to_sentence(decision),
+              HasSubstr("the tilt exceeds the limit (rejected estimate: sensor 1.7"));
 }
 
 TEST(MountRefusal, OfWhatIsLessSureThanAskedFor) {
@@ -151,7 +152,7 @@ TEST(MountSentence, SaysHeightTiltAndConfidenceOfWhatIsAccepted) {
 }
 
 TEST(MountSentence, SaysWhatIsGiven) {
-  EXPECT_EQ(to_sentence(MountDecision{}), "sensor 1.73 m above the ground, as given");
+  EXPECT_EQ(to_sentence(MountDecision{}), "sensor 1.73 m above the ground, as configured");
 }
 
 }  // namespace

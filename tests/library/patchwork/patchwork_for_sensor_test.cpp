@@ -288,7 +288,7 @@ TEST(PatchworkForSensor, ANarrowViewIsADegreeWiderOnBothSides) {
 TEST(PatchworkForSensor, ASensorThatSeesNoGroundIsRefusedWithTheReason) {
   Sensor sensor = Sensor::named("vlp-16");
   sensor.elevations = {15, 0};
-  EXPECT_THAT(refusal_of(sensor), HasSubstr("vlp-16: no beam meets flat ground within max_range"));
+  EXPECT_THAT(refusal_of(sensor), HasSubstr("vlp-16: no beam meets flat ground"));
 
   sensor = Sensor::named("vlp-16");
   sensor.height = 0;
