@@ -17,43 +17,44 @@
 #define FLAGSTONE_SURFACE_CELL_OBSERVATIONS_ONCE
 namespace flagstone::surface {
 
-/// Cells that are observed side by side, and how many points of each go into one block.
+/// Number of cells that are observed together, and points per cell in one block.
 inline constexpr std::size_t tile_cells = 16;
 inline constexpr std::size_t block_rows = 16;
 
-/// The most points of a cell that are looked at.
+/// Maximum number of points used per cell.
 inline constexpr std::size_t most_samples = 32;
 static_assert(small_cell % block_rows == 0 && most_samples % block_rows == 0);
 
-/// Heights above the surface, metres, of sixteen points of sixteen cells; infinite where a cell has
-/// no more.
+/// Heights above the surface, metres, of sixteen points of sixteen cells; infinite in unused slots.
 using HeightBlock = std::array<float, tile_cells * block_rows>;
 
-// Points this far below and above the gate are looked at, metres.
+// Points this far below and above the gate are used, metres.
 inline constexpr float depth_below_gate = 1.5f;
 inline constexpr float height_above_gate = 1.0f;
 
-/// Half width of the window whose mean is the surface, metres.
+/// Half-width of the window whose mean height is the height of the surface, metres.
 inline constexpr float window = 0.12f;
 
-// The slab above the surface that holds what stands there, metres above the mean.
+// Lower and upper limit of the slab in which points on obstacles are counted, metres above the
+// mean.
 inline constexpr float slab_bottom = 0.18f;
 inline constexpr float slab_top = 0.88f;
 
-/// Points of a cell farther below the mean than this may be no more than a twentieth, metres.
+/// Maximum fraction `most_below` of points that lie more than `below_window` below the mean,
+/// metres.
 inline constexpr float below_window = 0.144f;
 inline constexpr float most_below = 0.05f;
 
-/// A cell is observed from as many points on, counts fully from as many, and has a lowest point
-/// worth the name from as many on.
+/// Minimum number of points in a cell: for an observation, for an observation with full weight, and
+/// for a lower bound.
 inline constexpr float fewest_points = 3;
 inline constexpr float points_of_full_weight = 10;
 inline constexpr float fewest_for_lower_bound = 8;
 
-/// A point that lies so far below the next is no ground, metres.
+/// One or two points that lie more than this below the next point are reflections, metres.
 inline constexpr float reflection_gap = 0.2f;
 
-/// A lower bound is worth it where it lies below the surface by this, metres.
+/// Minimum depth of a lower bound below the surface, metres.
 inline constexpr float least_lowering = 0.03f;
 
 }  // namespace flagstone::surface
@@ -66,11 +67,11 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// The surface within a cell: a plane.
+/// The surface within a cell, approximated by a plane.
 struct CellPlane {
   float x, y;              ///< centre of the cell, metres
-  float z;                 ///< there
-  float slope_x, slope_y;  ///< metres a metre
+  float z;                 ///< at the centre, metres
+  float slope_x, slope_y;  ///< m/m
 };
 
 CellPlane plane_in(const Grid& grid, const OccupiedCell& cell) {
@@ -91,7 +92,7 @@ CellPlane plane_in(const Grid& grid, const OccupiedCell& cell) {
                            grid.heights[after * grid.width + cell.column], after - before)};
 }
 
-/// Heights above the plane of up to sixteen points, one after the other.
+/// Computes the heights of up to sixteen points above the plane.
 HWY_INLINE void measure(const plane_fits::MovedPoint* points, std::size_t count,
                         const CellPlane& plane, float* heights) {
   const FloatTag d;
@@ -108,8 +109,7 @@ HWY_INLINE void measure(const plane_fits::MovedPoint* points, std::size_t count,
   }
 }
 
-/// What was one cell after another becomes one point after another, all cells side by side: twice
-/// sorting into four, as a number of four digits is turned around by half.
+/// Transposes a block from cell-major to point-major order, with two passes of LoadInterleaved4.
 void transpose(HeightBlock& block) {
   const FloatTag d;
   HWY_ALIGN HeightBlock turned;
@@ -130,7 +130,7 @@ void transpose(HeightBlock& block) {
   turn(turned.data(), block.data());
 }
 
-/// The observation of cells side by side, one a lane; `rows` heights of each, which it changes.
+/// Observes one cell per lane. Each cell has `rows` heights, which this function overwrites.
 template <std::size_t rows>
 HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, const Observations& o,
                               FloatVector& correction, FloatVector& weight) {
@@ -141,8 +141,8 @@ HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, con
   const FloatVector bottom = hn::Neg(hn::Add(gate, hn::Set(d, depth_below_gate)));
   const FloatVector top = hn::Add(gate, hn::Set(d, height_above_gate));
 
-  // How many points there are, how many within the gate, the three lowest of both. From here on
-  // points out of sight are infinitely high.
+  // Counts the points and the points within the gate, and finds the three lowest heights of each.
+  // Points outside the observed range become infinitely high.
   FloatVector seen = zero;
   FloatVector gated = zero;
   FloatVector lowest = none;
@@ -172,7 +172,7 @@ HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, con
     third = hn::Min(third, not_second);
   }
 
-  // One or two points far below all others are reflections.
+  // One or two points far below the others are reflections.
   const auto is_alone = [&](FloatVector low, FloatVector next) HWY_ATTR {
     return hn::Gt(hn::Sub(next, low), hn::Set(d, reflection_gap));
   };
@@ -180,8 +180,8 @@ HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, con
       hn::IfThenElse(is_alone(second_lowest, third_lowest), third_lowest, second_lowest);
   const FloatVector bound = hn::IfThenElse(is_alone(lowest, second_lowest), of_the_rest, lowest);
 
-  // A mode of the heights near the low end: means of a window that moves to its mean, within the
-  // gate.
+  // Finds the lowest mode of the heights within the gate: the window moves to the mean of its
+  // points.
   FloatVector mean = hn::IfThenElse(hn::Lt(gated, hn::Set(d, 10.0f)), second, third);
   mean = hn::IfThenElse(hn::Lt(gated, hn::Set(d, 5.0f)), first, mean);
   const auto window_of = [&](FloatVector& low, FloatVector& high) HWY_ATTR {
@@ -237,18 +237,19 @@ HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, con
   correction = hn::IfThenElse(is_mode, mean, hn::IfThenElseZero(is_bound, bound));
 }
 
-/// Writes what is known of the cells of a tile into the grid.
+/// Writes the observations of a tile of cells into the grid.
 void note(const Observations& o, std::span<const OccupiedCell> cells, const float* corrections,
           const float* weights) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (weights[i] <= 0) continue;
-    const std::size_t place = cells[i].row * o.surface->width + cells[i].column;
-    o.corrections[place] = corrections[i];
-    o.weights[place] = weights[i];
+    const std::size_t cell = cells[i].row * o.surface->width + cells[i].column;
+    o.corrections[cell] = corrections[i];
+    o.weights[cell] = weights[i];
   }
 }
 
-/// Up to sixteen cells, of which up to `rows` points are looked at, evenly from all of them.
+/// Observes up to sixteen cells, with up to `rows` points per cell, selected evenly from its
+/// points.
 template <std::size_t rows>
 HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell> cells) {
   const FloatTag d;

@@ -14,30 +14,31 @@ namespace flagstone::surface {
 
 /// A cell of a grid and its points.
 struct OccupiedCell {
-  std::uint32_t first;  ///< of its points, an index
+  std::uint32_t first;  ///< index of its first point
   std::uint32_t count;
   std::uint32_t row, column;
 };
 
-/// What the points of a level's cells say about the surface there: how far it lies above where it
-/// was before.
+/// Corrections of the surface from the points in the cells of a level. A positive correction raises
+/// the surface.
 struct Observations {
-  const plane_fits::MovedPoint* points;  ///< of the scan, cell by cell; 16 more may be read
-  const Grid* surface;                   ///< as it was before
-  float gate;                            ///< metres, see Refinement
+  const plane_fits::MovedPoint*
+      points;           ///< of the scan, cell by cell; 16 more points must be readable
+  const Grid* surface;  ///< before the correction
+  float gate;           ///< of the level, metres; see Refinement
   float gate_per_metre;
   float max_clutter_ratio;
   float lower_bound_weight;
-  float* corrections;  ///< by cell, row by row: metres; only written where the weight is
-  float* weights;      ///< by cell: 0 to 1; only written where something is known
+  float* corrections;  ///< by cell, row by row, metres; only written for observed cells
+  float* weights;      ///< by cell, 0 to 1; only written for observed cells
 };
 
-/// A cell of up to as many points is small.
+/// Maximum number of points of a small cell.
 inline constexpr std::uint32_t small_cell = 16;
 enum class CellSize : std::uint8_t { small, any };
 
-/// Observes cells, none larger than `size` says: small ones take half the time. Of up to 32 points
-/// of a cell all are looked at, of more 32, evenly from all of them.
+/// Observes cells. With `CellSize::small`, which takes half the time, all cells must be small. At
+/// most 32 points per cell are used, selected evenly from all points of the cell.
 void observe(const Observations& observations, std::span<const OccupiedCell> cells,
              CellSize size) noexcept;
 

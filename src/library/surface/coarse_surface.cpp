@@ -15,19 +15,20 @@
 #define FLAGSTONE_SURFACE_COARSE_SURFACE_ONCE
 namespace flagstone::surface {
 
-/// A plane as nodes see it, and the nodes it reaches.
+/// A plane and the range of grid nodes that it affects.
 struct PlaneOnGrid {
-  float x, y, z;                                               ///< a point of it, metres
-  float slope_x, slope_y;                                      ///< metres a metre
+  float x, y, z;                                               ///< a point of the plane, metres
+  float slope_x, slope_y;                                      ///< m/m
   float trust;                                                 ///< 0 to 1
-  float variance;                                              ///< of its height at that point, m^2
-  std::size_t first_row, last_row, first_column, last_column;  ///< the last ones included
+  float variance;                                              ///< of the height at that point, m^2
+  std::size_t first_row, last_row, first_column, last_column;  ///< inclusive
 };
 
-/// Height of a patch that is as flat as can be is known to that, metres; s_0.
+/// s_0: standard deviation of the height of a perfectly flat patch, metres.
 inline constexpr float least_deviation = 0.05f;
 
-/// Ground curves by about so much, 1/metre; kappa: what a plane says is off by kappa d^2 / 2.
+/// kappa: typical curvature of ground, 1/metre. The error of a plane at distance d is kappa d^2 /
+/// 2.
 inline constexpr float curvature = 0.05f;
 
 }  // namespace flagstone::surface
@@ -37,7 +38,7 @@ HWY_BEFORE_NAMESPACE();
 namespace flagstone::surface::HWY_NAMESPACE {
 namespace {
 
-// Plain loops: the compiler makes vectors of them, for each instruction set its own.
+// Plain loops, which the compiler vectorises for each instruction set.
 
 void add_plane(const Grid& grid, const PlaneOnGrid& plane) {
   for (std::size_t row = plane.first_row; row <= plane.last_row; ++row) {
@@ -56,7 +57,7 @@ void add_plane(const Grid& grid, const PlaneOnGrid& plane) {
   }
 }
 
-/// Calls `work(cell, trend there)` for every cell.
+/// Calls `work(cell, height of the trend at the cell)` for every cell.
 template <class Work>
 HWY_INLINE void along_trend(const Grid& grid, const Trend& trend, const Work& work) {
   for (std::size_t row = 0; row < grid.width; ++row) {
@@ -70,7 +71,7 @@ HWY_INLINE void along_trend(const Grid& grid, const Trend& trend, const Work& wo
   }
 }
 
-/// Sums become means, seen from the trend; 0 where there are none.
+/// Replaces sums by means, relative to the trend; 0 for cells without weight.
 void divide(const Grid& grid, const Trend& trend) {
   float* HWY_RESTRICT sums = grid.heights;
   const float* HWY_RESTRICT weights = grid.confidences;
@@ -97,16 +98,17 @@ HWY_EXPORT(add_plane);
 HWY_EXPORT(divide);
 HWY_EXPORT(add_trend);
 
-/// A plane through as many points is trusted fully.
+/// Planes through at least this many points have full trust.
 constexpr double points_of_full_trust = 50;
 
-/// From this weight on a node needs no others.
+/// Nodes with at least this weight are not smoothed.
 constexpr float full_weight = 0.5f / (least_deviation * least_deviation);
 
-/// Patches that lie together within some metres give the trend no slope, metres^2.
+/// Added to the variances of x and y, metres^2, so that patches within a few metres of each other
+/// give no slope.
 constexpr double least_spread = 30;
 
-/// Weight of the height that is expected below the sensor.
+/// Weight of the expected height below the sensor.
 constexpr float foot_weight = 0.1f / (least_deviation * least_deviation);
 
 }  // namespace
@@ -190,7 +192,7 @@ void CoarseSurface::finish(PullPush& pull_push) noexcept {
   HWY_DYNAMIC_DISPATCH(divide)(grid_, along);
   pull_push.fill(grid_.heights, grid_.confidences, grid_.width, full_weight);
   HWY_DYNAMIC_DISPATCH(add_trend)(grid_, along);
-  // What is expected below the sensor is not known.
+  // The expected height below the sensor is not a measurement.
   if (means_.weight <= 0) std::fill_n(grid_.confidences, grid_.size(), 0.0f);
 }
 

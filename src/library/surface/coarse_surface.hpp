@@ -13,35 +13,35 @@ namespace flagstone::surface {
 /// A plane over the whole grid.
 struct Trend {
   float height;            ///< at the sensor, metres
-  float slope_x, slope_y;  ///< metres a metre
+  float slope_x, slope_y;  ///< m/m
 };
 
-/// Joins accepted patches to a surface on a grid: near a patch its plane counts, the more the
-/// closer and the better it fits; between patches what lies around, as seen from the plane that
-/// follows all of them, so that a slope goes on where nothing was measured.
+/// Merges accepted patches into a surface on a grid. Near a patch, its plane has a weight that
+/// increases with its quality and decreases with distance. Gaps between patches are filled relative
+/// to a trend plane through all patches, so that slopes continue into unmeasured areas.
 class CoarseSurface {
  public:
-  /// On `grid`, whose cells it fills; foot: the ground below the sensor is expected at height
+  /// Writes to the cells of `grid`. The ground below the sensor is expected at height
   /// `-sensor_height`.
   CoarseSurface(Grid grid, float sensor_height) noexcept : grid_(grid), foot_(-sensor_height) {}
 
-  /// No patches.
+  /// Removes all patches.
   void clear() noexcept;
 
   /// Adds a plane, in the sensor frame, that was fitted to a square patch of side `size`, metres.
   void add(const Plane& plane, float size) noexcept;
 
-  /// Makes the surface of what was added.
+  /// Computes the surface from the added planes.
   void finish(PullPush& pull_push) noexcept;
 
  private:
-  /// The plane of least squares through the patches' means.
+  /// The least-squares plane through the means of the patches.
   [[nodiscard]] Trend trend() const noexcept;
 
-  Grid grid_;  ///< until finish(): sums of weighted heights, and of weights
-  float foot_;
+  Grid grid_;   ///< before finish(): sums of weighted heights, and sums of weights
+  float foot_;  ///< expected height of the ground below the sensor, metres
 
-  /// Weighted sums over the patches' means, for the trend.
+  /// Weighted sums over the means of the patches, for the trend.
   struct WeightedSums {
     double weight = 0;
     double x = 0, y = 0, z = 0;

@@ -31,17 +31,17 @@ HWY_BEFORE_NAMESPACE();
 namespace flagstone::surface::HWY_NAMESPACE {
 namespace {
 
-// Plain loops: the compiler makes vectors of them, for each instruction set its own.
+// Plain loops, which the compiler vectorises for each instruction set.
 
-/// Cells over which corrections fade at an inner edge.
+/// Number of cells over which corrections fade at an inner edge.
 inline constexpr std::size_t fading = 3;
 
 void upsample_values(const float* coarse, std::size_t coarse_width, float* fine,
                      std::size_t fine_width) {
   const std::size_t margin =
-      (coarse_width - fine_width / 2) / 2;  // coarse cells beside the fine grid
+      (coarse_width - fine_width / 2) / 2;  // coarse cells outside the fine grid, per side
   const std::size_t last = coarse_width - 1;
-  const auto beside = [&](std::size_t fine_index) {  // the coarse cell next nearest
+  const auto beside = [&](std::size_t fine_index) {  // the second-nearest coarse cell
     const std::size_t here = margin + fine_index / 2;
     if (fine_index % 2 == 0) return here > 0 ? here - 1 : 0;
     return std::min(here + 1, last);
@@ -91,7 +91,8 @@ void correct_values(const float* HWY_RESTRICT corrections, const float* HWY_REST
   }
 }
 
-/// Weighted means of two by two cells. Where the width is odd, the last ones have no partner.
+/// Weighted means of two by two cells. If the width is odd, the last row and column have no
+/// partner.
 void pull(const FilledGrid& fine, const FilledGrid& coarse, float full) {
   for (std::size_t row = 0; row < coarse.width; ++row) {
     const std::size_t upper = 2 * row;
@@ -122,7 +123,7 @@ void pull(const FilledGrid& fine, const FilledGrid& coarse, float full) {
   }
 }
 
-/// Repeats the outermost cells of a grid in a frame around it.
+/// Copies the outermost cells of a grid to the frame around it.
 void frame(const FilledGrid& grid) {
   for (float* cells : {grid.values, grid.weights}) {
     const auto stride = static_cast<std::ptrdiff_t>(grid.stride);
@@ -137,11 +138,12 @@ void frame(const FilledGrid& grid) {
   }
 }
 
-/// Takes from the coarser grid, framed and holding confidences, what the finer one does not know.
+/// Fills the finer grid from the coarser one, which has a frame and contains confidences.
 void push(const FilledGrid& coarse, const FilledGrid& fine, float full) {
   const float per_weight = 1 / full;
   for (std::size_t row = 0; row < fine.width; ++row) {
-    // Bilinear between centres: three quarters of the coarse cell around, a quarter of the next.
+    // Bilinear between centres: three quarters of the enclosing coarse cell, one quarter of the
+    // next.
     const auto near = static_cast<std::ptrdiff_t>(row / 2);
     const std::ptrdiff_t far = row % 2 == 0 ? near - 1 : near + 1;
     const auto stride = static_cast<std::ptrdiff_t>(coarse.stride);
@@ -173,7 +175,7 @@ void push(const FilledGrid& coarse, const FilledGrid& fine, float full) {
   }
 }
 
-/// The coarsest grid: one cell.
+/// Computes the confidence of the coarsest grid, which is one cell.
 void settle(const FilledGrid& grid, float full) {
   grid.weights[0] = std::min(1.0f, grid.weights[0] / full);
 }

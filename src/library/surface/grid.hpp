@@ -8,7 +8,8 @@
 
 namespace flagstone::surface {
 
-/// A square grid of heights centred on the sensor, in working memory; see GroundSurface::Grid.
+/// A square grid of heights centred on the sensor, in memory owned by the caller; see
+/// GroundSurface::Grid.
 struct Grid {
   float cell = 0;                ///< side of a cell, metres
   std::size_t width = 0;         ///< cells along a side, even
@@ -18,41 +19,43 @@ struct Grid {
   [[nodiscard]] float extent() const noexcept { return static_cast<float>(width) * cell / 2; }
   [[nodiscard]] std::size_t size() const noexcept { return width * width; }
 
-  /// x of the centres of a column, or y of those of a row, metres.
+  /// x of the centres of a column, or y of the centres of a row, metres.
   [[nodiscard]] float center(std::size_t index) const noexcept {
     return (static_cast<float>(index) + 0.5f) * cell - extent();
   }
 };
 
-/// Gives a grid the heights and confidences of the one it lies in, whose cells are twice as wide
-/// and of which it covers as much or less, around the same middle.
+/// Interpolates heights and confidences of `coarse` onto `fine` (bilinear). Cells of `coarse` are
+/// twice as wide. Both grids have the same centre, and `coarse` covers `fine`.
 void upsample(const Grid& coarse, const Grid& fine) noexcept;
 
-/// Adds corrections to heights, by cell, metres. Where something else borders the grid (`inner`),
-/// they fade to nothing at the outermost cells, so that the surface has no step there. Confidence
-/// becomes the larger of what it was and that of the correction.
+/// Adds corrections to the heights, by cell, metres. If the grid lies inside a coarser one
+/// (`inner`), corrections fade to zero at the outermost cells, so that the surface has no step
+/// there. The confidence of a cell becomes the maximum of the cell's and the correction's
+/// confidence.
 void correct(const float* corrections, const float* confidences, bool inner,
              const Grid& grid) noexcept;
 
-/// Fills the gaps of a grid (Gortler, Grzeszczuk, Szeliski, Cohen, The Lumigraph, SIGGRAPH 1996,
-/// section 3.4): weighted means are pulled into ever coarser grids, of half as many cells a side,
-/// and pushed back where a finer grid knows less.
+/// Fills the gaps of a grid with pull-push (Gortler, Grzeszczuk, Szeliski, Cohen, The Lumigraph,
+/// SIGGRAPH 1996, section 3.4). Pull computes weighted means on coarser and coarser grids, each
+/// with half as many cells per side. Push fills cells with too little weight from the next coarser
+/// grid.
 class PullPush {
  public:
-  /// For grids of up to `width` x `width` cells, an even number. May throw std::bad_alloc.
+  /// For grids of up to `width` x `width` cells. May throw std::bad_alloc.
   explicit PullPush(std::size_t width);
 
-  /// Replaces the values, row by row, by filled ones. A cell whose weight is `full` or more keeps
-  /// its value; one with less takes the rest from around it, one with none all. Without any weight
-  /// all values become 0.
+  /// Fills `values`, row by row, in place. Cells with a weight of at least `full` keep their
+  /// values. Cells with less weight are blended with the values around them, and cells without
+  /// weight take those values. If no cell has weight, all values become 0.
   ///
-  /// Weights become confidences: 1 where a cell keeps its value, half of what the coarser grid has
-  /// where it has none of its own.
+  /// Replaces weights by confidences: 1 for a cell that keeps its value, and half the confidence of
+  /// the coarser grid for a cell without weight.
   void fill(float* values, float* weights, std::size_t width, float full) noexcept;
 
  private:
-  /// Grids of half, a quarter, ... of the width. Each is framed by one cell on all sides that
-  /// repeats its edge.
+  /// Grids of half, a quarter, ... of the width. Each has a frame of one cell that repeats its
+  /// edge.
   Buffer<float> values_;
   Buffer<float> weights_;
 };

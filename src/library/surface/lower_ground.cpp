@@ -24,7 +24,7 @@ LowerGround::LowerGround(const SquareCells& cells)
   std::fill_n(squares_.data(), count, Square{});
 }
 
-/// Calls `work(index, point, number of its square)` for the points labelled noise that may be
+/// Calls `work(index, point, number of its square)` for each point labelled noise that can be
 /// ground, in the order of the cloud.
 template <class Work>
 void LowerGround::each_noise(const plane_fits::ScanPoints& scan, std::span<const Label> labels,
@@ -60,7 +60,7 @@ std::size_t LowerGround::find(const plane_fits::ScanPoints& scan,
   });
   const std::span<const std::uint32_t> touched(touched_.data(), touched_count_);
 
-  // Planes, each through the points near the one before.
+  // Fit each plane through the points near the previous one.
   bool any = false;
   const auto fit = [&] {
     any = false;

@@ -15,26 +15,26 @@
 
 namespace flagstone::surface {
 
-/// Tells ground that the surface passes over from reflections below it: the bottom of a ditch, the
-/// foot of a drop between beams that the surface bridges. Such ground lies in a plane; reflections
-/// are few or scattered.
+/// Separates ground below the surface from reflections. The surface can pass over the bottom of a
+/// ditch or the lower side of a drop between two beams. The points of such ground form a plane;
+/// reflections are few or irregular.
 class LowerGround {
  public:
-  /// `cells` must outlive it.
+  /// `cells` must outlive this object.
   explicit LowerGround(const SquareCells& cells);
 
-  /// Of the points of `scan` that `labels` calls noise those in a plane of their own become ground,
-  /// those of a square of 4 m, see patches/lower_plane.hpp. Returns how many.
-  /// Points lower than ground can be stay noise.
+  /// Searches each 4 m square for points labelled noise that form a separate plane (see
+  /// plane_fits/lower_plane.hpp) and labels them ground. Returns their number. Points below the
+  /// noise limit of the cells stay noise.
   std::size_t find(const plane_fits::ScanPoints& scan, std::span<Label> labels) noexcept;
 
  private:
   /// The points labelled noise in one square.
   struct Square {
-    Moments all;    ///< of those, or of those near the plane before
+    Moments all;    ///< of these points, or of the points near the previous plane
     Plane plane;    ///< through them, metres, sensor frame
-    double deep;    ///< how many they were at first
-    bool searched;  ///< are they enough?
+    double deep;    ///< number of points before the first plane
+    bool searched;  ///< are there enough points?
   };
 
   template <class Work>

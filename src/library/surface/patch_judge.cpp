@@ -18,7 +18,8 @@
 #define FLAGSTONE_SURFACE_PATCH_JUDGE_ONCE
 namespace flagstone::surface {
 
-/// Columns of accepted patches, each padded to a multiple of 16 by patches that are far away.
+/// Columns of accepted patches, each padded to a multiple of 16 with patches at a very large
+/// distance.
 struct PatchColumns {
   const float *x, *y, *z, *slope_x, *slope_y, *trust;
   std::size_t places;
@@ -27,12 +28,12 @@ struct PatchColumns {
 /// Sums over neighbours.
 struct NeighbourSums {
   float trust;
-  float continued;  ///< trust times expected height, by the neighbours' planes
-  float curved;     ///< the same by curves
+  float continued;  ///< weight times height predicted by the neighbours' planes
+  float curved;     ///< weight times height predicted by curves
   float least_squared_distance;
 };
 
-/// Slopes are believed to three quarters.
+/// Factor by which predictions reduce slopes.
 inline constexpr float believed_slope = 0.75f;
 
 }  // namespace flagstone::surface
@@ -60,7 +61,7 @@ void count_bins(const plane_fits::BinBatch& batch, const PlaneBatch& planes,
     std::size_t within = 0;
     std::size_t above = 0;
     for (std::size_t i = 0; i < places; i += hn::Lanes(d)) {
-      // Infinite in places without a point, or not a number where the plane is upright.
+      // Infinite in slots without a point, or NaN if the plane is vertical.
       const FloatVector distance =
           hn::Add(hn::Add(hn::Add(hn::Mul(nx, hn::Load(d, x + i)), hn::Mul(ny, hn::Load(d, y + i))),
                           hn::Mul(nz, hn::Load(d, z + i))),
@@ -74,7 +75,7 @@ void count_bins(const plane_fits::BinBatch& batch, const PlaneBatch& planes,
   }
 }
 
-/// The sum of sixteen lanes is always that of halves: l + (l + 8), then + 4, + 2, + 1.
+/// Adds sixteen lanes in the same order for every vector length: l + (l + 8), then + 4, + 2, + 1.
 float sum_of_lanes(const std::array<float, lanes>& values) {
   std::array<float, lanes> sums = values;
   for (std::size_t half = lanes / 2; half > 0; half /= 2) {
@@ -142,25 +143,24 @@ namespace {
 HWY_EXPORT(count_bins);
 HWY_EXPORT(sum_neighbours);
 
-/// A plane through fewer points says nothing.
+/// Planes through fewer points are not evaluated.
 constexpr double fewest_points = 5;
 
-/// Patches nearer to upright walls have no slope to speak of, whatever the setting: z of their
-/// normal.
+/// Minimum z of a normal for any setting: the slope of a steeper plane is too uncertain.
 constexpr double least_normal_z = 0.05;
 
-/// How much farther below what is expected than above it a patch may lie, metres.
+/// Additional step that is allowed downwards, metres.
 constexpr float extra_step_down = 0.5f;
 
-/// Steps grow with the distance to the nearest patch up to here, metres.
+/// The allowed step grows with the distance to the nearest patch up to this distance, metres.
 constexpr float longest_gap = 15;
 
-/// Patches within this share of the range are asked, and all within `fewest_metres`.
+/// Neighbours lie within this fraction of the range, but at least within `neighbour_metres`.
 constexpr float neighbour_share = 0.5f;
 constexpr float neighbour_metres = 8;
 
 constexpr std::size_t column_count = 6;
-constexpr float far_away = 1e15f;  // its square is still a number
+constexpr float far_away = 1e15f;  // its square is finite
 
 }  // namespace
 

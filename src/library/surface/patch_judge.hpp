@@ -14,23 +14,24 @@
 
 namespace flagstone::surface {
 
-/// How many of a patch's points lie in its plane and just above it.
+/// Numbers of points of a patch in its plane and just above the plane.
 struct SlabCounts {
   std::uint32_t within;  ///< less than 12.5 cm from the plane
   std::uint32_t above;   ///< more than 18.75 and less than 88.75 cm above it
 };
 
-/// For each patch of a batch the points in and above a plane n . p + d = 0, p as the batch has it.
+/// Counts the points in and above the plane n . p + d = 0 of each patch of a batch, with p in the
+/// coordinates of the batch.
 std::array<SlabCounts, batch_size> count_slabs(const plane_fits::BinBatch& batch,
                                                const PlaneBatch& planes) noexcept;
 
-/// A patch as seen by its neighbours: a point of its plane and how it rises from there.
+/// A fitted patch as its neighbours use it: a point of its plane and the slope of the plane.
 struct FittedPatch {
   float x, y, z;           ///< mean of its ground set, metres
   float slope_x, slope_y;  ///< m/m
-  float points;            ///< in its ground set
+  float points;            ///< number of points in its ground set
 
-  /// `plane` is upright.
+  /// `plane` must not be vertical.
   static FittedPatch of(const Plane& plane) noexcept {
     return {.x = static_cast<float>(plane.mean[0]),
             .y = static_cast<float>(plane.mean[1]),
@@ -41,10 +42,10 @@ struct FittedPatch {
   }
 };
 
-/// The patches found to be ground so far, and what they let expect elsewhere.
+/// The patches accepted as ground so far, and the heights that they predict.
 class AcceptedPatches {
  public:
-  /// Makes room for `count` patches; may throw std::bad_alloc.
+  /// Reserves memory for `count` patches; may throw std::bad_alloc.
   void reserve(std::size_t count);
 
   void clear() noexcept { count_ = 0; }
@@ -52,22 +53,23 @@ class AcceptedPatches {
 
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
 
-  /// How a patch fits to those accepted within `radius` of its mean.
+  /// How a patch fits the patches accepted within `radius` of its mean.
   struct Fit {
     bool has_neighbour;
-    float distance;  ///< to the nearest of them, metres
-    float step;      ///< how far the patch lies above what they let expect, metres
+    float distance;  ///< to the nearest neighbour, metres
+    float step;      ///< height of the patch above the prediction, metres
   };
 
-  /// What is expected is the mean height that the neighbours' planes, three quarters as steep, have
-  /// at the patch; or, if that comes closer, the height that a curve leads to which begins with a
-  /// neighbour's slope and ends with the patch's: so the foot of a bank does not end the ground.
+  /// Compares the height of `patch` with two predictions and returns the smaller step. One is the
+  /// weighted mean height of the neighbours' planes at the patch, with their slopes reduced to
+  /// three quarters. The other follows a curve from the slope of a neighbour to the slope of the
+  /// patch, so that the ground continues at the base of a bank.
   [[nodiscard]] Fit fit(const FittedPatch& patch, float radius) const noexcept;
 
  private:
   std::size_t count_ = 0;
   std::size_t capacity_ = 0;
-  Buffer<float> columns_;  ///< x, y, z, slope_x, slope_y, trust, one after the other
+  Buffer<float> columns_;  ///< x, y, z, slope_x, slope_y, trust, one column after the other
 };
 
 /// Decides which patches are ground.
@@ -75,12 +77,12 @@ class PatchJudge {
  public:
   explicit PatchJudge(const SurfaceConfig& config);
 
-  /// By itself: enough points, upright, with more points in its plane than above it, not too high.
-  /// The plane is in the sensor frame.
+  /// Evaluates a patch without its neighbours: number of points, uprightness, clutter ratio and
+  /// maximum height. `plane` is in the sensor frame.
   [[nodiscard]] Verdict judge_alone(const Plane& plane, const SlabCounts& counts) const noexcept;
 
-  /// By those nearer to the sensor: close to where they let expect ground, or, where there are
-  /// none, to the sensor's height. `ground`, or `off_surface`.
+  /// Compares a patch with the height that accepted patches nearer to the sensor predict, or with
+  /// -h_s if it has no neighbour. Returns `ground` or `off_surface`.
   [[nodiscard]] Verdict judge_step(const FittedPatch& patch,
                                    const AcceptedPatches& nearer) const noexcept;
 

@@ -18,21 +18,21 @@
 #define FLAGSTONE_SURFACE_POINT_HEIGHTS_ONCE
 namespace flagstone::surface {
 
-/// Points higher than this above the surface hang over it, metres.
+/// Points higher than this above the surface are overhanging objects, not obstacles, metres.
 inline constexpr float overhang = 2.5f;
 
-/// Cells of 0.5 m in which something stands. Each has two bytes, which are 1 where a point lies
-/// above the lower and where one lies above the higher of two heights.
+/// Marks of obstacles in cells of 0.5 m. Each cell has two bytes: the first is 1 if it contains a
+/// point above `low`, the second if it contains a point above `high`.
 struct StandingCells {
-  std::uint32_t* words;  ///< two cells each
+  std::uint32_t* words;  ///< two cells per word
   std::int32_t width;    ///< cells along a side
   float edge;            ///< cells from the sensor to the edge
   float low, high;       ///< metres above the surface
 };
 
-/// A chunk of points and what is to be said about them.
+/// A chunk of points and their heights.
 struct MeasuredPoints {
-  const float *x, *y, *z;  ///< 16 more may be read
+  const float *x, *y, *z;  ///< 16 more values must be readable
   std::size_t count;
   float* heights;
 };
@@ -46,10 +46,10 @@ namespace {
 
 using FloatMask = hn::Mask<FloatTag>;
 
-/// Where a coordinate lies between the centres of two cells.
+/// Position of a coordinate between the centres of two cells.
 struct Between {
-  IntVector first;    ///< index of the one; the other is the next
-  FloatVector share;  ///< of the next, 0 to 1
+  IntVector first;    ///< index of the first cell; the second is the next one
+  FloatVector share;  ///< weight of the second cell, 0 to 1
 };
 
 HWY_INLINE Between between(FloatVector coordinate, FloatVector per_cell, FloatVector middle,
@@ -57,7 +57,7 @@ HWY_INLINE Between between(FloatVector coordinate, FloatVector per_cell, FloatVe
   const FloatTag d;
   const FloatVector one = hn::Set(d, 1.0f);
   const FloatVector center = hn::Add(hn::Mul(coordinate, per_cell), middle);
-  // Not a number becomes 0.
+  // NaN becomes 0.
   const FloatVector inside =
       hn::Min(hn::IfThenElseZero(hn::Gt(center, hn::Zero(d)), center), hn::Sub(width, one));
   const IntVector first = whole_part(hn::Min(inside, hn::Sub(width, hn::Add(one, one))));
@@ -68,8 +68,7 @@ HWY_INLINE FloatVector blend(FloatVector a, FloatVector b, FloatVector share_of_
   return hn::Add(a, hn::Mul(share_of_b, hn::Sub(b, a)));
 }
 
-/// The same, but the end that has no weight has no influence: not that of rounding, nor that of not
-/// being a number.
+/// As blend(), but a value without weight has no influence, neither by rounding nor if it is NaN.
 HWY_INLINE FloatVector blend_with_care(FloatVector a, FloatVector b, FloatVector share_of_b) {
   const FloatTag d;
   const FloatVector from_b =
@@ -77,8 +76,8 @@ HWY_INLINE FloatVector blend_with_care(FloatVector a, FloatVector b, FloatVector
   return hn::IfThenElse(hn::Le(share_of_b, hn::Zero(d)), a, from_b);
 }
 
-/// The surface below points, bilinear, to the bit as GroundSurface::height has it. Takes any bit
-/// pattern, and says something for all.
+/// The height of the surface at each point, bilinear and bit-identical to GroundSurface::height.
+/// Accepts any value, including NaN, infinity and denormals, and returns a value for each.
 HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables& tables) {
   const FloatTag d;
   const IntTag di;
@@ -93,7 +92,7 @@ HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables
   const FloatVector width = lookup_8(tables.widths.data(), grid);
   const Between column = between(x, per_cell, middle, width);
   const Between row = between(y, per_cell, middle, width);
-  // In floats, all of them whole and below 2^24.
+  // Computed in floats; all values are integers below 2^24, so they are exact.
   const FloatVector row_first =
       hn::Add(hn::Mul(hn::ConvertTo(d, row.first), width), lookup_8(tables.firsts.data(), grid));
   const IntVector near = hn::Add(whole_part(row_first), column.first);
@@ -110,8 +109,8 @@ HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables
                          blend_with_care(far_left, far_right, column.share), row.share);
 }
 
-/// The cells of 0.5 m that points within the extent lie in; of others, `there` being false, that
-/// beside the sensor.
+/// The 0.5 m cells of points within the extent. Points with `there` false get the cell next to the
+/// sensor.
 HWY_INLINE IntVector standing_cell(FloatMask there, FloatVector x, FloatVector y,
                                    const StandingCells& standing) {
   const FloatTag d;
@@ -154,7 +153,7 @@ void measure_points(const MeasuredPoints& points, const GridTables& tables,
         increment_if(is_high, hn::ShiftLeft<1>(standing_cell(stands, x, y, standing)));
     const std::size_t count = compress_store(byte, hn::RebindMask(di, stands), marked.data());
     for (std::size_t k = 0; k < count; ++k) {
-      // Other threads may say the same.
+      // Other threads may set the same mark.
       std::atomic_ref<std::uint8_t>(marks[marked[k]]).store(1, std::memory_order_relaxed);
     }
   }
@@ -244,12 +243,12 @@ namespace {
 HWY_EXPORT(measure_points);
 HWY_EXPORT(label_points);
 
-/// Cells of 0.5 m along a side.
+/// Number of 0.5 m cells along one side.
 std::size_t standing_width(const SquareCells& cells) {
   return static_cast<std::size_t>(4 * cells.extent());
 }
 
-/// What stands a quarter less than `height` stands a little, what stands a quarter more fully.
+/// The two limits are a quarter below and a quarter above `height`.
 StandingCells standing_cells(const SquareCells& cells, std::uint32_t* words, float height) {
   return {.words = words,
           .width = static_cast<std::int32_t>(standing_width(cells)),

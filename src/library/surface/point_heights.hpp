@@ -17,35 +17,35 @@
 
 namespace flagstone::surface {
 
-/// The grids of a surface as tables, an entry for each; a place belongs to the last one that
-/// reaches it.
+/// The grids of a surface as tables with one entry per grid. A position belongs to the last grid
+/// that covers it.
 struct GridTables {
-  std::array<float, 8> extents;   ///< to the last centres, or to the edge, metres
+  std::array<float, 8> extents;   ///< of the outermost centres, or of the edge, metres
   std::array<float, 8> per_cell;  ///< 1 / cell, 1/metre
-  std::array<float, 8> middles;   ///< index of the sensor's place: between two cells
+  std::array<float, 8> middles;   ///< index of the sensor position, between two cells
   std::array<float, 8> widths;    ///< cells
   std::array<float, 8> firsts;    ///< index of the first height
   std::size_t count;
   const float* heights;
 };
 
-/// Heights of points above the surface, and the labels that follow from them.
+/// Computes the heights of points above the surface, and their labels.
 class PointHeights {
  public:
   /// May throw std::bad_alloc.
   PointHeights(const SurfaceConfig& config, const SquareCells& cells);
 
-  /// The surface to measure from: grids that lie one after another in memory.
+  /// Sets the surface. The heights of `grids` must be contiguous in memory.
   void set_surface(std::span<const Grid> grids) noexcept;
 
-  /// Measures the heights of a chunk's points, metres, and notes where something stands. NaN for
-  /// points that are invalid or out of range, and where the surface is not known. Chunks may be
-  /// measured by several threads at once.
+  /// Computes the heights of the points of a chunk, metres, and marks the cells that contain
+  /// obstacles. A height is NaN if the point is invalid or out of range, or if the surface is
+  /// unknown there. Several threads may process different chunks at the same time.
   void measure(const plane_fits::ScanPoints& scan, std::size_t chunk,
                std::span<float> heights) noexcept;
 
-  /// Labels a chunk's points once all chunks are measured. Chunks may be labelled by several
-  /// threads at once.
+  /// Labels the points of a chunk. measure() must have finished for all chunks. Several threads may
+  /// process different chunks at the same time.
   void label(const plane_fits::ScanPoints& scan, std::size_t chunk, std::span<float> heights,
              std::span<Label> labels, LabelTotals& totals) noexcept;
 
@@ -53,8 +53,7 @@ class PointHeights {
   const SquareCells* cells_;
   PointRule rule_;
   GridTables tables_{};
-  Buffer<std::uint32_t>
-      standing_;  ///< two bytes for each cell of 0.5 m: does something stand there?
+  Buffer<std::uint32_t> standing_;  ///< obstacle marks, two bytes per 0.5 m cell; see StandingCells
   std::size_t standing_words_ = 0;
 };
 

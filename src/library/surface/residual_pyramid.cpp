@@ -12,30 +12,30 @@
 namespace flagstone::surface {
 namespace {
 
-/// A cell with fewer points is not looked at.
+/// Cells with fewer points are not observed.
 constexpr std::size_t fewest_points_in_cell = 3;
 
-/// A cell whose observations weigh as much keeps its correction, whatever is around.
+/// Cells with at least this weight keep their own correction.
 constexpr float full_weight = 0.5f;
 
-/// Where confidence is less, nothing supports the surface.
+/// Heights with less confidence are unknown.
 constexpr float min_confidence = 1.0f / 16;
 
-/// Cells that one thread observes at a time.
+/// Number of cells per job.
 constexpr std::size_t cells_of_a_job = 256;
 
-/// Where the cells of a block lie that are numbered along a Z-order curve.
+/// Row and column of each cell of a block, by index along the Z-order curve.
 struct InBlock {
   std::uint8_t row, column;
 };
 constexpr auto in_z_order = [] {
-  std::array<InBlock, 1024> places{};
+  std::array<InBlock, 1024> positions{};
   for (std::uint8_t row = 0; row < 32; ++row) {
     for (std::uint8_t column = 0; column < 32; ++column) {
-      places[z_order(column, row)] = {.row = row, .column = column};
+      positions[z_order(column, row)] = {.row = row, .column = column};
     }
   }
-  return places;
+  return positions;
 }();
 
 float reach_of(std::size_t level, const SquareCells& cells) {
@@ -70,7 +70,7 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
   const auto level_total = static_cast<std::size_t>(settings_.levels);
   cells_.resize(level_total);
   for (std::size_t level = 0; level < level_total; ++level) {
-    // Every cell may be small, or none.
+    // All cells may be small, or none.
     cells_[level].small.reserve(grids_[level].size() + 1);
     cells_[level].large.reserve(grids_[level].size() + 1);
     cells_[level].first_block =
@@ -111,14 +111,14 @@ void ResidualPyramid::list_cells_of(const Block& block, std::size_t level) noexc
   const std::uint32_t first_column = (block.column - list.first_block) * along;
   OccupiedCell* small = list.small.data() + list.small_count;
   OccupiedCell* large = list.large.data() + list.large_count;
-  for (std::uint32_t place = 0; place < along * along; ++place) {
-    const std::uint32_t first = begins_[place * each];
-    const std::uint32_t count = begins_[(place + 1) * each] - first;
+  for (std::uint32_t index = 0; index < along * along; ++index) {
+    const std::uint32_t first = begins_[index * each];
+    const std::uint32_t count = begins_[(index + 1) * each] - first;
     const OccupiedCell cell{.first = first,
                             .count = count,
-                            .row = first_row + in_z_order[place].row,
-                            .column = first_column + in_z_order[place].column};
-    // Without a branch: whether a cell is occupied is hard to foresee.
+                            .row = first_row + in_z_order[index].row,
+                            .column = first_column + in_z_order[index].column};
+    // Without branches, because the number of points in a cell is hard to predict.
     *small = *large = cell;
     small += static_cast<std::ptrdiff_t>(count >= fewest_points_in_cell && count <= small_cell);
     large += static_cast<std::ptrdiff_t>(count > small_cell);
@@ -143,7 +143,8 @@ void ResidualPyramid::refine(const plane_fits::BinGroups& groups, PullPush& pull
 }
 
 float ResidualPyramid::gate_of(std::size_t level) const noexcept {
-  float gate = settings_.gate;  // step by step: std::pow is not the same everywhere
+  float gate =
+      settings_.gate;  // multiplied step by step, because std::pow differs between platforms
   for (std::size_t i = 0; i < level; ++i) gate *= settings_.gate_factor;
   return gate;
 }

@@ -19,27 +19,28 @@
 
 namespace flagstone::surface {
 
-/// The surface on grids of 2, 1, 0.5 and 0.25 m, each correcting the one before by what its points'
-/// heights above it say.
+/// The surface on grids of 2, 1, 0.5 and 0.25 m. Each grid corrects the previous one with the
+/// heights of the points above it.
 class ResidualPyramid {
  public:
   /// May throw std::bad_alloc.
   ResidualPyramid(const SurfaceConfig& config, const SquareCells& cells);
 
-  /// Coarsest first; they lie one after another in memory, heights as well as confidences.
+  /// The grids, coarsest first. Their heights are contiguous in memory, and so are their
+  /// confidences.
   [[nodiscard]] std::span<const Grid> grids() const noexcept { return grids_; }
 
-  /// Cells along a side of the widest grid.
+  /// Number of cells along one side of the widest grid.
   [[nodiscard]] std::size_t most_cells_along() const noexcept;
 
-  /// Makes room for the grids in `surface`; may throw std::bad_alloc.
+  /// Reserves memory for the grids in `surface`; may throw std::bad_alloc.
   void reserve(GroundSurface& surface) const;
 
-  /// Copies the grids into `surface`, which has room for them. Where nothing supports a height, the
-  /// grids forget it.
+  /// Copies the grids into `surface`, after reserve(). Heights with too little confidence become
+  /// NaN, in the grids too.
   void copy_to(GroundSurface& surface) const noexcept;
 
-  /// Refines the surface on the coarsest grid, and from it makes those on the others.
+  /// Refines the surface on the coarsest grid, then computes the finer grids from it.
   void refine(const plane_fits::BinGroups& groups, PullPush& pull_push, ThreadPool& pool) noexcept;
 
  private:
@@ -47,14 +48,14 @@ class ResidualPyramid {
   struct Block {
     CellRange cells;
     std::uint32_t column, row;  ///< in blocks from the edge
-    std::size_t levels;         ///< that reach it
+    std::size_t levels;         ///< number of levels that cover the block
   };
 
-  /// The cells of a level that hold points enough, small ones and others.
+  /// The cells of a level with enough points, separated into small and large cells.
   struct LevelCells {
     Buffer<OccupiedCell> small, large;
     std::size_t small_count = 0, large_count = 0;
-    std::uint32_t first_block = 0;  ///< blocks between the edge and where the level begins
+    std::uint32_t first_block = 0;  ///< blocks from the edge to the first block of the level
   };
 
   void list_cells(const plane_fits::BinGroups& groups) noexcept;
@@ -66,8 +67,9 @@ class ResidualPyramid {
   Refinement settings_;
   std::vector<Grid> grids_;
   std::vector<Block> blocks_;
-  std::vector<LevelCells> cells_;             ///< by level
-  std::array<std::uint32_t, 1025> begins_{};  ///< of one block: where each cell's points begin
+  std::vector<LevelCells> cells_;  ///< by level
+  std::array<std::uint32_t, 1025>
+      begins_{};  ///< of one block: index of the first point of each cell
   Buffer<float> heights_;
   Buffer<float> confidences_;
   Buffer<float> corrections_;

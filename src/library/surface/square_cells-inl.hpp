@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// The square cell that a point falls into, for a vector of points at once. Included once for each
-// instruction set.
+// Computes the square cells of a vector of points. Included once for each instruction set.
 
 // clang-format off
 #if defined(FLAGSTONE_SURFACE_SQUARE_CELLS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -28,7 +27,7 @@ HWY_INLINE IntVector all_lanes(std::uint32_t value) {
   return hn::Set(IntTag(), static_cast<std::int32_t>(value));
 }
 
-/// Bits 0 to 4 moved to the places 0, 2, 4, 6, 8.
+/// Moves bits 0 to 4 to positions 0, 2, 4, 6 and 8.
 HWY_INLINE IntVector spread_bits(IntVector v) {
   const IntTag di;
   v = hn::And(hn::Or(v, hn::ShiftLeft<4>(v)), hn::Set(di, 0x10F));
@@ -36,18 +35,18 @@ HWY_INLINE IntVector spread_bits(IntVector v) {
   return hn::And(hn::Or(v, hn::ShiftLeft<1>(v)), hn::Set(di, 0x155));
 }
 
-/// How many rings of blocks lie between the sensor and a column (or row) of blocks.
+/// Number of rings of blocks between the sensor and a column (or row) of blocks.
 HWY_INLINE IntVector ring_of(IntVector column, IntVector half) {
   const IntTag di;
   const IntVector from_middle = hn::Sub(column, half);
   return hn::Max(from_middle, hn::Sub(hn::Set(di, -1), from_middle));
 }
 
-/// The cells of points that are within the extent.
+/// The cells of points within the extent.
 HWY_INLINE IntVector cell_of(FloatVector x, FloatVector y, const SquareCells& cells) {
   const FloatTag d;
   const IntTag di;
-  // Quarter metres from the edge.
+  // Distance from the edge, in quarters of a metre.
   const FloatVector edge = hn::Set(d, 4 * cells.extent());
   const IntVector qx = whole_part(hn::Add(hn::Mul(x, hn::Set(d, 4.0f)), edge));
   const IntVector qy = whole_part(hn::Add(hn::Mul(y, hn::Set(d, 4.0f)), edge));
@@ -61,27 +60,31 @@ HWY_INLINE IntVector cell_of(FloatVector x, FloatVector y, const SquareCells& ce
   const IntVector z_order = hn::Or(spread_bits(hn::And(qx, in_block)),
                                    hn::ShiftLeft<1>(spread_bits(hn::And(qy, in_block))));
 
-  // In floats, all of them whole and below 2^24: there are no shifts by lane everywhere.
+  // Computed in floats, because not every instruction set can shift by a different amount per lane.
+  // All values are integers below 2^24, so they are exact.
   const FloatVector width = lookup_8(cells.class_widths(), ring);
   const FloatVector per_block = lookup_8(cells.cells_per_block(), ring);
   const FloatVector block =
       hn::Add(hn::Mul(hn::ConvertTo(d, row), width), hn::ConvertTo(d, column));
   const FloatVector first = hn::Add(lookup_8(cells.class_bases(), ring), hn::Mul(per_block, block));
-  const FloatVector share = hn::Mul(per_block, hn::Set(d, 1.0f / 1024));  // of 1,024 quarter metres
-  return hn::Add(whole_part(first), whole_part(hn::Mul(hn::ConvertTo(d, z_order), share)));
+  const FloatVector cells_per_index = hn::Mul(per_block, hn::Set(d, 1.0f / 1024));
+  return hn::Add(whole_part(first),
+                 whole_part(hn::Mul(hn::ConvertTo(d, z_order), cells_per_index)));
 }
 
 /// Whether points are valid and in range.
 HWY_INLINE hn::Mask<FloatTag> is_good(FloatVector x, FloatVector y, FloatVector z,
                                       const SquareCells& cells) {
   const FloatTag d;
-  const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));  // infinite if too far
+  const FloatVector squared_range =
+      hn::Add(hn::Mul(x, x), hn::Mul(y, y));  // infinite if the square overflows
   const auto in_range = hn::And(hn::Lt(squared_range, hn::Set(d, cells.max_squared_range())),
                                 hn::Le(hn::Abs(z), hn::Set(d, max_coordinate)));
   return hn::And(in_range, is_return(x, y, z));
 }
 
-/// The cells of points, each a cell, noise(), out_of_range() or invalid(). Takes any bit pattern.
+/// For each point its cell, noise(), out_of_range() or invalid(). Accepts any value, including NaN,
+/// infinity and denormals.
 HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z, const SquareCells& cells) {
   const FloatTag d;
   const IntTag di;

@@ -26,8 +26,8 @@ struct Locate {
   const SquareCells& cells;
 };
 
-std::size_t read_cells(const plane_fits::PointSlice& stretch, const SquareCells& cells) {
-  return plane_fits::HWY_NAMESPACE::read_slice(stretch, Locate{cells});
+std::size_t read_cells(const plane_fits::PointSlice& slice, const SquareCells& cells) {
+  return plane_fits::HWY_NAMESPACE::read_slice(slice, Locate{cells});
 }
 
 }  // namespace
@@ -39,13 +39,13 @@ namespace flagstone::surface {
 namespace {
 HWY_EXPORT(read_cells);
 
-/// However high the sensor, farther away it sees the ground, metres.
+/// Beyond this range the sensor sees the ground at any sensor height, metres.
 constexpr float most_blind_range = 6;
 
-/// Rings of blocks that the levels reach, class by class: 8, 24 and 40 m from the sensor, the rest.
+/// Ring class of each level. The classes end 8, 24 and 40 m from the sensor and at the edge.
 constexpr std::array<int, level_count> class_of_level = {3, 2, 1, 0};
 
-/// Blocks from the sensor to where the class ends.
+/// Number of blocks from the sensor to the end of the class.
 int class_reach(int ring_class, int half_blocks) {
   for (std::size_t level = 0; level < level_count; ++level) {
     if (class_of_level[level] != ring_class) continue;
@@ -60,13 +60,13 @@ int class_of_ring(int ring, int half_blocks) {
   return ring_class;
 }
 
-/// Coordinates up to this share of the extent stay inside where cells are counted from the edge:
-/// the sum of the two is rounded. Only matters where the range ends with a block.
+/// Coordinates up to this fraction of the extent stay inside the cells although the distance to the
+/// edge is rounded. This matters only if the range ends at the edge of a block.
 constexpr float last_inside = 1 - 1.0f / (1 << 22);
 
 float squared(float value) { return value * value; }
 
-/// Cells along a block's side: 32, 16, 8, 4.
+/// Cells along one side of a block: 32, 16, 8, 4.
 constexpr int cells_along(int ring_class) { return 32 >> ring_class; }
 
 }  // namespace
@@ -86,7 +86,7 @@ SquareCells::SquareCells(const SurfaceConfig& config)
   for (std::size_t ring = 0; ring < 8; ++ring) {
     const int ring_class = class_of_ring(static_cast<int>(ring), half_blocks_);
     const int reach = class_reach(ring_class, half_blocks_);
-    const int inside = half_blocks_ - reach;  // blocks between the edges of class and cells
+    const int inside = half_blocks_ - reach;  // blocks between the edge of the class and the extent
     const int cells = cells_along(ring_class) * cells_along(ring_class);
     class_widths_[ring] = static_cast<float>(2 * reach);
     cells_per_block_[ring] = static_cast<float>(cells);
@@ -152,8 +152,8 @@ SquarePatches::SquarePatches(const SurfaceConfig& config, const SquareCells& cel
 
 void read_chunk(CloudView cloud, std::size_t chunk, const SquareCells& cells,
                 plane_fits::ScanPoints& scan) noexcept {
-  scan.read(cloud, chunk, [&](const plane_fits::PointSlice& stretch) {
-    return HWY_DYNAMIC_DISPATCH(read_cells)(stretch, cells);
+  scan.read(cloud, chunk, [&](const plane_fits::PointSlice& slice) {
+    return HWY_DYNAMIC_DISPATCH(read_cells)(slice, cells);
   });
 }
 

@@ -45,14 +45,15 @@ using surface::SquarePatches;
 
 namespace {
 
-/// Patches of fewer points are not fitted.
+/// Patches with fewer points are not fitted.
 constexpr std::size_t fewest_points = 11;
 
-/// Points of a patch that its plane is fitted to, evenly from all of them: a plane needs no more.
+/// Maximum number of points that a plane is fitted to, selected evenly from the points of the
+/// patch.
 constexpr std::size_t most_samples = 128;
 
-/// Patches within this range have no seed lower than `seed_floor` below the ground expected from
-/// the sensor's height, metres: reflections of cars are lower.
+/// Within this range, metres, points more than `seed_floor` below the expected ground are not used
+/// to choose the seeds: they are reflections of cars.
 constexpr float reflection_range = 10;
 constexpr float seed_floor = 0.5f;
 
@@ -67,15 +68,15 @@ plane_fits::FitSettings fit_settings(const SurfaceConfig& config) {
           .height_without_seeds = sensor_z(config.sensor_height)};
 }
 
-/// The lowest points of a patch that are its seeds.
+/// Number of lowest points of a patch whose mean height selects the seeds.
 std::uint32_t seed_count(std::size_t points) {
   return static_cast<std::uint32_t>(std::clamp<std::size_t>(points / 5, 3, 20));
 }
 
 }  // namespace
 
-/// The method, top to bottom: points into cells, a plane for each patch of them, one surface of the
-/// planes that are ground, that surface refined, points by their height above it.
+/// The pipeline in order: sort points into cells, fit a plane to each patch of cells, merge the
+/// ground planes into one surface, refine the surface, label points by their height above it.
 struct Surface::Pipeline {
   Pipeline(const SurfaceConfig& given, unsigned threads);
 
@@ -86,7 +87,7 @@ struct Surface::Pipeline {
   struct FittedSquare {
     const SquarePatch* square;
     std::uint32_t patch;  ///< index of the Patch
-    Plane plane;          ///< in the sensor frame, if its verdict says that there is one
+    Plane plane;          ///< in the sensor frame; unset for `no_plane`
   };
 
   std::span<FittedSquare> list_patches(std::vector<Patch>& patches) noexcept;
@@ -120,7 +121,7 @@ LabelTotals Surface::Pipeline::segment(CloudView cloud, Segmentation& result,
   const std::size_t chunks = ScanPoints::chunk_count(cloud.size());
   std::vector<Patch>& patches = result.mutable_patches();
 
-  // Every point into its cell
+  // Sort the points into cells
   pool.run(chunks,
            [&](std::size_t, std::size_t chunk) { surface::read_chunk(cloud, chunk, cells, scan); });
   scan_clock.end(Stage::bin);
@@ -128,7 +129,7 @@ LabelTotals Surface::Pipeline::segment(CloudView cloud, Segmentation& result,
   const std::span<FittedSquare> all_squares = list_patches(patches);
   scan_clock.end(Stage::group);
 
-  // A plane for each patch, and whether it can be ground
+  // Fit a plane to each patch and decide whether it can be ground
   const auto fit_squares = [&](std::span<FittedSquare> squares, Fitter& fitter, StageClock& clock) {
     gather(squares, fitter);
     clock.end(Stage::gather);
@@ -138,7 +139,7 @@ LabelTotals Surface::Pipeline::segment(CloudView cloud, Segmentation& result,
   };
   fitters.run(pool, all_squares, scan_clock, fit_squares);
 
-  // The surface: planes that continue each other, then corrections from 2 m to 0.25 m
+  // Merge the consistent planes into the surface, then correct it in cells of 2 m down to 0.25 m
   coarse.clear();
   join(all_squares, patches);
   coarse.finish(pull_push);
@@ -147,14 +148,14 @@ LabelTotals Surface::Pipeline::segment(CloudView cloud, Segmentation& result,
   pyramid.copy_to(result.mutable_surface());
   scan_clock.end(Stage::refine);
 
-  // Heights of all points above the surface
+  // Compute the heights of all points above the surface
   const std::span<float> heights = result.start_heights();
   point_heights.set_surface(pyramid.grids());
   pool.run(chunks,
            [&](std::size_t, std::size_t chunk) { point_heights.measure(scan, chunk, heights); });
   scan_clock.end(Stage::measure);
 
-  // Labels by height; points below the surface that form a separate plane are ground, too
+  // Label by height; points below the surface that form a separate plane are ground, too
   fitters.clear_totals();
   pool.run(chunks, [&](std::size_t worker, std::size_t chunk) {
     point_heights.label(scan, chunk, heights, labels, fitters.totals_of(worker));
@@ -193,8 +194,8 @@ void Surface::Pipeline::reserve(std::size_t point_count, Segmentation& result) {
   pyramid.reserve(result.mutable_surface());
 }
 
-/// Adds one patch for each square with points; returns the squares that have enough points for a
-/// plane, nearest to the sensor first.
+/// Adds one patch for each square that contains points. Returns the squares with enough points for
+/// a plane, nearest to the sensor first.
 std::span<Surface::Pipeline::FittedSquare> Surface::Pipeline::list_patches(
     std::vector<Patch>& patches) noexcept {
   std::size_t count = 0;
@@ -207,7 +208,7 @@ std::span<Surface::Pipeline::FittedSquare> Surface::Pipeline::list_patches(
       const auto index = static_cast<std::uint32_t>(patches.size());
       fitted_squares.data()[count++] = {.square = &square, .patch = index, .plane = {}};
     }
-    patches.push_back(patch);  // within what was reserved
+    patches.push_back(patch);  // within the reserved capacity
   }
   return {fitted_squares.data(), count};
 }
@@ -225,7 +226,7 @@ void Surface::Pipeline::gather(std::span<const FittedSquare> squares, Fitter& fi
   }
 }
 
-/// Can the patches be ground, whatever is around them?
+/// Evaluates each patch without its neighbours.
 void Surface::Pipeline::judge_alone(std::span<FittedSquare> squares, const Fitter& fitter,
                                     std::span<Patch> patches) const noexcept {
   const auto counts = surface::count_slabs(fitter.batch, fitter.fitted.judged);
@@ -243,7 +244,8 @@ void Surface::Pipeline::judge_alone(std::span<FittedSquare> squares, const Fitte
   }
 }
 
-/// From the sensor outward: what nearer patches predict decides.
+/// Evaluates the patches from the sensor outward: each must match the height that nearer patches
+/// predict.
 void Surface::Pipeline::join(std::span<const FittedSquare> squares,
                              std::span<Patch> patches) noexcept {
   accepted.clear();

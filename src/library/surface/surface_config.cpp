@@ -109,13 +109,13 @@ std::vector<Setting> settings_of(SurfaceConfig& c) {
 }
 
 void SurfaceConfig::check() const {
-  SurfaceConfig copy = *this;  // settings point into something that may be written to
+  SurfaceConfig copy = *this;  // settings refer to members that are not const
   check_settings("surface", settings_of(copy));
 }
 
 namespace {
 
-constexpr double least_range = 8;  // what check() allows, metres
+constexpr double least_range = 8;  // the range that check() allows, metres
 constexpr double most_range = 200;
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace flagstone {
 
-/// All settings of `config`, in the order they are printed; they point into it.
+/// All settings of `config`, in the order in which they are printed. They refer to its members.
 std::vector<Setting> settings_of(SurfaceConfig& config);
 
 }  // namespace flagstone

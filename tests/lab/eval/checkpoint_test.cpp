@@ -117,7 +117,7 @@ TEST_F(CheckpointFile, OutcomesOfAnotherEvaluationAreNotMixedIn) {
   const Status status = checkpoint.resume(file_, "two", 2, finished);
 
   EXPECT_EQ(status.code(), StatusCode::invalid_argument);
-  EXPECT_THAT(status.message(), HasSubstr("delete it"));
+  EXPECT_THAT(status.message(), HasSubstr("delete the file"));
 }
 
 TEST_F(CheckpointFile, AnyOtherFileIsLeftAlone) {
