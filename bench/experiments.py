@@ -1,27 +1,29 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Runs the paper's experiments and writes their figures into docs/benchmarks/patchwork-paper.md. Needs nothing but Python.
+"""Runs the experiments of the Patchwork paper and writes the tables of docs/benchmarks/patchwork-paper.md.
 
-    python3 bench/experiments.py run --work /tmp/experiments   # all of them, some ten minutes
-    python3 bench/experiments.py page                          # the tables, from docs/results/experiments.json
-    python3 bench/experiments.py check                         # are the page's tables those of the results?
+    python3 bench/experiments.py run --work /tmp/experiments               # all of them, about ten minutes
+    python3 bench/experiments.py run --work /tmp/experiments --only real   # some of them; the other results are kept
+    python3 bench/experiments.py page                                      # tables from docs/results/experiments.json
+    python3 bench/experiments.py check                                     # do the tables match the results?
 
-`run` wants the command built (build/flagstone), the real scans in FLAGSTONE_DATA and, for the peers, the
-packages that bench/peers.py names. It simulates five sequences of 200 scans in the work folder unless they
-are there. Tables stand in the page between <!-- table NAME --> and <!-- end -->.
+`run` needs the command (build/flagstone), the real scans in FLAGSTONE_DATA and, for `external`, the packages that
+bench/peers.py lists. It simulates five sequences of 200 scans in the work directory, or reuses those that are there.
 """
 
+import json
 import re
 import sys
 
-from study import ROOT, Runs, main, paired, percent, rounded, show_progress, table, with_interval
+from study import ROOT, Runs, main, paired, percent, percentage_points, rounded, show_progress, table, with_interval
 
 PAGES = (ROOT / "docs" / "benchmarks" / "patchwork-paper.md",)
 RESULTS = ROOT / "docs" / "results" / "experiments.json"
 SCENES = ["flat_street", "steep_street", "parked_cars", "bushes_and_lawn", "bumpy_field"]
 PRESETS = ["default", "reference", "paper"]
 
-# Table I and II of the paper: precision mean and std, recall mean and std, F1; Hz on an i7-7700K.
+# Tables I and II of the paper. Table I: mean and standard deviation of precision and of recall, F1; all in percent.
+# Table II: scans per second on an i7-7700K.
 TABLE_1 = {
     "ransac": (88.16, 17.18, 91.26, 12.52, 89.7),
     "gpf": (95.84, 3.41, 79.57, 21.08, 87.0),
@@ -35,20 +37,19 @@ TABLE_1 = {
 }
 TABLE_2 = {"line_fit": 58.96, "cascaded": 13.07, "gpf": 29.72, "r_gpf": 35.30, "patchwork": 43.97}
 
-# What the paper says of its rows: a row, another, the figure that the first is said to have more of, and
-# where in the paper.
+# What the paper claims about the rows of Table I: two rows, and the metric in which they are compared.
 CLAIMS = [
-    ("U lifts R-GPF's precision", "r_gpf+u", "r_gpf", "precision"),
-    ("and costs it little recall", "r_gpf+u", "r_gpf", "recall"),
-    ("CZM keeps recall where R-GPF + U loses it", "czm+u", "r_gpf+u", "recall"),
-    ("E lifts precision", "czm+u+e", "czm+u", "precision"),
-    ("and costs some recall", "czm+u+e", "czm+u", "recall"),
-    ("F gives recall back", "czm+u+e+f", "czm+u+e", "recall"),
-    ("and costs a little precision", "czm+u+e+f", "czm+u+e", "precision"),
-    ("GPF has less recall than the full method", "gpf", "czm+u+e+f", "recall"),
-    ("CascadedSeg has less recall than the full method", "cascaded", "czm+u+e+f", "recall"),
-    ("LineFit has the best precision: against the full method", "line_fit", "czm+u+e+f", "precision"),
-    ("The full method against the best plane, RANSAC: F1", "czm+u+e+f", "ransac", "f1"),
+    ("uprightness (U) raises the precision of R-GPF", "r_gpf+u", "r_gpf", "precision"),
+    ("uprightness costs R-GPF little recall", "r_gpf+u", "r_gpf", "recall"),
+    ("the concentric zone model (CZM) keeps recall that R-GPF + U loses", "czm+u", "r_gpf+u", "recall"),
+    ("elevation (E) raises precision", "czm+u+e", "czm+u", "precision"),
+    ("elevation costs some recall", "czm+u+e", "czm+u", "recall"),
+    ("flatness (F) restores recall", "czm+u+e+f", "czm+u+e", "recall"),
+    ("flatness costs little precision", "czm+u+e+f", "czm+u+e", "precision"),
+    ("GPF has lower recall than the full method", "gpf", "czm+u+e+f", "recall"),
+    ("CascadedSeg has lower recall than the full method", "cascaded", "czm+u+e+f", "recall"),
+    ("LineFit has higher precision than the full method", "line_fit", "czm+u+e+f", "precision"),
+    ("the full method has a higher F1 than one plane (RANSAC)", "czm+u+e+f", "ransac", "f1"),
 ]
 
 
@@ -56,7 +57,7 @@ CLAIMS = [
 
 
 class Runner:
-    """Runs of the command, and what they found by name."""
+    """Runs the command and keeps the results by name."""
 
     def __init__(self, work, flagstone):
         self.runs = Runs(work, flagstone)
@@ -67,19 +68,18 @@ class Runner:
         return self.runs.call(command)
 
     def evaluate(self, name, command):
-        """Runs an `eval` or `sweep` and keeps what it found under `name`."""
+        """Runs an `eval` or `sweep` command and keeps its results, with date and machine, under `name`."""
         show_progress(command)
-        self.experiments[name] = self.runs.evaluate_command(command)
+        result = self.runs.evaluate_command(command)
+        self.experiments[name] = {**self.runs.made_by, **result}
         return self.experiments[name]
 
 
-def largest(of, other, figure, count):
-    """The scans where `of` is farthest ahead of `other`."""
-    theirs = {scan["scan"]: scan for scan in other["per_scan"]}
-    ranked = sorted(of["per_scan"], key=lambda scan: theirs[scan["scan"]][figure] - scan[figure])[:count]
-    return [
-        {"scan": s["scan"], "before": theirs[s["scan"]][figure], "after": s[figure], "figure": figure} for s in ranked
-    ]
+def largest_gains(of, other, metric, count):
+    """The scans with the largest differences between `of` and `other`."""
+    before = {scan["scan"]: scan[metric] for scan in other["per_scan"]}
+    ranked = sorted(of["per_scan"], key=lambda scan: before[scan["scan"]] - scan[metric])[:count]
+    return [{"scan": s["scan"], "before": before[s["scan"]], "after": s[metric], "figure": metric} for s in ranked]
 
 
 def by_name(experiment):
@@ -98,10 +98,10 @@ def run_simulated(runner):
                 f" --methods table1 --preset {preset} --sensor-height 1.73",
             )
             rows = by_name(found)
-            found["claims"] = [paired(rows[first], rows[second], figure) for _, first, second, figure in CLAIMS]
+            found["claims"] = [paired(rows[first], rows[second], metric) for _, first, second, metric in CLAIMS]
             found["gains"] = {
-                "elevation": largest(rows["czm+u+e"], rows["czm+u"], "precision", 3),
-                "flatness": largest(rows["czm+u+e+f"], rows["czm+u+e"], "recall", 3),
+                "elevation": largest_gains(rows["czm+u+e"], rows["czm+u"], "precision", 3),
+                "flatness": largest_gains(rows["czm+u+e+f"], rows["czm+u+e"], "recall", 3),
             }
         runner.evaluate(
             f"{scene}/gpf",
@@ -118,13 +118,16 @@ def run_real(runner):
                 f"flagstone eval $FLAGSTONE_DATA/kitti --protocol {protocol} --methods table1"
                 f" --preset {preset} --sensor-height 1.73",
             )
+
+
+def run_speed(runner):
     runner.evaluate(
         "speed",
         "flagstone eval $FLAGSTONE_DATA/kitti --protocol patchwork --methods table1,patchwork --speed",
     )
 
 
-def run_peers(runner):
+def run_external(runner):
     text = runner.call(f"{sys.executable} bench/peers.py $FLAGSTONE_DATA/kitti --output $WORK/peers")
     labels = re.findall(r"--labels (\S+)", text.splitlines()[-1])
     arguments = " ".join(f"--labels {label}" for label in labels)
@@ -149,38 +152,48 @@ def run_shares(runner):
     )
 
 
+EXPERIMENTS = {
+    "simulated": run_simulated,
+    "real": run_real,
+    "speed": run_speed,
+    "external": run_external,
+    "sweeps": run_sweeps,
+    "shares": run_shares,
+}
+
+
 def measure(options):
     runner = Runner(options.work, options.flagstone)
-    for step in (run_simulated, run_real, run_peers, run_sweeps, run_shares):
-        step(runner)
+    for name in options.only:
+        EXPERIMENTS[name](runner)
     for experiment in runner.experiments.values():
         for method in experiment.get("methods", []):
-            method.pop("per_scan")  # by far the most of it
-    return rounded({"experiments": runner.experiments, **runner.runs.made_by})
+            method.pop("per_scan")  # most of the size of the results
+    known = json.loads(RESULTS.read_text())["experiments"] if RESULTS.exists() else {}
+    return {"experiments": known | rounded(runner.experiments)}
 
 
 # --- tables ------------------------------------------------------------------------------------------------
 
 
-def origin(results, experiment):
-    scans = experiment["scans"]
+def origin(experiment):
     return (
-        f"{scans} scans, protocol `{experiment['protocol']}`, {results['date']},"
-        f" {results['machine']}:\n\n    {experiment['command']}"
+        f"{experiment['scans']} scans, protocol `{experiment['protocol']}`, {experiment['date']},"
+        f" {experiment['machine']}:\n\n    {experiment['command']}"
     )
 
 
 def table_1(results, name):
-    """Ours beside the paper's."""
+    """The values of the paper next to those measured here."""
     experiment = results["experiments"][name]
     rows = []
     for method in experiment["methods"]:
-        theirs = TABLE_1[method["name"]]
+        paper = TABLE_1[method["name"]]
         rows.append(
             [
                 method["title"],
-                *(f"{value:.2f}" for value in theirs[:4]),
-                f"{theirs[4]:.1f}",
+                *(f"{value:.2f}" for value in paper[:4]),
+                f"{paper[4]:.1f}",
                 percent(method["precision"]["mean"]),
                 percent(method["precision"]["std"]),
                 percent(method["recall"]["mean"]),
@@ -188,19 +201,20 @@ def table_1(results, name):
                 with_interval(method["f1"]),
             ]
         )
-    head = ["", "paper: P", "σ", "R", "σ", "F1", "ours: P", "σ", "R", "σ", "F1 ± 95 %"]
-    return table(head, rows) + "\n\n" + origin(results, experiment)
+    head = ["", "paper: P", "σ", "R", "σ", "F1", "here: P", "σ", "R", "σ", "F1 ± 95 %"]
+    return table(head, rows) + "\n\n" + origin(experiment)
 
 
-def f1_by_preset(results, places):
-    """F1 of every row: one column per place and preset."""
-    experiments = [results["experiments"][place] for place, _ in places]
+def f1_by_preset(results, columns):
+    """F1 of every row of Table I: one column per protocol and preset."""
+    experiments = [results["experiments"][name] for name, _ in columns]
     rows = []
     for m, method in enumerate(experiments[0]["methods"]):
         rows.append([method["title"], *(with_interval(e["methods"][m]["f1"]) for e in experiments)])
-    lines = table([""] + [title for _, title in places], rows)
+    lines = table([""] + [title for _, title in columns], rows)
     commands = "\n".join(f"    {e['command']}" for e in experiments)
-    return f"{lines}\n\n{experiments[0]['scans']} scans, {results['date']}, {results['machine']}:\n\n{commands}"
+    first = experiments[0]
+    return f"{lines}\n\n{first['scans']} scans, {first['date']}, {first['machine']}:\n\n{commands}"
 
 
 def scene_table(results, scene, preset="reference"):
@@ -217,36 +231,38 @@ def scene_table(results, scene, preset="reference"):
         ]
         for method in experiment["methods"]
     ]
-    head = ["", "P", "σ", "R", "σ", "F1 ± 95 %", "F1 by area"]
-    return table(head, rows) + "\n\n" + origin(results, experiment)
+    head = ["", "P", "σ", "R", "σ", "F1 ± 95 %", "F1 per BEV cell"]
+    return table(head, rows) + "\n\n" + origin(experiment)
 
 
 def claims_table(results, preset):
     rows = []
-    for c, (claim, first, second, figure) in enumerate(CLAIMS):
-        theirs = {"precision": 0, "recall": 2, "f1": 4}[figure]
-        difference = TABLE_1[first][theirs] - TABLE_1[second][theirs]
-        row = [f"{claim} ({figure})", f"{difference:+.2f}"]
-        for scene in SCENES:
-            found = results["experiments"][f"{scene}/{preset}"]["claims"][c]
-            row.append(f"{100 * found['mean']:+.2f} ± {100 * found['ci95']:.2f}")
-        rows.append(row)
-    head = ["points more", "paper"] + [scene.replace("_", " ") for scene in SCENES]
-    return table(head, rows)
+    for c, (claim, first, second, metric) in enumerate(CLAIMS):
+        column = {"precision": 0, "recall": 2, "f1": 4}[metric]
+        rows.append(
+            [
+                claim,
+                "F1" if metric == "f1" else metric,
+                f"{TABLE_1[first][column] - TABLE_1[second][column]:+.2f}",
+                *(percentage_points(results["experiments"][f"{scene}/{preset}"]["claims"][c]) for scene in SCENES),
+            ]
+        )
+    head = ["claim", "metric", "paper", *(scene.replace("_", " ") for scene in SCENES)]
+    return table(head, rows, left=2)
 
 
 def gpf_table(results):
-    """GPF with and without the removal of low points that its public implementation begins with."""
+    """GPF with and without the removal of low points, the first step of its public implementation."""
     rows = []
-    for title, place in (("with", "reference"), ("without", "gpf")):
+    for title, name in (("with", "reference"), ("without", "gpf")):
         row = [f"{title} removal of low points"]
         for scene in SCENES:
-            found = by_name(results["experiments"][f"{scene}/{place}"])["gpf"]
+            found = by_name(results["experiments"][f"{scene}/{name}"])["gpf"]
             row.append(" / ".join(percent(found[figure]["mean"]) for figure in ("precision", "recall")))
         rows.append(row)
     head = ["GPF: P / R"] + [scene.replace("_", " ") for scene in SCENES]
     command = results["experiments"][f"{SCENES[0]}/gpf"]["command"]
-    return f"{table(head, rows)}\n\nThe second row, here for the first scene:\n\n    {command}"
+    return f"{table(head, rows)}\n\nCommand for the second row and the first scene:\n\n    {command}"
 
 
 def gains_table(results, preset):
@@ -262,7 +278,7 @@ def gains_table(results, preset):
                     percent(gain["after"]),
                 ]
             )
-    return table(["term, scene", "scan", "figure", "without", "with"], rows)
+    return table(["term, scene", "scan", "metric", "without", "with"], rows)
 
 
 def sweep_table(results, name):
@@ -276,7 +292,7 @@ def sweep_table(results, name):
 
     rows = [[size, *(text(cells[size, angle]) for angle in angles)] for size in bins]
     head = ["bins N_r × N_θ"] + [f"{angle}°" for angle in angles]
-    return f"{table(head, rows)}\n\n{experiment['winner']}\n\n{origin(results, experiment)}"
+    return f"{table(head, rows)}\n\n{experiment['winner']}\n\n{origin(experiment)}"
 
 
 def speed_table(results):
@@ -290,11 +306,11 @@ def speed_table(results):
         ]
         for method in experiment["methods"]
     ]
-    head = ["", "paper, Hz", "ours, Hz", "slowest 1 %"]
-    return table(head, rows) + "\n\n" + origin(results, experiment)
+    head = ["", "paper, Hz", "here, Hz", "slowest 1 %, Hz"]
+    return table(head, rows) + "\n\n" + origin(experiment)
 
 
-def peers_table(results):
+def external_table(results):
     one, other = (results["experiments"][f"peers/{p}"] for p in ("patchwork", "patchwork++"))
     rows = []
     for m, method in enumerate(one["methods"]):
@@ -308,10 +324,10 @@ def peers_table(results):
                 f"{hz:.1f}",
             ]
         )
-    head = ["", "F1, `patchwork`", "F1, `patchwork++`", "F1 by area, `patchwork`", "Hz"]
+    head = ["", "F1, `patchwork`", "F1, `patchwork++`", "F1 per BEV cell, `patchwork`", "Hz"]
     command = "    python3 bench/peers.py $FLAGSTONE_DATA/kitti --output $WORK/peers"
     return (
-        f"{table(head, rows)}\n\n{one['scans']} scans, {results['date']}, {results['machine']}:\n\n"
+        f"{table(head, rows)}\n\n{one['scans']} scans, {one['date']}, {one['machine']}:\n\n"
         f"{command}\n    {one['command']}\n    {other['command']}"
     )
 
@@ -325,7 +341,7 @@ def shares_table(results):
         [name, f"{value / scans:.2f}", f"{100 * value / whole:.0f}"]
         for name, value in zip(("reading", "segmenting", "scoring"), time.values())
     ]
-    return table(["", "ms a scan", "%"], rows) + "\n\n" + origin(results, experiment)
+    return table(["", "ms per scan", "%"], rows) + "\n\n" + origin(experiment)
 
 
 def tables(results):
@@ -342,7 +358,7 @@ def tables(results):
         "figure-5-kitti": sweep_table(results, "sweep/kitti"),
         "figure-5-simulated": sweep_table(results, "sweep/simulated"),
         "table-2": speed_table(results),
-        "peers": peers_table(results),
+        "external": external_table(results),
         "shares": shares_table(results),
     }
     for scene in SCENES:
@@ -351,4 +367,4 @@ def tables(results):
 
 
 if __name__ == "__main__":
-    main(__doc__, PAGES, RESULTS, tables, measure)
+    main(__doc__, PAGES, RESULTS, tables, measure, EXPERIMENTS)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What the studies that write pages of the docs share: runs of the command, intervals, tables, the command line."""
+"""Shared by the studies that write tables of the docs: running the command, confidence intervals, tables, options."""
 
 import argparse
 import difflib
@@ -19,11 +19,11 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 class Runs:
-    """Commands are kept with $WORK and $FLAGSTONE_DATA in the place of folders: as a reader can repeat them."""
+    """Runs commands in which $WORK and $FLAGSTONE_DATA stand for directories, so that a reader can repeat them."""
 
     def __init__(self, work, flagstone):
         self.work = work
-        self.places = {
+        self.directories = {
             "$FLAGSTONE_DATA": os.environ.get("FLAGSTONE_DATA", str(ROOT.parent / "shared" / "data")),
             "$WORK": str(work),
         }
@@ -32,10 +32,10 @@ class Runs:
         work.mkdir(parents=True, exist_ok=True)
 
     def call(self, command):
-        """Standard output of a command; the program ends if it fails."""
+        """Returns the standard output of a command. Exits if the command fails."""
         text = command
-        for name, place in self.places.items():
-            text = text.replace(name, shlex.quote(place))
+        for name, directory in self.directories.items():
+            text = text.replace(name, shlex.quote(directory))
         words = shlex.split(text)
         if words[0] == "flagstone":
             words[0] = self.flagstone
@@ -45,9 +45,9 @@ class Runs:
         return done.stdout
 
     def evaluate_command(self, command):
-        """The results of a `flagstone eval ...` or `flagstone sweep ...`."""
-        with tempfile.TemporaryDirectory(prefix="flagstone-eval-") as place:
-            file = pathlib.Path(place) / "result.json"
+        """Returns the results of a `flagstone eval ...` or `flagstone sweep ...` command."""
+        with tempfile.TemporaryDirectory(prefix="flagstone-eval-") as directory:
+            file = pathlib.Path(directory) / "result.json"
             self.call(f"{command} --json {file}")
             result = json.loads(file.read_text())
         for key in ("flagstone", "machine", "date"):
@@ -56,28 +56,28 @@ class Runs:
 
 
 def show_progress(text):
-    """On a terminal, in one line that the next call replaces; an empty text clears it."""
+    """Shows a line on a terminal; the next call replaces it, an empty text clears it."""
     if sys.stderr.isatty():
         print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
 
 
-# --- differences between two rows of `flagstone eval`, scan by scan, with their 95 % interval ---------------
+# --- paired differences between two methods, with 95 % confidence intervals -----------------------------------
 
 
 def t_975(degrees):
-    """Quantile 0.975 of Student's t: 12.71 for one degree of freedom, towards 1.96 for many."""
+    """0.975 quantile of Student's t: 12.71 for one degree of freedom, approaching 1.96 for many."""
     if degrees >= 30:  # Abramowitz and Stegun, 26.7.5
         z = statistics.NormalDist().inv_cdf(0.975)
         return z + (z**3 + z) / (4 * degrees) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * degrees**2)
     low, high = 1.0, 20.0
     while high - low > 1e-9:
         middle = (low + high) / 2
-        low, high = (middle, high) if share_within(middle, degrees) < 0.95 else (low, middle)
+        low, high = (middle, high) if probability_within(middle, degrees) < 0.95 else (low, middle)
     return low
 
 
-def share_within(t, degrees):
-    """Probability that |T| < t for Student's T: Abramowitz and Stegun, 26.7.3 and 26.7.4."""
+def probability_within(t, degrees):
+    """Probability that |T| < t if T has a Student's t distribution: Abramowitz and Stegun, 26.7.3 and 26.7.4."""
     angle = math.atan(t / math.sqrt(degrees))
     cosine = math.cos(angle)
     odd = degrees % 2
@@ -90,34 +90,34 @@ def share_within(t, degrees):
     return 2 / math.pi * (angle + total) if odd else total
 
 
-def mean_of(differences):
-    """Mean and the half width of its 95 % interval; assumes that scans are independent."""
-    count = len(differences)
+def mean_of(values):
+    """Mean over scans and the half-width of its 95 % confidence interval, assuming that scans are independent."""
+    count = len(values)
     half_width = None
     if count > 1:
-        half_width = t_975(count - 1) * statistics.stdev(differences) / math.sqrt(count)
-    return {"mean": statistics.fmean(differences), "ci95": half_width, "scans": count}
+        half_width = t_975(count - 1) * statistics.stdev(values) / math.sqrt(count)
+    return {"mean": statistics.fmean(values), "ci95": half_width, "scans": count}
 
 
-def paired(of, other, figure):
-    """The mean difference between two methods' entries of an evaluation, scan by scan."""
-    theirs = {scan["scan"]: scan[figure] for scan in other["per_scan"]}
-    return mean_of([scan[figure] - theirs[scan["scan"]] for scan in of["per_scan"]])
+def paired(of, other, metric):
+    """Mean of `of` minus `other` over scans, for two methods' entries of an evaluation."""
+    other_values = {scan["scan"]: scan[metric] for scan in other["per_scan"]}
+    return mean_of([scan[metric] - other_values[scan["scan"]] for scan in of["per_scan"]])
 
 
-# --- tables in Markdown, and pages that hold them between <!-- table NAME --> and <!-- end --> --------------
+# --- Markdown tables, and pages that contain them between <!-- table NAME --> and <!-- end --> ----------------
 
 
-def percent(share, digits=2):
-    return "–" if share is None else f"{100 * share:.{digits}f}"
+def percent(fraction, digits=2):
+    return "–" if fraction is None else f"{100 * fraction:.{digits}f}"
 
 
 def with_interval(value):
     return f"{percent(value['mean'])} ± {percent(value['ci95'])}"
 
 
-def points_more(difference):
-    """A difference of shares in points: +0.12 ± 0.05; in bold where the interval does not hold 0."""
+def percentage_points(difference):
+    """A difference of fractions, such as +0.12 ± 0.05; bold if the confidence interval excludes 0."""
     mean = round(100 * difference["mean"], 2) + 0.0  # no minus zero
     text = f"{mean:+.2f} ± {percent(difference['ci95'])}"
     beyond = difference["ci95"] is not None and abs(difference["mean"]) > difference["ci95"]
@@ -125,13 +125,13 @@ def points_more(difference):
 
 
 def table(head, rows, left=1):
-    """`left` columns are set flush left, the others right."""
+    """A Markdown table. The first `left` columns are left-aligned, the others right-aligned."""
     rule = ["---"] * left + ["---:"] * (len(head) - left)
     return "\n".join("| " + " | ".join(line) + " |" for line in (head, rule, *rows))
 
 
 def rounded(value):
-    """The same with shares to a thousandth of a percent."""
+    """`value` with all numbers rounded to five decimals: fractions to a thousandth of a percent."""
     if isinstance(value, float):
         return round(value, 5)
     if isinstance(value, dict):
@@ -140,7 +140,7 @@ def rounded(value):
 
 
 def filled(page, found):
-    """The text of a page with the tables of `found`, by name. Tables of other studies stay as they are."""
+    """The text of a page with the tables in `found`, by name. Tables of other studies are kept."""
 
     def replace(match):
         name = match.group(1)
@@ -151,57 +151,64 @@ def filled(page, found):
 
 def write_tables(pages, found):
     """Replaces the tables of `found` in the pages."""
-    stop_if_missing(pages, found)
+    exit_if_missing(pages, found)
     for path in pages:
         path.write_text(filled(path.read_text(), found))
 
 
 def check(pages, found):
-    """Ends the program with exit code 1, and the differences, if the tables of the pages are not those found."""
-    stop_if_missing(pages, found)
+    """Prints the differences between the tables of the pages and `found`, and exits with 1 if there are any."""
+    exit_if_missing(pages, found)
     is_same = True
     for path in pages:
         page = path.read_text()
         expected = filled(page, found)
-        sys.stdout.writelines(difflib.unified_diff(page.splitlines(True), expected.splitlines(True), str(path), "expected"))
+        sys.stdout.writelines(
+            difflib.unified_diff(page.splitlines(True), expected.splitlines(True), str(path), "expected")
+        )
         is_same &= page == expected
     sys.exit(not is_same)
 
 
-def stop_if_missing(pages, found):
-    """Ends the program if a table of `found` is on none of the pages."""
+def exit_if_missing(pages, found):
+    """Exits if a table of `found` is on none of the pages."""
     text = "".join(path.read_text() for path in pages)
     missing = [name for name in found if f"<!-- table {name} -->" not in text]
     if missing:
-        sys.exit(f"{', '.join(map(str, pages))}: no place for the tables {', '.join(missing)} (expected <!-- table NAME -->)")
+        names = ", ".join(str(path.relative_to(ROOT)) for path in pages)
+        sys.exit(f"{names}: missing tables: {', '.join(missing)} (expected <!-- table NAME --> ... <!-- end -->)")
 
 
 # --- the command line ---------------------------------------------------------------------------------------
 
 
 def main(description, pages, results_file, tables, measure, names=(), can_try=False, draw=None, verify=None):
-    """The command line of a study whose `tables(results)` are on `pages`.
+    """The command line of a study that writes `tables(results)` into `pages`.
 
-    `measure(options)` returns results that JSON can hold, of the measurements in `names` that were asked for. `draw`
-    makes pictures from the results. `verify(results, flagstone)` returns what is stale in results that other settings
-    were measured with than those of the command.
+    `measure(options)` returns results that can be written as JSON, of the measurements selected from `names`. `draw`
+    draws images of the results. `verify(results, flagstone)` returns the settings whose defaults have changed since the
+    results were measured.
     """
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
     measured = argparse.ArgumentParser(add_help=False)
-    measured.add_argument("--work", type=pathlib.Path, required=True, help="folder for what is large")
+    measured.add_argument(
+        "--work", type=pathlib.Path, required=True, help="directory for simulated scans and other large files"
+    )
     measured.add_argument("--flagstone", type=pathlib.Path, default=ROOT / "build" / "flagstone")
     if names:
         measured.add_argument("--only", nargs="+", choices=list(names), default=list(names), help="default: all")
-    commands.add_parser("run", parents=[measured], help="measure, write results and page")
+    commands.add_parser("run", parents=[measured], help="measure, write the results and the tables")
     if can_try:
-        try_command = commands.add_parser("try", parents=[measured], help="measure, print the tables")
-        try_command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="of the method")
-    commands.add_parser("page", help="write the page from the results")
-    check_command = commands.add_parser("check", help="fail if the page's tables are not those of the results")
+        try_command = commands.add_parser("try", parents=[measured], help="measure and print the tables, write nothing")
+        try_command.add_argument(
+            "--set", action="append", default=[], metavar="KEY=VALUE", help="setting of the method (repeatable)"
+        )
+    commands.add_parser("page", help="write the tables from the results, without measuring")
+    check_command = commands.add_parser("check", help="fail if the tables in the pages differ from the results")
     if verify:
         check_command.add_argument(
-            "--flagstone", type=pathlib.Path, help="fail too if its settings are not those that were measured"
+            "--flagstone", type=pathlib.Path, help="also fail if the default settings of this command have changed"
         )
     options = parser.parse_args()
 
@@ -222,7 +229,7 @@ def main(description, pages, results_file, tables, measure, names=(), can_try=Fa
         results_file.write_text(json.dumps(results, indent=1) + "\n")
     if options.command == "check":
         if verify and options.flagstone and (stale := verify(results, options.flagstone.resolve())):
-            sys.exit(f"{results_file.name} was measured with other settings, run the study again: {'; '.join(stale)}")
+            sys.exit(f"{results_file.name}: measured with other settings: {'; '.join(stale)} (run the study again)")
         check(pages, tables(results))
     write_tables(pages, tables(results))
     if draw:

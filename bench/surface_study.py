@@ -22,7 +22,19 @@ import sys
 import tempfile
 import typing
 
-from study import ROOT, Runs, main, mean_of, paired, percent, points_more, rounded, show_progress, table, with_interval
+from study import (
+    ROOT,
+    Runs,
+    main,
+    mean_of,
+    paired,
+    percent,
+    percentage_points,
+    rounded,
+    show_progress,
+    table,
+    with_interval,
+)
 
 PAGES = (ROOT / "docs" / "benchmarks" / "accuracy.md", ROOT / "docs" / "benchmarks" / "robustness.md")
 RESULTS = ROOT / "docs" / "results" / "surface.json"
@@ -244,7 +256,7 @@ def ablation_table(results, titles, simulated):
         [
             row["part"],
             " ".join(f"`{setting}`" for setting in row["settings"]),
-            *(points_more(row["f1"][name]) for name in names),
+            *(percentage_points(row["f1"][name]) for name in names),
         ]
         for row in results["rows"]
     ]
@@ -258,7 +270,7 @@ def effects_table(results, titles):
         [
             f"`{row['setting']}`",
             f"{row['default']:g} → {row['value']:g}",
-            *(points_more(row["f1"][name]) for name in names),
+            *(percentage_points(row["f1"][name]) for name in names),
         ]
         for row in results["rows"]
     ]
@@ -370,7 +382,7 @@ def over_patchwork_table(results, titles):
         rows.append(
             [
                 title["title"],
-                *(points_more(over[figure]) for figure in ("precision", "recall", "f1")),
+                *(percentage_points(over[figure]) for figure in ("precision", "recall", "f1")),
                 f"{over['better']} of {over['f1']['scans']}",
             ]
         )
@@ -418,7 +430,7 @@ TRUE_HEIGHT_BANDS = (-0.1, 0.05, 0.1, 0.15, 0.2, 0.3)
 
 def scans_by_set(study):
     """Set -> (what `flagstone segment` takes, where the labels are, classes.json)."""
-    real = pathlib.Path(study.places["$FLAGSTONE_DATA"])
+    real = pathlib.Path(study.directories["$FLAGSTONE_DATA"])
     sets = {
         "kitti": (
             [f"$WORK/kitti/velodyne --sensor-height {1.73}"],
@@ -599,7 +611,7 @@ def robustness_table(results):
                 for method in DISTURBED_METHODS
                 for text in (
                     percent(row[method]["f1"]["mean"]),
-                    points_more(row[method]["difference"]),
+                    percentage_points(row[method]["difference"]),
                     f"{round(100 * row[method]['worst'], 2) + 0.0:+.2f}",
                 )
             ),
