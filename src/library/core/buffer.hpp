@@ -9,8 +9,8 @@
 
 namespace flagstone {
 
-/// Working memory that only grows and is never initialised: pages a scan does not touch cost
-/// nothing. It begins at a cache line.
+/// Working memory that only grows and is never initialised, so that pages that a scan does not
+/// touch take no memory. Aligned to a cache line.
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_destructible_v<T>);
@@ -27,11 +27,11 @@ class Buffer {
     return *this;
   }
 
-  /// Makes room for `count` elements; what was there is lost if it has to grow. May throw
-  /// std::bad_alloc.
+  /// Reserves memory for `count` elements. The contents are lost if the buffer has to grow. May
+  /// throw std::bad_alloc.
   void reserve(std::size_t count) {
     if (count <= capacity_) return;
-    release();  // before the new one, so that both are never held
+    release();  // first, so that old and new memory are never allocated together
     data_ = static_cast<T*>(::operator new(count * sizeof(T), alignment));
     capacity_ = count;
   }

@@ -21,16 +21,17 @@ inline constexpr auto inverse_factorials = [] {
   return inverse;
 }();
 
-/// e^x within 1e-15 of it, by + and * alone: the bits of a mathematics library's exp() depend on
-/// the processor it finds. Beyond -700 and 700 it stays what it is there, short of 0 and infinity.
+/// e^x with a relative error below 1e-15. Uses only + and *, because the bits of exp() in a
+/// mathematical library depend on the CPU. x is clamped to -700 to 700, so that the result is never
+/// 0 or infinity.
 inline double exponential(double x) noexcept {
   x = std::clamp(x, -700.0, 700.0);
-  // x = k ln 2 + rest; ln 2 in two parts, so that k times the first is exact.
+  // x = k ln 2 + rest. ln 2 is split in two parts, so that k times the first part is exact.
   const double turns = x * 1.4426950408889634;
   const auto k = static_cast<std::int64_t>(turns < 0 ? turns - 0.5 : turns + 0.5);
   const auto steps = static_cast<double>(k);
   const double rest = (x - steps * 0.693147180369123816490) - steps * 1.90821492927058770002e-10;
-  // Taylor's series, in pairs of pairs, so that the terms need not wait for each other.
+  // Taylor series, grouped in pairs of pairs, so that the terms can be computed in parallel.
   const auto& c = inverse_factorials;
   const double rest2 = rest * rest;
   const double rest4 = rest2 * rest2;

@@ -10,10 +10,11 @@
 
 namespace flagstone {
 
-/// While it lives, its thread computes as it does everywhere else, whatever the program around has
-/// set: rounding to nearest, without traps, and taking numbers below 1.2e-38 (2.2e-308 in double)
-/// for zero. Processors take a long way round for those, up to a hundred times as long, and no
-/// length is that small. Does nothing on other processors than x86 and 64-bit Arm.
+/// RAII guard that sets the floating-point mode of the current thread and restores it on
+/// destruction, so that results do not depend on the host program: round to nearest, exceptions
+/// masked, denormals (below 1.2e-38, or 2.2e-308 in double) flushed to zero. Denormals can be up to
+/// a hundred times slower and never occur as real lengths. Has no effect on CPUs other than x86 and
+/// 64-bit Arm.
 class ScopedFloatingPointMode {
  public:
   ScopedFloatingPointMode() noexcept : before_(read()) { write(ours); }

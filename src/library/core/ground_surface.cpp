@@ -13,8 +13,8 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-/// The finest grid among whose cell centres the place lies; of those as large as the coarsest the
-/// edge counts too. Null for none.
+/// The finest grid with cell centres on all sides of (x, y). Grids as large as the coarsest one
+/// also cover the outer half of their outermost cells. Null if no grid covers the position.
 const GroundSurface::Grid* covering(std::span<const GroundSurface::Grid> grids, float x,
                                     float y) noexcept {
   const float reach = std::max(std::abs(x), std::abs(y));
@@ -27,15 +27,15 @@ const GroundSurface::Grid* covering(std::span<const GroundSurface::Grid> grids, 
   return nullptr;
 }
 
-/// From a to b; the end that has no weight has no influence, NaN or not.
+/// Linear interpolation from a to b. An end with weight 0 has no influence, even if it is NaN.
 float between(float a, float b, float share_of_b) noexcept {
   if (share_of_b <= 0) return a;
   if (share_of_b >= 1) return b;
   return a + share_of_b * (b - a);
 }
 
-/// Where a place lies between the centres of two neighbouring cells, or, in the outer half of the
-/// last cell, on the last centre.
+/// Position between the centres of two neighbouring cells along one axis. Positions beyond the last
+/// centre are moved to it.
 struct Between {
   Between(float coordinate, float cell, std::size_t width) noexcept {
     const float centre = coordinate / cell + (static_cast<float>(width) - 1) / 2;
@@ -43,11 +43,11 @@ struct Between {
     first = std::min(static_cast<std::size_t>(clamped), width - 2);
     share = clamped - static_cast<float>(first);
   }
-  std::size_t first;  ///< index of the one cell; the other is the next
-  float share;        ///< of the next, 0 to 1
+  std::size_t first;  ///< index of the first of the two cells
+  float share;        ///< weight of the second cell, 0 to 1
 };
 
-/// The four cells whose centres enclose a place.
+/// The four cells whose centres surround a position.
 class Square {
  public:
   Square(const GroundSurface::Grid& grid, float x, float y) noexcept
@@ -56,7 +56,7 @@ class Square {
         width_(grid.width),
         first_(row_.first * grid.width + column_.first) {}
 
-  /// The value at the place.
+  /// The interpolated value.
   [[nodiscard]] float of(const std::vector<float>& values) const noexcept {
     const float* const near = values.data() + first_;
     const float* const far = near + width_;
@@ -64,7 +64,7 @@ class Square {
                    row_.share);
   }
 
-  /// How much the value grows per cell along x and y at the place; NaN if one of the four is.
+  /// Derivative of the value along x and y, per cell; NaN if one of the four values is NaN.
   [[nodiscard]] std::array<float, 2> growth(const std::vector<float>& values) const noexcept {
     const float* const near = values.data() + first_;
     const float* const far = near + width_;

@@ -8,7 +8,7 @@
 
 namespace flagstone {
 
-/// The sensors of folder sensors/, in the order in which CMakeLists.txt lists them.
+/// The sensors in the directory sensors/, in the order of CMakeLists.txt.
 std::vector<Sensor> make_known_sensors();
 
 }  // namespace flagstone

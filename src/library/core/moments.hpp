@@ -13,12 +13,12 @@ using Vector3 = std::array<double, 3>;
 /// Entries xx, xy, xz, yy, yz, zz of a symmetric 3 x 3 matrix.
 using Symmetric3 = std::array<double, 6>;
 
-/// Sums over a set of points, from which its mean and covariance follow. Coordinates are taken from
-/// an origin near the points, so that nothing is lost when the mean is subtracted from the squares.
+/// Sums over a set of points, from which its mean and covariance are computed. Use an origin near
+/// the points: the subtraction of the mean from the squares then loses no precision.
 struct Moments {
   double count = 0;
-  Vector3 sum{};         ///< of x, y, z
-  Symmetric3 squares{};  ///< of xx, xy, xz, yy, yz, zz
+  Vector3 sum{};         ///< sums of x, y, z
+  Symmetric3 squares{};  ///< sums of xx, xy, xz, yy, yz, zz
 
   void add(double x, double y, double z) noexcept {
     count += 1;
@@ -33,12 +33,12 @@ struct Moments {
     squares[5] += z * z;
   }
 
-  /// Mean, from the same origin. Needs count > 0.
+  /// Mean, relative to the same origin. Requires count > 0.
   [[nodiscard]] Vector3 mean() const noexcept {
     return {sum[0] / count, sum[1] / count, sum[2] / count};
   }
 
-  /// Covariance C of eq. (4), divided by count - 1. Needs count > 1.
+  /// Covariance C of eq. (4), with divisor count - 1. Requires count > 1.
   [[nodiscard]] Symmetric3 covariance() const noexcept {
     const Vector3 m = mean();
     const double n = count - 1;

@@ -4,17 +4,17 @@
 
 namespace flagstone {
 
-/// Height of the sensor itself above the ground, metres, for the few lengths that grow with it.
-/// Usually the origin of the cloud is in the sensor, and this is `sensor_height`. An origin on or
-/// below the ground (`sensor_height` <= 0: a map, a vehicle's base) does not tell where the sensor
-/// is. These lengths are then those of the default height, so that nothing changes when all points
-/// and `sensor_height` move together.
+/// Height of the sensor itself above the ground, metres, for lengths that scale with it. Usually
+/// the origin of the cloud is at the sensor, and this is `sensor_height`. If the origin is on or
+/// below the ground (`sensor_height` <= 0, as in a map or a vehicle frame), the position of the
+/// sensor is unknown. These lengths then use the default height, so that results do not change if
+/// all points and `sensor_height` are shifted together.
 inline float mounting_height(float sensor_height) noexcept {
-  constexpr float default_height = 1.73f;  // of PatchworkConfig and SurfaceConfig
+  constexpr float default_height = 1.73f;  // as in PatchworkConfig and SurfaceConfig
   return sensor_height > 0 ? sensor_height : default_height;
 }
 
-/// z of the sensor itself, metres; 0 if the origin is in it.
+/// z of the sensor itself, metres; 0 if the origin is at the sensor.
 inline float sensor_z(float sensor_height) noexcept {
   return mounting_height(sensor_height) - sensor_height;
 }

@@ -17,14 +17,14 @@ void axes_of(const Symmetric3& c, double trace, PrincipalAxes& result) {
   const Axes axes = principal_axes(
       {number(c[0]), number(c[1]), number(c[2]), number(c[3]), number(c[4]), number(c[5])},
       number(trace));
-  const double spread = hn::GetLane(axes.l1) > 0 ? trace : 0;  // not infinite
+  const double spread = hn::GetLane(axes.l1) > 0 ? trace : 0;  // avoids infinity
   result.eigenvalues = {hn::GetLane(axes.l1) * spread, hn::GetLane(axes.l2) * spread,
                         hn::GetLane(axes.l3) * spread};
   result.normal = {hn::GetLane(axes.normal.x), hn::GetLane(axes.normal.y),
                    hn::GetLane(axes.normal.z)};
 }
 
-/// Planes of `Lanes` sets from `first` on; bits as of fit_planes.
+/// Fits one plane per lane, starting with plane `first`. Returns bits as fit_planes does.
 HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, PlaneBatch& planes) {
   const DoubleTag d;
   const auto load = [&](const Batch& batch) HWY_ATTR { return hn::Load(d, batch.data() + first); };
@@ -35,7 +35,7 @@ HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, Pla
   const DoubleMask exists = hn::Ge(n, number(3));
   const DoubleVector count = hn::IfThenElse(exists, n, number(3));
 
-  // Mean and covariance, as Moments::mean() and covariance() have them.
+  // Mean and covariance as in Moments::mean() and Moments::covariance().
   const std::array<DoubleVector, 3> sum = {load(moments.sum[0]), load(moments.sum[1]),
                                            load(moments.sum[2])};
   const Vectors3 mean = {div(sum[0], count), div(sum[1], count), div(sum[2], count)};
@@ -46,7 +46,7 @@ HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, Pla
   const Symmetrics c = {covariance(0, sum[0], mean.x), covariance(1, sum[0], mean.y),
                         covariance(2, sum[0], mean.z), covariance(3, sum[1], mean.y),
                         covariance(4, sum[1], mean.z), covariance(5, sum[2], mean.z)};
-  // Where all points are equal rounding may make it less than 0.
+  // If all points are equal, rounding may make the trace negative.
   const DoubleVector trace = hn::Max(add(add(c.xx, c.yy), c.zz), number(0));
   const Axes axes = principal_axes(c, trace);
   const Vectors3& normal = axes.normal;
@@ -63,8 +63,8 @@ HWY_INLINE std::uint32_t fit(const MomentsBatch& moments, std::size_t first, Pla
   store(mul(axes.l2, trace), planes.eigenvalues[1]);
   store(mul(axes.l3, trace), planes.eigenvalues[2]);
 
-  // An error of 1e-6 of the squares, seen from the origin, turns the normal by that over the gap
-  // between the two lesser eigenvalues.
+  // A relative error of 1e-6 in the sums of squares rotates the normal by that error divided by the
+  // gap between the two smaller eigenvalues.
   const DoubleVector squares =
       add(add(load(moments.squares[0]), load(moments.squares[3])), load(moments.squares[5]));
   const DoubleMask centered = hn::Gt(mul(mul(trace, count), number(8)), squares);

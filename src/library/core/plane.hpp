@@ -11,26 +11,26 @@
 
 namespace flagstone {
 
-/// What principal component analysis of a covariance gives, eq. (4).
+/// Result of the principal component analysis of a covariance, eq. (4).
 struct PrincipalAxes {
   Vector3 eigenvalues;  ///< lambda_1 >= lambda_2 >= lambda_3 >= 0, m^2
   Vector3 normal;       ///< v_3, unit length, z >= 0
 };
 
-/// Eigenvalues and the normal of a covariance, by + - * / and square root alone, so that the bits
-/// do not depend on a mathematics library.
+/// Eigenvalues and the normal of a covariance. Uses only + - * / and square root, so that the bits
+/// do not depend on a mathematical library.
 ///
-/// Where the points do not fix a plane, the most upright one is taken: through points on a line
-/// (lambda_2 - lambda_3 at most 1e-6 of the trace) the plane that contains the line and leans
-/// least, through a single place the horizontal one.
+/// If the points do not determine a plane, the plane with the most upright normal is used. For
+/// points on a line (lambda_2 - lambda_3 at most 1e-6 of the trace), it is the least tilted plane
+/// that contains the line. For points at a single position, it is horizontal.
 ///
-/// The normal of an upright plane (z within 1e-6 of 0) is level; the larger of its x and y is
-/// positive, so that rounding does not decide which side is above.
+/// A normal with z within 1e-6 of 0 is made horizontal, and the larger of its x and y is made
+/// positive. Otherwise rounding would decide which side is up.
 PrincipalAxes principal_axes(const Symmetric3& covariance) noexcept;
 
 /// A plane n . p + d = 0 and the set of points it was fitted to, eq. (4).
 struct Plane {
-  double count = 0;       ///< points in the set; a plane needs three
+  double count = 0;       ///< number of points in the set; a plane needs three
   Vector3 mean{};         ///< p-bar, metres
   Vector3 normal{};       ///< n = v_3, unit length, z >= 0
   double d = 0;           ///< -n . p-bar, metres
@@ -38,24 +38,23 @@ struct Plane {
 
   [[nodiscard]] bool exists() const noexcept { return count >= 3; }
 
-  /// A plane in coordinates taken from `origin`, in those that `origin` is given in.
+  /// The same plane in the coordinates of `origin`, if this plane is relative to `origin`.
   [[nodiscard]] Plane moved_by(const Vector3& origin) const noexcept;
 };
 
-/// The plane of least squares through the points of these moments; none if they are fewer than
-/// three.
+/// The least-squares plane through the points of these moments; none if there are fewer than three.
 Plane plane_of(const Moments& moments) noexcept;
 
 /// Writes mean, normal, d and eigenvalues of a plane into a patch.
 void set_plane(const Plane& plane, Patch& patch) noexcept;
 
-/// Planes that are fitted together.
+/// Number of planes fitted together.
 inline constexpr std::size_t batch_size = 16;
 
-/// A number for each of them.
+/// One number per plane.
 struct alignas(64) Batch : std::array<double, batch_size> {};
 
-/// Moments, see there, of sixteen sets.
+/// Moments of sixteen sets; see Moments.
 struct MomentsBatch {
   Batch count;
   std::array<Batch, 3> sum;
@@ -73,9 +72,9 @@ struct PlaneBatch {
   [[nodiscard]] Plane operator[](std::size_t i) const noexcept;
 };
 
-/// Fits sixteen planes. Bit i of what is returned says that plane i exists but hangs on the last
-/// digits of its moments: points nearly on a line, in a ball, or together far from the origin.
-/// Single precision is too coarse for sums of these.
+/// Fits sixteen planes. Bit i of the result is set if plane i exists but is ill-conditioned: its
+/// points are nearly on a line, in a ball, or close together far from the origin. Sums in single
+/// precision are then not accurate enough.
 std::uint32_t fit_planes(const MomentsBatch& moments, PlaneBatch& planes) noexcept;
 
 }  // namespace flagstone

@@ -6,15 +6,15 @@
 
 namespace flagstone {
 
-/// Random numbers that are the same with every standard library, which std:: distributions are not.
+/// Random numbers that do not depend on the standard library, unlike the std:: distributions.
 /// SplitMix64: G. L. Steele, D. Lea, C. H. Flood, "Fast Splittable Pseudorandom Number Generators",
 /// OOPSLA 2014.
 class Random {
  public:
   explicit constexpr Random(std::uint64_t seed) noexcept : state_(seed) {}
 
-  /// A stream of its own for item `index` (a ray, a house): what is drawn for one item does not
-  /// depend on how many are drawn for the others, nor on the order.
+  /// A separate stream for item `index` (a ray, a house). The numbers drawn for one item do not
+  /// depend on how many are drawn for other items, or in which order.
   static constexpr Random stream(std::uint64_t seed, std::uint64_t index) noexcept {
     return Random(mix(mix(seed + increment) ^ (index * increment)));
   }
@@ -24,10 +24,10 @@ class Random {
     return mix(state_);
   }
 
-  /// In [0, 1).
+  /// Uniform in [0, 1).
   constexpr double uniform() noexcept { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-  /// In [low, high).
+  /// Uniform in [low, high).
   constexpr double uniform(double low, double high) noexcept {
     return low + (high - low) * uniform();
   }
@@ -35,8 +35,9 @@ class Random {
   /// True with this probability.
   constexpr bool chance(double probability) noexcept { return uniform() < probability; }
 
-  /// Mean 0, standard deviation 1, never beyond +-6: the sum of twelve uniforms. Needs no logarithm
-  /// or cosine, whose last bit differs between mathematical libraries.
+  /// Approximately normal with mean 0 and standard deviation 1, within +-6: the sum of twelve
+  /// uniform numbers. Uses no logarithm or cosine, whose last bit differs between mathematical
+  /// libraries.
   constexpr double normal() noexcept {
     double sum = -6;
     for (int i = 0; i < 12; ++i) sum += uniform();

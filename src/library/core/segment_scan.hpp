@@ -17,20 +17,19 @@
 
 namespace flagstone {
 
-/// Points by label, as Segmentation::finish takes them.
+/// Number of points per label, as in Segmentation::finish.
 using LabelTotals = std::array<std::size_t, label_count>;
 
-/// Returns the configuration of a method, or throws what its check() throws.
+/// Returns `config`, or throws what its check() throws.
 template <class Config>
 Config checked(Config config) {
   config.check();
   return config;
 }
 
-/// What every Segmenter::segment does around its own work: refuses impossible clouds, starts and
-/// finishes the result, turns a failed allocation into a status. `work(labels)` sets the labels
-/// that are not to be nonground; it may throw std::bad_alloc and nothing else. It may return how
-/// many it set, as Segmentation::finish takes it.
+/// Common part of every Segmenter::segment: rejects invalid clouds, starts and finishes the result,
+/// and turns a failed allocation into a status. `work(labels)` sets all labels except `nonground`.
+/// It may throw only std::bad_alloc. It can return the LabelTotals.
 template <class Work>
 Status segment_scan(CloudView cloud, Segmentation& result, Work&& work) noexcept {
   result.clear();

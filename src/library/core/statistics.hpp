@@ -14,16 +14,16 @@
 
 namespace flagstone {
 
-/// Numbers in memory that may be reordered: a vector, an array or a span of floats or doubles.
+/// A vector, an array or a span of floats or doubles that can be reordered.
 template <class Values>
 concept SortableNumbers =
     std::ranges::random_access_range<Values> && std::ranges::sized_range<Values> &&
     std::floating_point<std::ranges::range_value_t<Values>> &&
     std::permutable<std::ranges::iterator_t<Values>>;
 
-/// The nearest-rank percentile: the smallest value that at least `percent` (0 to 100) per cent of
-/// `values` do not exceed. Takes linear time, reorders `values` and does not allocate. NaN if there
-/// are no values.
+/// The nearest-rank percentile: the smallest value that is not exceeded by at least `percent` (0 to
+/// 100) per cent of `values`. Takes linear time, reorders `values` and does not allocate. NaN if
+/// there are no values.
 template <SortableNumbers Values>
 std::ranges::range_value_t<Values> percentile(Values&& values, double percent) {
   using Value = std::ranges::range_value_t<Values>;
@@ -36,8 +36,8 @@ std::ranges::range_value_t<Values> percentile(Values&& values, double percent) {
   return *nth;
 }
 
-/// The middle value, or the mean of the two middle values of an even number. Takes linear time,
-/// reorders `values` and does not allocate. NaN if there are no values.
+/// The median: the middle value, or the mean of the two middle values. Takes linear time, reorders
+/// `values` and does not allocate. NaN if there are no values.
 template <SortableNumbers Values>
 std::ranges::range_value_t<Values> median(Values&& values) {
   const auto lower = percentile(values, 50);
@@ -47,12 +47,12 @@ std::ranges::range_value_t<Values> median(Values&& values) {
   return (lower + *std::ranges::min_element(upper_half, std::ranges::end(values))) / 2;
 }
 
-/// NaN if there are no values.
+/// The mean. NaN if there are no values.
 inline double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Of a sample (divided by n - 1). NaN if there are fewer than two values.
+/// Standard deviation of a sample, with divisor n - 1. NaN if there are fewer than two values.
 inline double standard_deviation(std::span<const double> values) {
   const double middle = mean(values);
   double squares = 0;

@@ -9,7 +9,7 @@ namespace flagstone {
 /// Wall-clock time between laps.
 class Stopwatch {
  public:
-  /// Milliseconds since it was made or last asked.
+  /// Milliseconds since construction or the previous call.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     const double ms = std::chrono::duration<double, std::milli>(now - start_).count();

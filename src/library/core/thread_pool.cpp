@@ -14,10 +14,10 @@
 namespace flagstone {
 namespace {
 
-/// How often this process is the child of a fork(), itself included.
+/// Number of forks between this process and the process that registered the handler.
 std::atomic<std::uint32_t> forks = 0;
 
-/// Looks at `value` `spin_count` times, then blocks until it is no longer `old`.
+/// Checks `value` up to `spin_count` times, then blocks until it differs from `old`.
 void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old,
                 int spin_count) noexcept {
   for (int spin = 0; spin < spin_count; ++spin) {
@@ -47,7 +47,7 @@ ThreadPool::ThreadPool(unsigned size) {
   static const int registered =
       pthread_atfork(nullptr, nullptr, [] { forks.fetch_add(1, std::memory_order_relaxed); });
   static_cast<void>(registered);
-  // About ten microseconds; none if the threads would take cores from each other.
+  // About ten microseconds. No spinning if there are more threads than cores.
   spin_count_ = size <= std::thread::hardware_concurrency() ? 1000 : 0;
   workers_.reserve(size - 1);
   start_workers(size - 1);
@@ -70,7 +70,7 @@ void ThreadPool::start_workers(std::size_t count) noexcept {
       workers_.emplace_back([this, worker, round] { worker_loop(worker, round); });
     }
   } catch (const std::exception&) {
-    return;  // no more threads, or no memory for them: fewer work as well
+    return;  // no more threads, or no memory for them: continue with fewer
   }
 }
 
@@ -78,7 +78,7 @@ bool ThreadPool::has_forked() const noexcept {
   return forks.load(std::memory_order_relaxed) != forks_;
 }
 
-/// A fork() copies the pool but not its threads: they can be neither joined nor detached.
+/// A fork() copies the pool but not its threads, which can then be neither joined nor detached.
 void ThreadPool::forget_workers() noexcept {
   for (std::thread& worker : workers_) std::construct_at(&worker);
   workers_.clear();
@@ -105,7 +105,7 @@ void ThreadPool::take_jobs(std::size_t worker) noexcept {
   for (std::size_t job = next_++; job < count_; job = next_++) call_(context_, worker, job);
 }
 
-/// `round` is the last one before the worker was started.
+/// `round` is the last round before the worker was started.
 void ThreadPool::worker_loop(std::size_t worker, std::uint32_t round) noexcept {
   const ScopedFloatingPointMode mode;
   for (;;) {
@@ -119,7 +119,7 @@ void ThreadPool::worker_loop(std::size_t worker, std::uint32_t round) noexcept {
 }
 
 std::size_t run_on_threads(unsigned threads, const std::function<void()>& work) {
-  const ScopedFloatingPointMode mode;  // the caller as the workers
+  const ScopedFloatingPointMode mode;  // the caller gets the mode of the workers
   ThreadPool pool(threads);
   pool.run(pool.size(), [&](std::size_t, std::size_t) { work(); });
   return pool.size();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Everything in flagstone that uses several threads uses one of these two:
+// All multi-threaded code in flagstone uses one of these two:
 //
 //     ThreadPool pool(4);                    // started once; for the short steps of one scan
 //     pool.run(count, [&](std::size_t worker, std::size_t job) noexcept { ... });
@@ -53,7 +53,7 @@ class ThreadPool {
 
   /// Calls `work(worker, job)` once for each job from 0 to `count` - 1, in any order. `worker` is
   /// the number of the thread, 0 to size() - 1; the caller is worker 0. Returns when all jobs are
-  /// done. `work` must not throw. Not thread-safe.
+  /// finished. `work` must not throw. Not thread-safe.
   template <class Work>
   void run(std::size_t count, const Work& work) noexcept {
     if (workers_.empty() || count <= 1) {
@@ -83,25 +83,26 @@ class ThreadPool {
   std::size_t count_ = 0;
   const void* context_ = nullptr;
   Call call_ = nullptr;
-  int spin_count_ = 0;                     ///< how often to look before blocking
+  int spin_count_ = 0;                     ///< number of checks before blocking
   std::atomic<std::size_t> next_ = 0;      ///< job
   std::atomic<std::uint32_t> round_ = 0;   ///< raised when there is work
   std::atomic<std::uint32_t> active_ = 0;  ///< workers that have not finished the round
   std::atomic<bool> stopping_ = false;
 };
 
-/// Calls `work`, which must not throw, on up to `threads` threads at once, the caller's included;
-/// returns how many there were.
+/// Calls `work` on up to `threads` threads at once, including the caller's. `work` must not throw.
+/// Returns the number of threads.
 std::size_t run_on_threads(unsigned threads, const std::function<void()>& work);
 
 /// A `stop` for parallel_for that never stops.
 inline constexpr auto never_stop = [] { return false; };
 
-/// Hands out the jobs 0 to `count` - 1, in this order, to at most `threads` threads (0: all cores),
-/// one of them the caller's. Each thread that gets a job calls `make_worker()` once and passes the
-/// job numbers to the result, which may keep state and may throw. No more jobs are handed out once
-/// `stop()` returns true or a job throws; the first exception is rethrown here when all threads
-/// have finished. All threads run in the ScopedFloatingPointMode. Returns the number of threads.
+/// Distributes the jobs 0 to `count` - 1, in this order, to at most `threads` threads (0: all
+/// cores), including the caller's. Each thread that gets a job calls `make_worker()` once and
+/// passes the job numbers to the result, which may keep state and may throw. After `stop()` returns
+/// true or a job throws, no more jobs are started. The first exception is rethrown here when all
+/// threads have finished. All threads use the ScopedFloatingPointMode. Returns the number of
+/// threads.
 template <class Stop, class MakeWorker>
 std::size_t parallel_for(std::size_t count, unsigned threads, const Stop& stop,
                          const MakeWorker& make_worker) {

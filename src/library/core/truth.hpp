@@ -6,7 +6,7 @@
 
 namespace flagstone {
 
-/// What a point really is, by a reference labelling and an evaluation protocol.
+/// Ground truth of a point, from reference labels and an evaluation protocol.
 enum class Truth : std::uint8_t {
   ground,
   not_ground,

@@ -64,7 +64,7 @@ std::vector<Setting> settings_of(MountSettings& s) {
        {.low = 0.01, .high = 100, .unit = "m"}},
       {"mount.max_height",
        &s.limits.max_height,
-       "nor are those above",
+       "maximum height of the sensor above the ground; higher estimates are rejected",
        {.low = 0.01, .high = 100, .unit = "m", .remark = "above min_height"}},
       {"mount.max_tilt",
        &s.limits.max_tilt,

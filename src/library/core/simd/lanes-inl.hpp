@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// What the vector code of every instruction set stands on. Included once for each of them. Better
-// targets have lower bits: `HWY_TARGET <= HWY_AVX3` is AVX-512 of any kind.
+// Vector operations for all instruction sets. Included once per instruction set. Better targets
+// have lower bits: `HWY_TARGET <= HWY_AVX3` is any kind of AVX-512.
 //
-// The same bits everywhere: work is laid out for 16 virtual lanes, which are one AVX-512 vector,
-// two of AVX2, four of SSE4 or NEON, sixteen numbers in plain C++. What one lane computes never
-// depends on how many of them share a vector, sums over lanes follow one fixed tree, and a * b + c
-// is always two roundings: no target fuses it.
+// Results are bit-identical on all targets: work is organised in 16 virtual lanes, which are one
+// AVX-512 vector, two AVX2 vectors, four SSE4 or NEON vectors, or sixteen numbers in plain C++. The
+// result of a lane never depends on the number of lanes per vector, sums over lanes follow one
+// fixed tree, and a * b + c is always rounded twice: no target fuses it.
 
 // clang-format off
 #if defined(FLAGSTONE_CORE_SIMD_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -30,7 +30,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Virtual lanes.
+/// Number of virtual lanes.
 inline constexpr std::size_t lanes = 16;
 
 using FloatTag = hn::CappedTag<float, lanes>;
@@ -40,7 +40,7 @@ using FloatVector = hn::Vec<FloatTag>;
 using IntVector = hn::Vec<IntTag>;
 using DoubleVector = hn::Vec<DoubleTag>;
 
-/// Element `index` (0 to 15 in each lane) of a table of 16, of any alignment.
+/// Looks up element `index` (0 to 15 in each lane) in a table of 16 elements with any alignment.
 HWY_INLINE FloatVector lookup_16(const float* HWY_RESTRICT table, IntVector index) {
   const FloatTag d;
 #if HWY_TARGET <= HWY_AVX3
@@ -56,10 +56,10 @@ HWY_INLINE FloatVector lookup_16(const float* HWY_RESTRICT table, IntVector inde
 #endif
 }
 
-/// The same for a table of 8 and an index of 0 to 7.
+/// Looks up element `index` (0 to 7 in each lane) in a table of 8 elements with any alignment.
 HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index) {
 #if HWY_TARGET <= HWY_AVX3
-  // Half a vector: behind the table there may be nothing.
+  // Loads half a vector: the memory after the table may not be readable.
   const FloatVector numbers{_mm512_castps256_ps512(_mm256_loadu_ps(table))};
   return hn::TableLookupLanes(numbers, hn::IndicesFromVec(FloatTag(), index));
 #elif HWY_TARGET == HWY_AVX2
@@ -70,7 +70,7 @@ HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index
 #endif
 }
 
-/// Element `index` of a table and the next one, where memory is read twice as fast by pairs.
+/// Looks up element `index` and the element after it. Reading pairs is twice as fast with AVX-512.
 HWY_INLINE void gather_pairs(const float* HWY_RESTRICT table, IntVector index, FloatVector& first,
                              FloatVector& second) {
 #if HWY_TARGET <= HWY_AVX3
@@ -90,7 +90,7 @@ HWY_INLINE void gather_pairs(const float* HWY_RESTRICT table, IntVector index, F
 #endif
 }
 
-/// Whole part of numbers from 0 to 2^31, without hn::ConvertTo's care for all others.
+/// Integer part of numbers from 0 to 2^31. Faster than hn::ConvertTo, which handles all numbers.
 HWY_INLINE IntVector whole_part(FloatVector v) {
 #if HWY_TARGET <= HWY_AVX3
   return IntVector{_mm512_cvttps_epi32(v.raw)};
@@ -103,7 +103,7 @@ HWY_INLINE IntVector whole_part(FloatVector v) {
 #endif
 }
 
-/// Every lane moved one up, the last lane of `before` being the new first.
+/// Moves every lane up by one. The first lane becomes the last lane of `before`.
 HWY_INLINE IntVector move_up(IntVector v, IntVector before) {
 #if HWY_TARGET <= HWY_AVX3
   return IntVector{_mm512_alignr_epi32(v.raw, before.raw, 15)};
@@ -121,7 +121,7 @@ HWY_INLINE IntVector move_up(IntVector v, IntVector before) {
 #endif
 }
 
-/// v + 1 where the mask says so.
+/// v + 1 in the lanes of the mask, v in the others.
 HWY_INLINE IntVector increment_if(hn::Mask<IntTag> mask, IntVector v) {
   const IntTag di;
 #if HWY_TARGET <= HWY_AVX3
@@ -132,7 +132,7 @@ HWY_INLINE IntVector increment_if(hn::Mask<IntTag> mask, IntVector v) {
 }
 
 #if HWY_TARGET == HWY_AVX2
-/// For each mask of eight lanes the lanes it picks, four bits each, lowest first.
+/// For each mask of eight lanes: the selected lanes, four bits each, lowest first.
 inline constexpr auto picked_lanes = [] {
   std::array<std::uint32_t, 256> picked{};
   for (std::uint32_t mask = 0; mask < 256; ++mask) {
@@ -146,7 +146,7 @@ inline constexpr auto picked_lanes = [] {
   return picked;
 }();
 #elif HWY_TARGET == HWY_SSE4
-/// For each mask of four lanes the bytes it picks.
+/// For each mask of four lanes: the selected bytes.
 inline constexpr auto picked_bytes = [] {
   std::array<std::array<std::uint8_t, 16>, 16> picked{};
   for (std::size_t mask = 0; mask < 16; ++mask) {
@@ -159,8 +159,8 @@ inline constexpr auto picked_bytes = [] {
 }();
 #endif
 
-/// The lanes that the mask picks, one after another, meaningless ones behind them. hn::Compress
-/// copies its table to the stack in every call with GCC.
+/// Moves the lanes of the mask to the front; the lanes after them are unspecified. Replaces
+/// hn::Compress, which with GCC copies its table to the stack in every call.
 HWY_INLINE IntVector compress(IntVector v, hn::Mask<IntTag> mask) {
 #if HWY_TARGET == HWY_AVX2
   const auto bits = static_cast<unsigned>(
@@ -179,7 +179,7 @@ HWY_INLINE IntVector compress(IntVector v, hn::Mask<IntTag> mask) {
 #endif
 }
 
-/// Stores the lanes that the mask picks, and may write a whole vector; returns how many they are.
+/// Stores the lanes of the mask and returns their number. May write a whole vector.
 HWY_INLINE std::size_t compress_store(IntVector v, hn::Mask<IntTag> mask, std::int32_t* to) {
   hn::StoreU(compress(v, mask), IntTag(), to);
   return hn::CountTrue(IntTag(), mask);
@@ -191,7 +191,7 @@ HWY_INLINE std::size_t compress_store(FloatVector v, hn::Mask<FloatTag> mask, fl
   return hn::CountTrue(d, mask);
 }
 
-/// x, y and z of points that are records of three or four floats.
+/// Loads x, y and z of points that are records of three or four floats.
 template <int floats>
 HWY_INLINE void load_points(const float* HWY_RESTRICT points, FloatVector& x, FloatVector& y,
                             FloatVector& z) {
@@ -200,7 +200,7 @@ HWY_INLINE void load_points(const float* HWY_RESTRICT points, FloatVector& x, Fl
     hn::LoadInterleaved3(d, points, x, y, z);
   } else {
 #if HWY_TARGET <= HWY_AVX3
-    // Seven shuffles; the general way takes fifteen.
+    // Seven shuffles; LoadInterleaved4 takes fifteen.
     HWY_ALIGN static constexpr std::int32_t x_then_y[] = {0, 4, 8, 12, 16, 20, 24, 28,
                                                           1, 5, 9, 13, 17, 21, 25, 29};
     HWY_ALIGN static constexpr std::int32_t z_twice[] = {2, 6, 10, 14, 18, 22, 26, 30,
@@ -225,15 +225,15 @@ HWY_INLINE void load_points(const float* HWY_RESTRICT points, FloatVector& x, Fl
   }
 }
 
-/// Whether points are not the all-zero missing return. Read as integers without their sign, so that
-/// denormals are not zero.
+/// True for points that are not the all-zero missing return. Compares integers without the sign
+/// bit, so that denormals are not zero.
 HWY_INLINE hn::Mask<FloatTag> is_return(FloatVector x, FloatVector y, FloatVector z) {
   const IntTag di;
   const IntVector bits = hn::BitCast(di, hn::Or(hn::Or(x, y), z));
   return hn::RebindMask(FloatTag(), hn::Ne(hn::ShiftLeft<1>(bits), hn::Zero(di)));
 }
 
-/// is_valid of point_validity.hpp: no coordinate infinite or NaN, not all zero.
+/// Vector version of is_valid in point_validity.hpp: all coordinates finite, not all zero.
 HWY_INLINE hn::Mask<FloatTag> is_valid(FloatVector x, FloatVector y, FloatVector z) {
   const FloatVector zero = hn::Zero(FloatTag());
   // Infinity * 0 and NaN * 0 are NaN.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Principal component analysis of 3 x 3 covariances, eq. (4), one in each lane. Included once for
-// each instruction set. By + - * / and square root alone, which round alike everywhere.
+// Principal component analysis of 3 x 3 covariances, eq. (4), one per lane. Included once per
+// instruction set. Uses only + - * / and square root, which round identically everywhere.
 
 // clang-format off
 #if defined(FLAGSTONE_CORE_SIMD_PRINCIPAL_AXES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -21,7 +21,7 @@ namespace {
 
 using DoubleMask = hn::Mask<DoubleTag>;
 
-/// Vectors of doubles that read like numbers.
+/// Short names for operations on vectors of doubles.
 HWY_INLINE DoubleVector number(double value) { return hn::Set(DoubleTag(), value); }
 HWY_INLINE DoubleVector add(DoubleVector a, DoubleVector b) { return hn::Add(a, b); }
 HWY_INLINE DoubleVector sub(DoubleVector a, DoubleVector b) { return hn::Sub(a, b); }
@@ -59,8 +59,8 @@ HWY_INLINE Vectors3 longer(const Vectors3& a, const Vectors3& b) {
   return select(hn::Gt(squared_length(b), squared_length(a)), b, a);
 }
 
-/// Unit length, upward. A level vector has no up: where rounding alone would decide, the larger of
-/// x and y is made positive, and z is 0.
+/// Scales to unit length and makes z positive. If z is within 1e-6 of 0, rounding would decide the
+/// sign: z is then set to 0, and the larger of x and y is made positive.
 HWY_INLINE Vectors3 unit_upward(const Vectors3& v) {
   const DoubleVector length = hn::Sqrt(squared_length(v));
   const DoubleMask level = hn::Le(hn::Abs(v.z), mul(number(1e-6), length));
@@ -71,17 +71,17 @@ HWY_INLINE Vectors3 unit_upward(const Vectors3& v) {
   return {mul(v.x, scale), mul(v.y, scale), hn::IfThenElse(level, number(0), mul(v.z, scale))};
 }
 
-/// Smallest root of lambda^3 - lambda^2 + c1 lambda - c0, which has three roots in [0, 1]; 0 where
-/// not `wanted`. Left of the roots the polynomial is negative, rising and concave: Newton's steps
-/// from 0 close in from the left, each step's error being about the square of the one before.
+/// Smallest root of lambda^3 - lambda^2 + c1 lambda - c0, which has three roots in [0, 1]; 0 in
+/// lanes that are not `wanted`. Left of the roots the polynomial is negative, increasing and
+/// concave, so Newton's method converges from 0 with increasing values, quadratically.
 HWY_INLINE DoubleVector smallest_root(DoubleVector c1, DoubleVector c0, DoubleMask wanted) {
   const DoubleTag d;
   DoubleVector root = hn::Zero(d);
   DoubleMask moving = wanted;
-  for (int i = 0; i < 60; ++i) {  // one or two dozen only where two roots are equal
+  for (int i = 0; i < 60; ++i) {  // one or two dozen are needed only if two roots are equal
     const DoubleVector value = sub(mul(add(mul(sub(root, number(1)), root), c1), root), c0);
     const DoubleVector slope = add(mul(sub(mul(number(3), root), number(2)), root), c1);
-    const DoubleVector step = div(value, slope);  // leftward
+    const DoubleVector step = div(value, slope);  // negative
     moving = hn::And(hn::And(moving, hn::Lt(value, number(0))), hn::Gt(slope, number(0)));
     root = hn::IfThenElse(moving, sub(root, step), root);
     moving = hn::And(moving, hn::Lt(step, number(-1e-9)));
@@ -99,18 +99,17 @@ HWY_INLINE Vectors3 most_upright_normal_of_line(const Vectors3& direction) {
 }
 
 struct Axes {
-  DoubleVector l1, l2, l3;  ///< eigenvalues, descending, as shares of their sum
+  DoubleVector l1, l2, l3;  ///< eigenvalues divided by their sum, descending
   Vectors3 normal;
 };
 
-/// See plane.hpp. `trace` is what the shares are of; where it is not positive and finite
-/// all of them are 0.
+/// See plane.hpp. Eigenvalues are divided by `trace`; they are 0 if it is not positive and finite.
 HWY_INLINE Axes principal_axes(const Symmetrics& c, DoubleVector trace) {
-  // Gap between eigenvalues, as a share of their sum, under which they count as equal. Wide enough
-  // that rounding (1e-16 of a determinant, divided by lambda_2) decides nothing.
+  // Eigenvalues count as equal if their difference, divided by their sum, is smaller than this. It
+  // is large enough that rounding (1e-16 of a determinant, divided by lambda_2) has no influence.
   const DoubleVector equal_share = number(1e-6);
 
-  // Scaled to trace 1: the eigenvalues are shares.
+  // Scale to trace 1.
   const DoubleVector xx = div(c.xx, trace);
   const DoubleVector xy = div(c.xy, trace);
   const DoubleVector xz = div(c.xz, trace);
@@ -123,7 +122,7 @@ HWY_INLINE Axes principal_axes(const Symmetrics& c, DoubleVector trace) {
       add(sub(mul(xx, minor(yy, zz, yz, yz)), mul(xy, minor(xy, zz, yz, xz))),
           mul(xz, minor(xy, yz, yy, xz)));
 
-  // About lambda_2 + lambda_3; what is less is rounding: all points on a line.
+  // The minors are about lambda_2 + lambda_3. Smaller values are rounding errors: points on a line.
   const DoubleMask on_a_plane = hn::Gt(minors, equal_share);
   const DoubleVector l3 = smallest_root(minors, determinant, on_a_plane);
   const DoubleVector rest = sub(number(1), l3);             // lambda_1 + lambda_2
@@ -133,7 +132,7 @@ HWY_INLINE Axes principal_axes(const Symmetrics& c, DoubleVector trace) {
   const DoubleVector l1 = mul(add(rest, gap), number(0.5));
   const DoubleVector l2 = hn::Max(mul(sub(rest, gap), number(0.5)), l3);
 
-  // Rows of C - lambda_3 I span what is orthogonal to the normal.
+  // The rows of C - lambda_3 I span the plane orthogonal to the normal.
   const Vectors3 r0 = {sub(xx, l3), xy, xz};
   const Vectors3 r1 = {xy, sub(yy, l3), yz};
   const Vectors3 r2 = {xz, yz, sub(zz, l3)};
