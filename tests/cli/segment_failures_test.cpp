@@ -119,7 +119,7 @@ TEST(SegmentFailure, AnOutputThatCannotBeWrittenIsOneLineAndLeavesNothing) {
                                  (folder / "out").string(), "--format", format});
 
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_THAT(outcome.err, is_one_line_with("out/scan." + format + ": is a folder"));
+    EXPECT_THAT(outcome.err, is_one_line_with("out/scan." + format + ": is a directory"));
     EXPECT_THAT(names_below(folder / "out"), ElementsAre());
   }
 }

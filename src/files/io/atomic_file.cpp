@@ -26,28 +26,27 @@ Status unwritable(std::string_view what, int error) {
                 fmt::format("{}: {}", what, std::generic_category().message(error)));
 }
 
-/// Where the file itself is: what a symbolic link leads to. unwritable where renaming would replace
-/// something that is no regular file.
+/// The path of the file itself, with symbolic links resolved. unwritable if renaming would replace
+/// something other than a regular file.
 Status find_target(const fs::path& path, fs::path& target) {
   target = path;
   std::error_code error;
   if (fs::is_symlink(path, error)) {
     target = fs::canonical(path, error);
-    if (error) return unwritable("is a symbolic link that leads nowhere", error.value());
+    if (error) return unwritable("is a broken symbolic link", error.value());
   }
   const fs::file_status status = fs::status(target, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     return Status(StatusCode::unwritable,
                   fs::is_directory(status)
-                      ? "is a folder (name a file)"
+                      ? "is a directory (expected a file)"
                       : "is not a regular file (choose a regular file or a new path)");
   }
   return {};
 }
 
-/// While it lives, a write beyond the limit of a file's size (ulimit -f) fails as on a full disk.
-/// The signal that comes with it, which would end the process, is blocked for this thread and taken
-/// away.
+/// RAII guard for the current thread: a write beyond the file size limit (ulimit -f) fails as on a
+/// full disk. Without it, SIGXFSZ would end the process; the guard blocks and then discards it.
 class FileSizeSignalBlocked {
  public:
   FileSizeSignalBlocked() {
@@ -70,13 +69,13 @@ class FileSizeSignalBlocked {
   sigset_t before_{};
 };
 
-/// A new file beside the one to be written, removed at the end of its life unless it was put in
-/// place.
+/// A temporary file next to the file to be written. The destructor removes it unless it was
+/// renamed.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& folder) {
     static std::atomic<unsigned> counter{0};
-    do {  // a name left behind by a process that was killed and had our number is passed over
+    do {  // skip files left behind by a killed process that had the same process id
       path_ = folder / fmt::format(".flagstone-{}-{}.tmp", ::getpid(), counter++);
       number_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (number_ < 0 && errno == EEXIST);
@@ -91,7 +90,7 @@ class TemporaryFile {
   }
 
   Status fill_and_put_in_place(std::span<const std::byte> bytes, const fs::path& target) {
-    if (number_ < 0) return unwritable("cannot be created in its folder", error_);
+    if (number_ < 0) return unwritable("cannot be created", error_);
     FileDescriptor file(number_);
     const FileSizeSignalBlocked signal_blocked;
     while (!bytes.empty()) {
@@ -102,7 +101,7 @@ class TemporaryFile {
     }
     if (!file.close()) return unwritable("cannot be written", errno);
     if (std::rename(path_.c_str(), target.c_str()) != 0) {
-      return unwritable("cannot be put in place", errno);
+      return unwritable("cannot be replaced", errno);
     }
     is_in_place_ = true;
     return {};

@@ -11,15 +11,15 @@
 
 namespace flagstone::io {
 
-/// Writes a file so that it is there whole or not at all: into a temporary name in the same folder,
-/// then renamed onto `path`. On any failure the temporary is removed and an old file stays as it
-/// was. A symbolic link is followed; anything else that is no regular file (folder, device, pipe)
-/// is refused, since renaming would replace it. The folder must exist. The data is not forced to
-/// the disk (no fsync): a crash of the program leaves no half file, a loss of power may. unwritable
-/// with the path and the system's reason, out_of_memory. Never throws.
+/// Writes a file atomically: writes a temporary file in the same directory and renames it to
+/// `path`. On failure the temporary file is removed and an existing file stays unchanged. A
+/// symbolic link is followed. A directory, device or pipe is an error, because renaming would
+/// replace it. The directory must exist. There is no fsync: a crash of the program leaves no
+/// partial file, but a loss of power may. unwritable with the path and the reason of the system,
+/// out_of_memory. Never throws.
 Status write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-/// The same for text.
+/// As above, for text.
 Status write_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace flagstone::io

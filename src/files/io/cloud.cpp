@@ -24,8 +24,8 @@ void convert_to_float(std::span<const std::byte> rows, std::size_t stride, const
   });
 }
 
-/// `cloud` with another field behind the others, `values` of it one after the other; one of that
-/// name that was there is dropped.
+/// `cloud` with the field `added` after the others, filled from `values`. Replaces an existing
+/// field of that name.
 Status with_field(const Cloud& cloud, Field added, std::span<const std::byte> values, Cloud& out) {
   const Field* const old = cloud.find(added.name);
   std::vector<Field> fields(cloud.fields().begin(), cloud.fields().end());
@@ -78,7 +78,8 @@ Status Cloud::from_rows(std::vector<Field> fields, std::vector<std::byte> rows, 
     std::size_t stride = 0;
     if (Status status = lay_out(fields, stride); !status.ok()) return status;
     if (rows.size() % stride != 0) {
-      return invalid("{} bytes are not a whole number of rows of {} bytes", rows.size(), stride);
+      return invalid("{} bytes are not a whole number of rows (expected {} bytes per row)",
+                     rows.size(), stride);
     }
     Cloud cloud;
     cloud.fields_ = std::move(fields);
@@ -103,7 +104,7 @@ Status Cloud::from_rows(std::vector<Field> fields, std::vector<std::byte> rows, 
 Status Cloud::from_floats(std::span<const float> values, std::size_t floats_per_point, Cloud& out) {
   return within_memory([&] {
     if (floats_per_point < 3 || floats_per_point > max_fields) {
-      return invalid("{} floats a point (allowed: 3 to {})", floats_per_point, max_fields);
+      return invalid("{} floats per point (expected 3 to {})", floats_per_point, max_fields);
     }
     const auto bytes = std::as_bytes(values);
     return from_rows(unnamed_fields(floats_per_point, FieldType::float32),
@@ -146,7 +147,8 @@ std::vector<Field> unnamed_fields(std::size_t columns, FieldType type) {
 Status with_labels(const Cloud& cloud, std::span<const Label> labels, Cloud& out) {
   return within_memory([&] {
     if (labels.size() != cloud.size()) {
-      return invalid("{} labels for {} points (one a point)", labels.size(), cloud.size());
+      return invalid("{} labels for {} points (expected one per point)", labels.size(),
+                     cloud.size());
     }
     return with_field(cloud, {std::string(label_name), FieldType::uint8}, std::as_bytes(labels),
                       out);
@@ -156,7 +158,8 @@ Status with_labels(const Cloud& cloud, std::span<const Label> labels, Cloud& out
 Status with_heights(const Cloud& cloud, std::span<const float> heights, Cloud& out) {
   return within_memory([&] {
     if (heights.size() != cloud.size()) {
-      return invalid("{} heights for {} points (one a point)", heights.size(), cloud.size());
+      return invalid("{} heights for {} points (expected one per point)", heights.size(),
+                     cloud.size());
     }
     return with_field(cloud, {std::string(height_name), FieldType::float32}, std::as_bytes(heights),
                       out);
@@ -169,7 +172,8 @@ Status select(const Cloud& cloud, std::span<const std::size_t> indices, Cloud& o
     std::vector<std::byte> rows(indices.size() * stride);
     for (std::size_t i = 0; i < indices.size(); ++i) {
       if (indices[i] >= cloud.size()) {
-        return invalid("point {} of a cloud of {}", indices[i], cloud.size());
+        return invalid("index {} is out of range (the cloud has {} points)", indices[i],
+                       cloud.size());
       }
       std::memcpy(rows.data() + i * stride, cloud.bytes().data() + indices[i] * stride, stride);
     }
@@ -180,7 +184,8 @@ Status select(const Cloud& cloud, std::span<const std::size_t> indices, Cloud& o
 Status select_where(const Cloud& cloud, std::span<const std::uint8_t> mask, Cloud& out) {
   return within_memory([&] {
     if (mask.size() != cloud.size()) {
-      return invalid("a mask of {} for {} points (one a point)", mask.size(), cloud.size());
+      return invalid("a mask of size {} for {} points (expected one value per point)", mask.size(),
+                     cloud.size());
     }
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < mask.size(); ++i) {

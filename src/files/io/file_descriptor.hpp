@@ -8,7 +8,7 @@
 
 namespace flagstone::io {
 
-/// An open file of the system; closes it at the end of its life.
+/// Owns a file descriptor and closes it on destruction.
 class FileDescriptor {
  public:
   explicit FileDescriptor(int number) noexcept : number_(number) {}
@@ -21,7 +21,7 @@ class FileDescriptor {
   [[nodiscard]] bool is_open() const noexcept { return number_ >= 0; }
   [[nodiscard]] int get() const noexcept { return number_; }
 
-  /// False where the system reports, only now, that it could not write everything.
+  /// False if the system could not write all data, which it may report only here.
   bool close() noexcept {
     const int number = std::exchange(number_, -1);
     return number < 0 || ::close(number) == 0;

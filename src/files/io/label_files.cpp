@@ -25,7 +25,7 @@ namespace {
 constexpr std::uint8_t kitti_road = 40;
 constexpr std::uint32_t kitti_class_bits = 0xffff;
 
-/// The numbers that stand for labels; loops that the compiler can make of many numbers at once.
+/// The numbers that represent `labels`. The branch is outside the loops so that they vectorize.
 template <class T>
 void number(std::span<const Label> labels, LabelMap map, T* to) {
   if (map == LabelMap::flagstone) {
@@ -37,14 +37,15 @@ void number(std::span<const Label> labels, LabelMap map, T* to) {
   }
 }
 
-/// bad_file where `labels` of `item` bytes, which begin at `begin`, are not one a point.
+/// bad_file unless there is one label per point. The labels begin at byte `begin`, and each has
+/// `item` bytes.
 Status check_count(std::size_t begin, std::size_t labels, std::size_t item,
                    std::size_t expected_points) {
   if (labels == expected_points) return {};
   const std::size_t first_wrong = begin + std::min(labels, expected_points) * item;
   return bad_byte(first_wrong,
-                  "the file holds {} labels, the scan has {} points (one label a point; does the "
-                  "file belong to this scan?)",
+                  "the file contains {} labels, but the scan has {} points (expected one label per "
+                  "point; check whether the file belongs to this scan)",
                   labels, expected_points);
 }
 
@@ -54,9 +55,8 @@ Status parse_label(std::span<const std::byte> bytes, std::size_t expected_points
   if (const std::size_t rest = bytes.size() % item; rest != 0) {
     return bad_byte(
         bytes.size() - rest,
-        "{} bytes are not a whole number of labels of {} bytes (the scan has {} points, "
-        "which need {} bytes)",
-        bytes.size(), item, expected_points, expected_points * item);
+        "{} bytes are not a whole number of labels (expected {} bytes: {} points, {} bytes each)",
+        bytes.size(), expected_points * item, expected_points, item);
   }
   const std::size_t labels = bytes.size() / item;
   if (Status status = check_count(0, labels, item, expected_points); !status.ok()) return status;
@@ -78,22 +78,22 @@ Status parse_lidarseg(std::span<const std::byte> bytes, std::size_t expected_poi
   return status;
 }
 
-/// A header of one integer a point.
+/// Checks for one integer per point.
 Status check_label_array(const NpyHeader& header) {
   const auto& shape = header.shape;
   if (header.is_structured || shape.empty() || shape.size() > 2 ||
       (shape.size() == 2 && shape[1] != 1)) {
-    return bad_byte(header.shape_offset, "the array is not N or N x 1 (one label a point)");
+    return bad_byte(header.shape_offset,
+                    "the array has the wrong shape (expected N or N x 1: one label per point)");
   }
   const FieldType type = header.fields[0].field.type;
   if (!is_integer(type)) {
-    return bad_byte(header.descr_offset, "the labels are {} (integers are needed)",
-                    to_string(type));
+    return bad_byte(header.descr_offset, "the labels are {} (expected integers)", to_string(type));
   }
   return {};
 }
 
-/// The number at `bytes`, if a class can be it.
+/// The number at `bytes`, or nothing if it is not a valid class.
 template <class T>
 std::optional<std::uint32_t> class_at(std::span<const std::byte> bytes, bool big_endian) {
   std::array<std::byte, sizeof(T)> number;
@@ -119,7 +119,7 @@ Status parse_npy(std::span<const std::byte> bytes, std::size_t expected_points,
   const std::size_t item = size_of(type);
   if (labels != (bytes.size() - header.size) / item || (bytes.size() - header.size) % item != 0) {
     return bad_byte(header.shape_offset,
-                    "the header announces {} labels of {} bytes, {} bytes follow", labels, item,
+                    "the header specifies {} labels of {} bytes, but {} bytes follow", labels, item,
                     bytes.size() - header.size);
   }
   Status status = check_count(header.size, labels, item, expected_points);
@@ -131,7 +131,7 @@ Status parse_npy(std::span<const std::byte> bytes, std::size_t expected_points,
       return class_at<T>(bytes.subspan(offset, item), header.fields[0].big_endian);
     });
     if (!number) {
-      return bad_byte(offset, "label {} is not within 0 to {}", i,
+      return bad_byte(offset, "the label of point {} is out of range (expected 0 to {})", i,
                       std::numeric_limits<std::uint32_t>::max());
     }
     read[i] = *number;
@@ -166,7 +166,7 @@ Status read_reference(const std::filesystem::path& path, std::size_t expected_po
                       std::vector<std::uint32_t>& classes) {
   const std::optional<ClassFormat> format = class_format_of(path);
   if (!format) {
-    return refuse(path, "no label format has this ending (allowed: .label, .bin, .npy)");
+    return refuse(path, "unknown file extension (expected .label, .bin or .npy)");
   }
   std::vector<std::byte> file;
   Status status = load_bytes(path, file);
@@ -183,9 +183,8 @@ Status read_labels(const std::filesystem::path& path, std::size_t expected_point
                      for (std::size_t i = 0; i < codes.size(); ++i) {
                        if (codes[i] >= label_count) {
                          return Status(StatusCode::bad_file,
-                                       fmt::format("the label of point {} is {} (flagstone's codes "
-                                                   "are 0 to {}; was it written with another label "
-                                                   "map?)",
+                                       fmt::format("the label of point {} is {} (expected 0 to {}; "
+                                                   "the file may use another label map)",
                                                    i, codes[i], label_count - 1));
                        }
                        read[i] = static_cast<Label>(codes[i]);
@@ -214,7 +213,7 @@ Status LabelWriter::write_label_npy(const std::filesystem::path& path,
                                     std::span<const Label> labels) {
   Status status = within_memory([&] {
     const std::string header = npy_header(FieldType::uint8, labels.size());
-    npy_.assign(header);  // by copy: a moved one would bring its own memory
+    npy_.assign(header);  // a copy keeps the memory of npy_, a move would replace it
     npy_.resize(header.size() + labels.size());
     number(labels, map_, npy_.data() + header.size());
     return Status();

@@ -14,22 +14,24 @@
 
 namespace flagstone::io {
 
-/// What number a `.label` file holds for a label.
+/// The numbers that represent labels in a file.
 enum class LabelMap {
-  flagstone,       ///< the label's own code, 0 to 4
-  semantic_kitti,  ///< 40 (road) for ground, 0 (unlabelled) for all else
+  flagstone,       ///< the code of the label, 0 to 4
+  semantic_kitti,  ///< 40 (road) for ground, 0 (unlabelled) for every other label
 };
 
-/// Writes the labels of one scan after another, with memory it keeps. One per thread.
+/// Writes label files and reuses its memory from scan to scan. Not thread-safe: use one instance
+/// per thread.
 class LabelWriter {
  public:
   explicit LabelWriter(LabelMap map = LabelMap::flagstone) : map_(map) {}
 
-  /// Writes SemanticKITTI's layout: one little-endian uint32 a point. The file is there whole or
-  /// not at all. unwritable, out_of_memory. Never throws.
+  /// Writes the layout of SemanticKITTI: one little-endian uint32 per point. The file is written
+  /// atomically. unwritable, out_of_memory. Never throws.
   Status write_label_file(const std::filesystem::path& path, std::span<const Label> labels);
 
-  /// The same numbers as a NumPy array, N x uint8: a quarter of the bytes. Errors likewise.
+  /// Writes the same numbers as a NumPy array of uint8, a quarter of the size. Errors as
+  /// write_label_file().
   Status write_label_npy(const std::filesystem::path& path, std::span<const Label> labels);
 
  private:
@@ -38,34 +40,35 @@ class LabelWriter {
   std::string npy_;
 };
 
-/// Writes one .label file; as LabelWriter.
+/// Writes one .label file, as LabelWriter::write_label_file().
 Status write_label_file(const std::filesystem::path& path, std::span<const Label> labels,
                         LabelMap map);
 
-/// The same for classes of any numbering, e.g. the truth of a simulated scan.
+/// Writes classes of any numbering as a .label file, for example the ground truth of a simulated
+/// scan.
 Status write_class_file(const std::filesystem::path& path, std::span<const std::uint32_t> classes);
 
-/// How a file of one class a point is laid out.
+/// Layouts of files with one class per point.
 enum class ClassFormat {
   label,     ///< `.label`: uint32, the class in the low 16 bits, an instance in the high 16
   lidarseg,  ///< `.bin`: uint8, nuScenes-lidarseg
   npy,       ///< `.npy`: N or N x 1 integers
 };
 
-/// Reads one class a point; the name says the layout (`.label`, `.bin`, `.npy`).
-/// `expected_points` is the size of the scan the file belongs to; any other number of labels is an
-/// error that names both. Messages as those of read_cloud(). Never throws; `classes` is only
-/// changed on success. not_found, unreadable, bad_file, invalid_argument (unknown ending),
+/// Reads one class per point; the file extension determines the layout (`.label`, `.bin`, `.npy`).
+/// `expected_points` is the size of the scan that the file belongs to; any other number of labels
+/// is an error that reports both numbers. Messages as read_cloud(). Never throws; changes `classes`
+/// only on success. not_found, unreadable, bad_file, invalid_argument (unknown extension),
 /// out_of_memory.
 Status read_reference(const std::filesystem::path& path, std::size_t expected_points,
                       std::vector<std::uint32_t>& classes);
 
-/// The same for bytes in memory; the message has no path.
+/// As read_reference(), for bytes in memory; the message has no path.
 Status parse_reference(std::span<const std::byte> bytes, ClassFormat format,
                        std::size_t expected_points, std::vector<std::uint32_t>& classes);
 
-/// Reads labels that flagstone wrote with its own codes (`.label`, `.npy`); as read_reference(),
-/// and a code above 4 is an error.
+/// Reads labels in flagstone's own codes (`.label`, `.npy`), as read_reference(). A code above 4 is
+/// an error.
 Status read_labels(const std::filesystem::path& path, std::size_t expected_points,
                    std::vector<Label>& labels);
 

@@ -23,15 +23,15 @@ Status system_error(std::string_view what, int error) {
                 fmt::format("{}: {}", what, std::generic_category().message(error)));
 }
 
-/// Says what a thing is that cannot be read as a file.
+/// The error for anything that is not a regular file.
 Status not_a_file(mode_t mode) {
-  const char* const kind = S_ISDIR(mode)                    ? "a folder"
+  const char* const kind = S_ISDIR(mode)                    ? "a directory"
                            : S_ISFIFO(mode)                 ? "a pipe"
                            : S_ISSOCK(mode)                 ? "a socket"
                            : S_ISCHR(mode) || S_ISBLK(mode) ? "a device"
-                                                            : "something else";
-  return Status(StatusCode::unreadable,
-                fmt::format("is {} (only regular files are read; copy it into one)", kind));
+                                                            : "not a regular file";
+  return Status(StatusCode::unreadable, fmt::format("is {} (expected a regular file{})", kind,
+                                                    S_ISDIR(mode) ? "" : "; copy the data to one"));
 }
 
 Status read_all(int file, std::span<std::byte> to) {
@@ -41,8 +41,8 @@ Status read_all(int file, std::span<std::byte> to) {
     if (got < 0) return system_error("cannot be read", errno);
     if (got == 0) {
       return Status(StatusCode::unreadable,
-                    fmt::format("byte {}: the file became shorter while it was read (it had {} "
-                                "bytes; is it still being written?)",
+                    fmt::format("byte {}: the file became shorter while it was read (expected {} "
+                                "bytes; another program may still be writing it)",
                                 done, to.size()));
     }
     done += static_cast<std::size_t>(got);
@@ -50,27 +50,28 @@ Status read_all(int file, std::span<std::byte> to) {
   return {};
 }
 
-// Without O_NONBLOCK opening a pipe waits until somebody writes to it.
+// Without O_NONBLOCK, opening a pipe waits for a writer.
 constexpr int reading = O_RDONLY | O_CLOEXEC | O_NONBLOCK;
 
-/// Makes `bytes` exactly that long, clearing as little of it as possible and keeping none.
+/// Sets the size of `bytes`. Its old contents are lost, and as little as possible is cleared.
 void resize(std::vector<std::byte>& bytes, std::size_t size) {
-  if (size > bytes.capacity()) bytes = {};  // growing would copy what is overwritten anyway
+  if (size > bytes.capacity()) bytes = {};  // growing would copy bytes that are then overwritten
   bytes.resize(size);
 }
 
-// Not mapped: from the page cache a map takes up to a third less time, but a file that shrinks
-// while mapped ends the program with SIGBUS.
+// Not memory-mapped: mapping takes up to a third less time from the page cache, but a file that
+// shrinks while it is mapped ends the program with SIGBUS.
 Status read_whole(const std::filesystem::path& path, std::vector<std::byte>& out) {
   const FileDescriptor file(::open(path.c_str(), reading));
   if (!file.is_open()) return system_error("cannot be opened", errno);
   struct stat about{};
-  if (::fstat(file.get(), &about) != 0) return system_error("cannot be examined", errno);
+  if (::fstat(file.get(), &about) != 0) return system_error("cannot be read", errno);
   if (!S_ISREG(about.st_mode)) return not_a_file(about.st_mode);
   const auto size = static_cast<std::size_t>(about.st_size);
   if (size > max_file_size) {
-    return Status(StatusCode::bad_file,
-                  fmt::format("has {} bytes (at most {} are read; split it)", size, max_file_size));
+    return Status(
+        StatusCode::bad_file,
+        fmt::format("has {} bytes (expected at most {}; split the file)", size, max_file_size));
   }
   resize(out, size);
   return read_all(file.get(), out);

@@ -10,19 +10,19 @@
 
 namespace flagstone::io {
 
-/// The largest file that is read.
+/// The largest file that load_bytes() reads, bytes.
 inline constexpr std::size_t max_file_size = std::size_t{8} << 30U;
 
-/// Reads a regular file whole; its size is asked first and nothing more is allocated. What memory
-/// `out` has is used again where it suffices: handed in for one file after another, it grows to
-/// the largest and then nothing is allocated. Folders, pipes, sockets and devices are refused
-/// without waiting for them. A file that grows meanwhile is read as far as it was long, one that
-/// shrinks is an error. not_found, unreadable, bad_file (above max_file_size), out_of_memory; the
-/// message begins with the path. Never throws; on failure `out` is empty.
+/// Reads all bytes of a regular file. Allocates exactly the size of the file, and nothing if the
+/// capacity of `out` suffices, so pass the same vector for many files. Directories, pipes, sockets
+/// and devices are errors; opening them never blocks. If the file grows during reading, the result
+/// has the size from before; if it shrinks, that is an error. not_found, unreadable, bad_file
+/// (above max_file_size), out_of_memory; the message begins with the path. Never throws; on failure
+/// `out` is empty.
 Status load_bytes(const std::filesystem::path& path, std::vector<std::byte>& out);
 
-/// Asks the system to fetch a file that will be read soon, without waiting for it. Only a hint:
-/// where the file cannot be opened nothing happens, load_bytes() will say why.
+/// Asks the system to prefetch a file that will be read soon; does not wait. This is only a hint:
+/// if the file cannot be opened, nothing happens, and load_bytes() reports the reason later.
 void read_ahead(const std::filesystem::path& path) noexcept;
 
 }  // namespace flagstone::io

@@ -10,21 +10,21 @@
 namespace flagstone::io {
 namespace {
 
-// A stream is a row of items. A control byte below 32 is followed by control + 1 bytes to take as
-// they are. Any other refers back to what is expanded already: its high three bits are the length
-// less two, 7 meaning that a byte follows to be added; its low five bits and the next byte the
-// distance less one.
+// A stream is a sequence of items. A control byte below 32 is followed by control + 1 literal
+// bytes. Any other control byte refers back to bytes that are already expanded. Its high three bits
+// are the length minus two; if they are 7, the next byte is added. Its low five bits and the last
+// byte of the item are the distance minus one.
 struct Item {
   bool is_literal;
   std::size_t length;    // bytes it expands to
   std::size_t distance;  // how far back a reference starts
-  std::size_t size;      // bytes it takes in the stream; what follows of a literal included
+  std::size_t size;      // bytes in the stream, including literal bytes
 };
 
 constexpr std::size_t first_reference = 32;
 constexpr std::size_t long_reference = 7;
 
-/// The item at `at`; its `size` may exceed what is there, and is then all that is true of it.
+/// The item at `at`. If its `size` exceeds the rest of the stream, its other members are invalid.
 Item item_at(std::span<const std::byte> stream, std::size_t at) noexcept {
   const auto byte_at = [&](std::size_t i) {
     return i < stream.size() ? std::to_integer<std::size_t>(stream[i]) : 0;
@@ -45,7 +45,7 @@ void copy_reference(std::byte* to, std::size_t distance, std::size_t length) noe
   const std::byte* const from = to - distance;
   if (distance >= length) {
     std::memcpy(to, from, length);
-  } else {  // it repeats what it is writing
+  } else {  // the ranges overlap: the reference repeats bytes that it writes
     for (std::size_t i = 0; i < length; ++i) to[i] = from[i];
   }
 }
@@ -63,7 +63,7 @@ Status measure_lzf(std::span<const std::byte> compressed, std::size_t file_offse
     }
     if (item.distance > expanded) {
       return bad_byte(file_offset + at,
-                      "the compressed data refers {} bytes back where only {} are expanded",
+                      "the compressed data refers {} bytes back (expected at most {})",
                       item.distance, expanded);
     }
     expanded += item.length;

@@ -9,15 +9,14 @@
 
 namespace flagstone::io {
 
-/// The size a LZF stream expands to, by walking it without writing: nothing is allocated on a
-/// header's word. Three bytes stand for 264 at most, so the ratio is at most 88.
-/// bad_file with the offset, counted from `file_offset` on, where the stream ends within an item or
-/// refers to before its start.
+/// Computes the expanded size of an LZF stream without expanding it, so that a wrong size in a
+/// header causes no allocation. Three bytes expand to at most 264, so the ratio is at most 88.
+/// bad_file if the stream ends within an item or refers to bytes before its start; the reported
+/// offset is relative to the file, in which the stream begins at `file_offset`.
 Status measure_lzf(std::span<const std::byte> compressed, std::size_t file_offset,
                    std::size_t& expanded_size);
 
-/// Expands a stream that measure_lzf() has found good into `out`, which has exactly the measured
-/// size.
+/// Expands a stream that measure_lzf() accepted into `out`, which must have the measured size.
 void expand_lzf(std::span<const std::byte> compressed, std::span<std::byte> out) noexcept;
 
 }  // namespace flagstone::io

@@ -14,20 +14,22 @@
 
 #include "flagstone/status.hpp"
 
-/// How the readers and writers of this folder say what went wrong; internal to it.
+/// Error messages of the readers and writers; internal to this directory. Every message is one
+/// line, `PATH: byte OFFSET: PROBLEM (expected EXPECTED; HINT)`, without the parts that add
+/// nothing.
 namespace flagstone::io {
 
-/// Text from a file as a message may hold it: in quotes, at most 32 characters, anything but
-/// printable ASCII as \xHH.
+/// Quotes text from a file for a message: at most 32 characters, with \xHH for everything except
+/// printable ASCII.
 std::string quote(std::string_view text);
 
-/// A path as a message may hold it: control characters, which could break the line, as \xHH.
+/// A path for a message: control characters, which could break the line, become \xHH.
 std::string printable(const std::filesystem::path& path);
 
-/// `status` with "PATH: " before its text.
+/// `status` with "PATH: " before its message.
 Status with_path(const std::filesystem::path& path, Status status);
 
-/// bad_file, "byte OFFSET: reason".
+/// bad_file with the message "byte OFFSET: reason".
 template <class... Args>
 Status bad_byte(std::size_t offset, fmt::format_string<Args...> reason, Args&&... args) {
   return Status(StatusCode::bad_file, fmt::format("byte {}: ", offset) +
@@ -40,7 +42,7 @@ Status invalid(fmt::format_string<Args...> reason, Args&&... args) {
   return Status(StatusCode::invalid_argument, fmt::format(reason, std::forward<Args>(args)...));
 }
 
-/// invalid_argument, "PATH: reason"; never throws.
+/// invalid_argument with the message "PATH: reason". Never throws.
 Status refuse(const std::filesystem::path& path, std::string_view reason);
 
 /// Runs `work`, which returns a Status; a failed allocation becomes out_of_memory.
@@ -50,7 +52,7 @@ Status within_memory(Work&& work) {
     return std::forward<Work>(work)();
   } catch (const std::bad_alloc&) {
     return Status(StatusCode::out_of_memory);
-  } catch (const std::length_error&) {  // what a vector throws beyond its max_size()
+  } catch (const std::length_error&) {  // from vectors, beyond max_size()
     return Status(StatusCode::out_of_memory);
   }
 }

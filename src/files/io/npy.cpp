@@ -44,15 +44,16 @@ std::string_view code_of(FieldType type) {
   return std::ranges::find(type_codes, type, &TypeCode::type)->code;
 }
 
-/// Reads the Python dictionary that describes an array: only the literals that NumPy writes there.
+/// Parses the Python dictionary in a NumPy header. Only the literals that NumPy writes are
+/// accepted.
 class DictReader {
  public:
-  /// Reads `text` from `begin` up to `end`.
+  /// The dictionary lies between `begin` and `end`.
   DictReader(std::string_view text, std::size_t begin, std::size_t end)
       : text_(text.substr(0, end)), at_(begin) {}
 
   Status read(NpyHeader& out) {
-    if (!take('{')) return unexpected("a dictionary beginning with {");
+    if (!take('{')) return unexpected("a dictionary that begins with {");
     bool has_descr = false;
     bool has_order = false;
     bool has_shape = false;
@@ -77,9 +78,9 @@ class DictReader {
   }
 
  private:
-  [[nodiscard]] Status unexpected(std::string_view wanted) const {
-    return bad_byte(at_, "the NumPy header has {} where {} should be", quote(text_.substr(at_)),
-                    wanted);
+  [[nodiscard]] Status unexpected(std::string_view expected) const {
+    return bad_byte(at_, "the NumPy header contains {} (expected {})", quote(text_.substr(at_)),
+                    expected);
   }
 
   void skip_blanks() {
@@ -97,7 +98,7 @@ class DictReader {
     return true;
   }
 
-  /// A string without escapes; `out` is what stands between the quotes.
+  /// A string without escapes; `out` is the text between the quotes.
   bool take_string(std::string_view& out) {
     if (!peek('\'') && !peek('"')) return false;
     const std::size_t end = text_.find(text_[at_], at_ + 1);
@@ -117,7 +118,7 @@ class DictReader {
     if (!number) return false;
     out = *number;
     at_ += digits.size();
-    if (at_ < text_.size() && text_[at_] == 'L') ++at_;  // a long of Python 2
+    if (at_ < text_.size() && text_[at_] == 'L') ++at_;  // suffix of a Python 2 long
     return true;
   }
 
@@ -133,13 +134,13 @@ class DictReader {
     return unexpected("True or False");
   }
 
-  /// A tuple of whole numbers.
+  /// A tuple of integers.
   Status read_tuple(std::vector<std::size_t>& out) {
     if (!take('(')) return unexpected("a tuple");
     while (!take(')')) {
       std::size_t number = 0;
       if (out.size() == most_dimensions || !take_number(number)) {
-        return unexpected("at most 32 whole numbers");
+        return unexpected("at most 32 integers");
       }
       out.push_back(number);
       if (!take(',') && !peek(')')) return unexpected("a comma or )");
@@ -162,7 +163,9 @@ class DictReader {
       return read_type(out.fields.back(), false);
     }
     while (!take(']')) {
-      if (out.fields.size() == max_fields) return bad_byte(at_, "more than {} fields", max_fields);
+      if (out.fields.size() == max_fields) {
+        return bad_byte(at_, "the array has more than {} fields", max_fields);
+      }
       out.fields.emplace_back();
       if (Status status = read_record_field(out.fields.back()); !status.ok()) return status;
       if (!take(',') && !peek(']')) return unexpected("a comma or ]");
@@ -190,11 +193,13 @@ class DictReader {
     if (peek('(')) {
       if (Status status = read_tuple(shape); !status.ok()) return status;
     } else if (!take_number(shape.emplace_back())) {
-      return unexpected("a field's shape");
+      return unexpected("the shape of a field");
     }
     for (const std::size_t length : shape) {
       if (length == 0 || length > max_stride / out.count) {
-        return bad_byte(begin, "field {} has no or too many numbers (rows are at most {} bytes)",
+        return bad_byte(begin,
+                        "field {} has no items or too many items (expected at least 1, and rows of "
+                        "at most {} bytes)",
                         quote(out.name), max_stride);
       }
       out.count *= length;
@@ -202,7 +207,7 @@ class DictReader {
     return {};
   }
 
-  /// A type such as '<f4'; '|V4' of a field without a name is padding.
+  /// A type such as '<f4'. A field without a name and with a type such as '|V4' is padding.
   Status read_type(NpyField& out, bool may_be_padding) {
     skip_blanks();
     const std::size_t begin = at_;
@@ -221,7 +226,9 @@ class DictReader {
     }
     const auto* const found = std::ranges::find(type_codes, code, &TypeCode::code);
     if (found == type_codes.end()) {
-      return bad_byte(begin, "type {} (allowed: i and u of 1, 2, 4 or 8 bytes, f4, f8, b1)",
+      return bad_byte(begin,
+                      "type {} is not supported (expected i or u with 1, 2, 4 or 8 bytes, f4, f8 "
+                      "or b1)",
                       quote(text));
     }
     out.field.type = found->type;
@@ -234,7 +241,7 @@ class DictReader {
 };
 
 /// Magic, version, length and `dictionary`, padded with spaces so that the items begin at a
-/// multiple of 64 bytes, as the format asks.
+/// multiple of 64 bytes, as the format requires.
 std::string with_preamble(std::string dictionary) {
   constexpr std::size_t alignment = 64;
   const bool is_long = dictionary.size() > UINT16_MAX - 2 * alignment;
@@ -253,7 +260,7 @@ std::string with_preamble(std::string dictionary) {
 }
 
 std::string with_preamble(std::string_view descr, std::span<const std::size_t> shape) {
-  // Python's tuples: a comma behind the number where there is only one.
+  // A Python tuple of one number ends with a comma.
   return with_preamble(fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({}{}), }}",
                                    descr, fmt::join(shape, ", "), shape.size() == 1 ? "," : ""));
 }
@@ -262,22 +269,27 @@ std::string with_preamble(std::string_view descr, std::span<const std::size_t> s
 
 Status read_npy_header(std::string_view text, NpyHeader& out) {
   if (!text.starts_with(magic)) {
-    return bad_byte(0, "the file does not begin with \\x93NUMPY");
+    return bad_byte(0, "not a NumPy file (expected \\x93NUMPY at the start)");
   }
   const std::size_t version_at = magic.size();
   const auto* const bytes = reinterpret_cast<const std::byte*>(text.data());
-  if (text.size() < version_at + 6) return bad_byte(text.size(), "the file ends within the header");
+  if (text.size() < version_at + 6) {
+    return bad_byte(text.size(),
+                    "the file ends within the NumPy header (the file may be truncated)");
+  }
   const auto major = std::to_integer<unsigned>(bytes[version_at]);
   if (major < 1 || major > 3) {
-    return bad_byte(version_at, "NumPy format {} (allowed: 1, 2 and 3)", major);
+    return bad_byte(version_at, "NumPy format {} is not supported (expected 1, 2 or 3)", major);
   }
   const std::size_t length_at = version_at + 2;
   const std::size_t begin = length_at + (major == 1 ? 2 : 4);
   const std::size_t length =
       major == 1 ? load<std::uint16_t>(bytes + length_at) : load<std::uint32_t>(bytes + length_at);
   if (length > text.size() - begin) {
-    return bad_byte(text.size(), "the header is said to have {} bytes, there are {}", length,
-                    text.size() - begin);
+    return bad_byte(text.size(),
+                    "the file ends after {} bytes of the NumPy header (expected {}; the file may "
+                    "be truncated)",
+                    text.size() - begin, length);
   }
   out.size = begin + length;
   return DictReader(text, begin, out.size).read(out);
@@ -308,7 +320,7 @@ std::string npy_header(FieldType type, std::size_t count) {
 
 namespace {
 
-/// The array as a table: as many points as its first dimension says.
+/// The array as a table with one point per row.
 struct Table {
   std::vector<Field> fields;
   std::size_t stride = 0;
@@ -317,30 +329,32 @@ struct Table {
 };
 
 Status booleans(std::size_t offset, std::string_view what) {
-  return bad_byte(offset, "{} of booleans (expected integers or floats; is this a mask?)", what);
+  return bad_byte(
+      offset, "{} contains booleans (expected integers or floats; the file may be a mask)", what);
 }
 
 Status table_of(const NpyHeader& header, Table& out) {
   const auto& shape = header.shape;
   if (header.is_structured) {
     if (shape.size() != 1) {
-      return bad_byte(header.shape_offset, "an array of records has {} dimensions (one is allowed)",
+      return bad_byte(header.shape_offset, "the array of records has {} dimensions (expected 1)",
                       shape.size());
     }
     for (const NpyField& field : header.fields) {
       const std::string& name = field.field.name;
       if (field.boolean && (name == "x" || name == "y" || name == "z")) {
-        return booleans(header.descr_offset, fmt::format("field {} is", quote(name)));
+        return booleans(header.descr_offset, fmt::format("field {}", quote(name)));
       }
       out.fields.push_back(field.field);
     }
   } else {
     if (shape.size() != 2 || shape[1] < 3 || shape[1] > max_fields) {
       return bad_byte(header.shape_offset,
-                      "the array is not N x 3 to N x {} (a point a row, x, y and z first)",
+                      "the array has the wrong shape (expected N x 3 to N x {}: one point per row, "
+                      "x, y and z first)",
                       max_fields);
     }
-    if (header.fields[0].boolean) return booleans(header.descr_offset, "the array is");
+    if (header.fields[0].boolean) return booleans(header.descr_offset, "the array");
     out.fields = unnamed_fields(shape[1], header.fields[0].field.type);
   }
   if (const Status status = lay_out(out.fields, out.stride); !status.ok()) {
@@ -417,23 +431,25 @@ Status parse_heights(std::span<const std::byte> bytes, std::size_t expected_poin
   NpyHeader header;
   if (Status status = read_npy_header(as_text(bytes), header); !status.ok()) return status;
   if (header.is_structured || header.shape.size() != 1) {
-    return bad_byte(header.shape_offset, "the array has not one dimension (one height a point)");
+    return bad_byte(header.shape_offset,
+                    "the array has the wrong shape (expected one dimension: one height per point)");
   }
   const NpyField& item = header.fields[0];
   if (item.field.type != FieldType::float32 || item.big_endian) {
-    return bad_byte(header.descr_offset, "the heights are no little-endian float32 ('<f4')");
+    return bad_byte(header.descr_offset,
+                    "the heights have the wrong type (expected little-endian float32, '<f4')");
   }
   const std::size_t count = header.shape[0];
   if (count != expected_points) {
     return bad_byte(header.shape_offset,
-                    "the file holds {} heights, the scan has {} points (one height a point; does "
-                    "the file belong to this scan?)",
+                    "the file contains {} heights, but the scan has {} points (expected one height "
+                    "per point; check whether the file belongs to this scan)",
                     count, expected_points);
   }
   const std::span<const std::byte> items = bytes.subspan(header.size);
   if (items.size() % sizeof(float) != 0 || items.size() / sizeof(float) != count) {
     return bad_byte(header.shape_offset,
-                    "the header announces {} heights of {} bytes, {} bytes follow", count,
+                    "the header specifies {} heights of {} bytes, but {} bytes follow", count,
                     sizeof(float), items.size());
   }
   std::vector<float> read(count);

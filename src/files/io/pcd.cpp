@@ -22,13 +22,13 @@ namespace {
 /// How the points of a PCD file are stored.
 enum class PcdData { ascii, binary, binary_compressed };
 
-/// What the header of a PCD file says, checked in itself but not against the file's size.
+/// The contents of a PCD header: consistent, but not yet checked against the size of the file.
 struct PcdHeader {
   std::vector<Field> fields;
   std::size_t stride = 0;
   std::size_t points = 0;
   PcdData data = PcdData::ascii;
-  std::size_t size = 0;  ///< bytes of the header: where the points begin
+  std::size_t size = 0;  ///< bytes of the header; the points follow
 };
 
 enum Key { version, fields, size, type, count, width, height, viewpoint, points, data, key_count };
@@ -36,15 +36,15 @@ enum Key { version, fields, size, type, count, width, height, viewpoint, points,
 constexpr std::array<std::string_view, key_count> key_names{
     "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
-/// A header line by its key: the words behind the key and where it stands. `present` tells an
-/// empty line from a missing one.
+/// A header line: its offset and the words after the key. `present` distinguishes a line without
+/// values from a missing line.
 struct Line {
   bool present = false;
   std::size_t offset = 0;
   std::vector<std::string_view> values;
 };
 
-/// The header's lines, then what they mean.
+/// Collects the lines of the header, then interprets them.
 class PcdHeaderReader {
  public:
   explicit PcdHeaderReader(std::string_view text) : text_(text) {}
@@ -70,7 +70,7 @@ class PcdHeaderReader {
     while (!lines_[data].present) {
       const std::size_t begin = offset;
       if (begin == text_.size()) {
-        return bad_byte(begin, "the file ends within the PCD header (a line DATA must close it)");
+        return bad_byte(begin, "the file ends within the PCD header (expected a DATA line)");
       }
       const std::string_view line = next_line(text_, offset);
       std::vector<std::string_view> words = words_of(line, max_fields + 2);
@@ -78,12 +78,12 @@ class PcdHeaderReader {
       const auto* const key = std::ranges::find(key_names, words[0]);
       if (key == key_names.end()) {
         return bad_byte(offset_of(words[0]),
-                        "{} is no line of a PCD header (VERSION, FIELDS, SIZE, TYPE, COUNT, WIDTH, "
-                        "HEIGHT, VIEWPOINT, POINTS, DATA)",
+                        "{} is not a PCD header line (expected VERSION, FIELDS, SIZE, TYPE, COUNT, "
+                        "WIDTH, HEIGHT, VIEWPOINT, POINTS or DATA)",
                         quote(words[0]));
       }
       Line& entry = lines_[static_cast<std::size_t>(key - key_names.begin())];
-      if (entry.present) return bad_byte(begin, "a second line {} in the PCD header", *key);
+      if (entry.present) return bad_byte(begin, "the PCD header has a second {} line", *key);
       words.erase(words.begin());
       entry = {true, begin, std::move(words)};
     }
@@ -91,14 +91,14 @@ class PcdHeaderReader {
     return {};
   }
 
-  /// bad_file where the line is missing or has another number of values.
+  /// bad_file if the line is missing or does not have this number of values.
   [[nodiscard]] Status expect(Key key, std::size_t values) const {
     const Line& line = lines_[key];
     if (!line.present) {
-      return bad_byte(lines_[data].offset, "the PCD header has no line {}", key_names[key]);
+      return bad_byte(lines_[data].offset, "the PCD header has no {} line", key_names[key]);
     }
     if (line.values.size() != values) {
-      return bad_byte(line.offset, "line {} has {} values, {} are needed", key_names[key],
+      return bad_byte(line.offset, "the {} line has {} values (expected {})", key_names[key],
                       line.values.size(), values);
     }
     return {};
@@ -109,13 +109,14 @@ class PcdHeaderReader {
     if (Status status = expect(version, 1); !status.ok()) return status;
     const std::string_view word = lines_[version].values[0];
     if (word == "0.7" || word == ".7" || word == "0.6" || word == ".6") return {};
-    return bad_byte(offset_of(word), "PCD version {} (allowed: 0.6 and 0.7)", quote(word));
+    return bad_byte(offset_of(word), "PCD version {} is not supported (expected 0.6 or 0.7)",
+                    quote(word));
   }
 
   Status read_fields(std::vector<Field>& out) const {
     const auto& names = lines_[fields].values;
     if (names.size() > max_fields) {
-      return bad_byte(lines_[fields].offset, "more than {} fields", max_fields);
+      return bad_byte(lines_[fields].offset, "the file has more than {} fields", max_fields);
     }
     if (Status status = expect(fields, names.size()); !status.ok()) return status;
     if (Status status = expect(size, names.size()); !status.ok()) return status;
@@ -155,8 +156,8 @@ class PcdHeaderReader {
     if (found == pairs.end()) {
       return bad_byte(
           offset_of(letter),
-          "field {} has TYPE {} and SIZE {} (allowed: F of 4 or 8, I and U of 1, 2, 4 or "
-          "8)",
+          "field {} has TYPE {} and SIZE {} (expected TYPE F with SIZE 4 or 8, or TYPE I or U with "
+          "SIZE 1, 2, 4 or 8)",
           quote(field.name), quote(letter), quote(bytes));
     }
     field.type = found->is;
@@ -164,7 +165,7 @@ class PcdHeaderReader {
       const std::string_view word = lines_[count].values[i];
       const auto number = whole_number<std::size_t>(word);
       if (!number) {
-        return bad_byte(offset_of(word), "COUNT {} of field {} is not a whole number from 1",
+        return bad_byte(offset_of(word), "COUNT {} of field {} is not an integer of at least 1",
                         quote(word), quote(field.name));
       }
       field.count = *number;
@@ -172,14 +173,14 @@ class PcdHeaderReader {
     return {};
   }
 
-  /// The one number of a line; nothing where the line is missing.
+  /// The single number of a line, or nothing if the line is missing.
   Status read_number(Key key, std::optional<std::size_t>& out) const {
     if (!lines_[key].present) return {};
     if (Status status = expect(key, 1); !status.ok()) return status;
     const std::string_view word = lines_[key].values[0];
     out = whole_number<std::size_t>(word);
     if (out) return {};
-    return bad_byte(offset_of(word), "{} {} is not a whole number from 0 to {}", key_names[key],
+    return bad_byte(offset_of(word), "{} {} is not an integer from 0 to {}", key_names[key],
                     quote(word), std::numeric_limits<std::size_t>::max());
   }
 
@@ -192,14 +193,16 @@ class PcdHeaderReader {
     if (Status status = read_number(points, total); !status.ok()) return status;
     if (columns.has_value() != rows.has_value() || !(columns || total)) {
       return bad_byte(lines_[data].offset,
-                      "the PCD header needs WIDTH and HEIGHT, or POINTS, or all three");
+                      "the size is missing from the PCD header (expected WIDTH and HEIGHT, POINTS, "
+                      "or all three)");
     }
     if (!columns) {
       out = *total;
       return {};
     }
     if (*rows != 0 && *columns > std::numeric_limits<std::size_t>::max() / *rows) {
-      return bad_byte(lines_[width].offset, "WIDTH {} times HEIGHT {} is beyond any file", *columns,
+      return bad_byte(lines_[width].offset,
+                      "WIDTH {} times HEIGHT {} is more points than a file can contain", *columns,
                       *rows);
     }
     out = *columns * *rows;
@@ -216,7 +219,8 @@ class PcdHeaderReader {
     constexpr std::array<std::string_view, 3> kinds{"ascii", "binary", "binary_compressed"};
     const auto* const kind = std::ranges::find(kinds, word);
     if (kind == kinds.end()) {
-      return bad_byte(offset_of(word), "DATA {} (allowed: ascii, binary, binary_compressed)",
+      return bad_byte(offset_of(word),
+                      "DATA {} is not supported (expected ascii, binary or binary_compressed)",
                       quote(word));
     }
     out = static_cast<PcdData>(kind - kinds.begin());
@@ -250,28 +254,31 @@ Status read_binary(std::span<const std::byte> bytes, const PcdHeader& header,
   return status;
 }
 
-/// Two uint32, the compressed and the expanded size, then a LZF stream of all points' first field,
-/// all points' second, and so on.
+/// Two uint32, the compressed and the expanded size, then an LZF stream that contains the first
+/// field of all points, then the second field of all points, and so on.
 Status read_compressed(std::span<const std::byte> bytes, const PcdHeader& header,
                        std::vector<std::byte>& rows) {
   constexpr std::size_t sizes = 2 * sizeof(std::uint32_t);
   if (bytes.size() - header.size < sizes) {
-    return bad_byte(bytes.size(), "the file ends before the two sizes of its compressed data");
+    return bad_byte(bytes.size(),
+                    "the file ends before the two sizes of the compressed data (the file may be "
+                    "truncated)");
   }
   const auto data = bytes.subspan(header.size);
   const std::size_t compressed = load<std::uint32_t>(data.data());
   const std::size_t expanded = load<std::uint32_t>(data.data() + sizeof(std::uint32_t));
   if (expanded / header.stride != header.points || expanded % header.stride != 0) {
-    return bad_byte(header.size + sizeof(std::uint32_t),
-                    "the compressed data is said to expand to {} bytes, {} points of {} bytes need "
-                    "another size",
-                    expanded, header.points, header.stride);
+    return bad_byte(
+        header.size + sizeof(std::uint32_t),
+        "the compressed data has an expanded size of {} bytes (expected {} points of {} "
+        "bytes each)",
+        expanded, header.points, header.stride);
   }
   if (compressed > data.size() - sizes) {
     return bad_byte(
         bytes.size(),
-        "the compressed data is said to have {} bytes, there are {} (is the file cut off?)",
-        compressed, data.size() - sizes);
+        "the file ends after {} bytes of compressed data (expected {}; the file may be truncated)",
+        data.size() - sizes, compressed);
   }
   const auto stream = data.subspan(sizes, compressed);
   std::size_t measured = 0;
@@ -279,7 +286,7 @@ Status read_compressed(std::span<const std::byte> bytes, const PcdHeader& header
     return status;
   }
   if (measured != expanded) {
-    return bad_byte(header.size + sizes, "the compressed data expands to {} bytes instead of {}",
+    return bad_byte(header.size + sizes, "the compressed data expands to {} bytes (expected {})",
                     measured, expanded);
   }
   std::vector<std::byte> columns(expanded);

@@ -11,14 +11,12 @@
 
 namespace flagstone::io {
 
-/// Reads a PCD file, version 0.6 or 0.7: ascii, binary or binary_compressed, fields of any order,
-/// type and count.
-/// bad_file with the byte offset and the reason, out_of_memory. Never throws; `out` is only changed
-/// on success.
+/// Reads a PCD file, version 0.6 or 0.7: ascii, binary or binary_compressed, with fields of any
+/// order, type and count. bad_file with the byte offset and the reason, out_of_memory. Never
+/// throws; changes `out` only on success.
 Status read_pcd(std::span<const std::byte> bytes, Cloud& out);
 
-/// Writes PCD 0.7, binary, every field and padding as they are.
-/// out_of_memory. Never throws.
+/// Writes PCD 0.7, binary, with every field and padding unchanged. out_of_memory. Never throws.
 Status write_pcd(const Cloud& cloud, std::vector<std::byte>& out);
 
 }  // namespace flagstone::io

@@ -21,15 +21,15 @@ namespace {
 /// How the numbers of a PLY file are stored.
 enum class PlyData { ascii, binary_little_endian, binary_big_endian };
 
-/// One property of an element: a number, or a list of them with its length before it.
+/// A property of an element: a number, or a list of numbers preceded by its length.
 struct PlyProperty {
-  std::string_view name;  ///< in the text the header was read from
+  std::string_view name;  ///< refers to the text of the header
   FieldType type = FieldType::float32;
   std::optional<FieldType> length_type;  ///< of a list
   std::size_t offset = 0;                ///< of its line in the file
 };
 
-/// A kind of element, `count` of which are in the file.
+/// A type of element; the file contains `count` of them.
 struct PlyElement {
   std::string_view name;
   std::size_t count = 0;
@@ -37,11 +37,11 @@ struct PlyElement {
   std::size_t offset = 0;  ///< of its line in the file
 };
 
-/// What the header of a PLY file says, not checked against the file's size.
+/// The contents of a PLY header, not yet checked against the size of the file.
 struct PlyHeader {
   PlyData data = PlyData::ascii;
   std::vector<PlyElement> elements;
-  std::size_t size = 0;  ///< bytes of the header: where the first element begins
+  std::size_t size = 0;  ///< bytes of the header; the first element follows
 };
 
 std::optional<FieldType> type_named(std::string_view name) {
@@ -69,7 +69,6 @@ std::optional<FieldType> type_named(std::string_view name) {
   return found->second;
 }
 
-/// Reads the header line by line.
 class PlyHeaderReader {
  public:
   PlyHeaderReader(std::string_view text, PlyHeader& out) : text_(text), out_(out) {}
@@ -77,11 +76,11 @@ class PlyHeaderReader {
   Status read() {
     std::size_t offset = 0;
     if (words_of(next_line(text_, offset), 2) != std::vector<std::string_view>{"ply"}) {
-      return bad_byte(0, "the file does not begin with a line 'ply'");
+      return bad_byte(0, "not a PLY file (expected 'ply' on the first line)");
     }
     while (true) {
       if (offset == text_.size()) {
-        return bad_byte(offset, "the file ends within the PLY header (end_header must close it)");
+        return bad_byte(offset, "the file ends within the PLY header (expected end_header)");
       }
       const std::size_t begin = offset;
       const auto words = words_of(next_line(text_, offset), longest_line);
@@ -90,21 +89,23 @@ class PlyHeaderReader {
       if (Status status = read_line(begin, words); !status.ok()) return status;
     }
     out_.size = offset;
-    if (!has_format_) return bad_byte(0, "the PLY header has no line 'format'");
+    if (!has_format_) return bad_byte(0, "the PLY header has no format line");
     return {};
   }
 
  private:
   using Words = std::vector<std::string_view>;
-  static constexpr std::size_t longest_line = 6;  // "property list TYPE TYPE NAME" and one too many
+  // "property list TYPE TYPE NAME", and one word more to detect lines that are too long.
+  static constexpr std::size_t longest_line = 6;
 
   Status read_line(std::size_t begin, const Words& words) {
     if (words[0] == "format") return read_format(begin, words);
     if (words[0] == "element") return read_element(begin, words);
     if (words[0] == "property") return read_property(begin, words);
-    return bad_byte(
-        begin, "{} is no line of a PLY header (format, element, property, comment, end_header)",
-        quote(words[0]));
+    return bad_byte(begin,
+                    "{} is not a PLY header line (expected format, element, property, comment, "
+                    "obj_info or end_header)",
+                    quote(words[0]));
   }
 
   Status read_format(std::size_t begin, const Words& words) {
@@ -114,8 +115,8 @@ class PlyHeaderReader {
         words.size() == 3 ? std::ranges::find(formats, words[1]) : formats.end();
     if (has_format_ || found == formats.end() || words[2] != "1.0") {
       return bad_byte(begin,
-                      "one line 'format ascii 1.0' is allowed, or binary_little_endian or "
-                      "binary_big_endian instead of ascii");
+                      "the format line is wrong or repeated (expected one line 'format ascii 1.0', "
+                      "or binary_little_endian or binary_big_endian instead of ascii)");
     }
     out_.data = static_cast<PlyData>(found - formats.begin());
     has_format_ = true;
@@ -126,42 +127,44 @@ class PlyHeaderReader {
     const auto count = words.size() == 3 ? whole_number<std::size_t>(words[2]) : std::nullopt;
     if (!count) {
       return bad_byte(begin,
-                      "an element line is 'element NAME COUNT', COUNT a whole number from 0");
+                      "the element line is wrong (expected 'element NAME COUNT', COUNT an integer "
+                      "of at least 0)");
     }
     if (std::ranges::find(out_.elements, words[1], &PlyElement::name) != out_.elements.end()) {
       return bad_byte(begin, "element {} occurs twice", quote(words[1]));
     }
     if (out_.elements.size() == most_elements) {
-      return bad_byte(begin, "more than {} elements", most_elements);
+      return bad_byte(begin, "the file has more than {} elements", most_elements);
     }
     out_.elements.push_back({words[1], *count, {}, begin});
     return {};
   }
 
   Status read_property(std::size_t begin, const Words& words) {
-    if (out_.elements.empty()) return bad_byte(begin, "a property before the first element");
+    if (out_.elements.empty()) return bad_byte(begin, "a property precedes the first element");
     std::vector<PlyProperty>& properties = out_.elements.back().properties;
     if (properties.size() == max_fields) {
-      return bad_byte(begin, "more than {} properties in an element", max_fields);
+      return bad_byte(begin, "the element has more than {} properties", max_fields);
     }
     const bool is_list = words.size() == 5 && words[1] == "list";
     if (!is_list && words.size() != 3) {
       return bad_byte(begin,
-                      "a property line is 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
+                      "the property line is wrong (expected 'property TYPE NAME' or 'property list "
+                      "TYPE TYPE NAME')");
     }
     const auto type = type_named(words[words.size() - 2]);
     const auto length_type = is_list ? type_named(words[2]) : std::nullopt;
     if (!type || (is_list && !(length_type && is_integer(*length_type)))) {
       return bad_byte(begin,
-                      "{} is no type of a property (char, uchar, short, ushort, int, uint, float, "
-                      "double; list lengths are integers)",
+                      "{} is not a property type (expected char, uchar, short, ushort, int, uint, "
+                      "float or double; an integer type for list lengths)",
                       quote(type ? words[2] : words[words.size() - 2]));
     }
     properties.push_back({words.back(), *type, length_type, begin});
     return {};
   }
 
-  static constexpr std::size_t most_elements = 64;  // names are compared each with each
+  static constexpr std::size_t most_elements = 64;  // each name is compared with all others
 
   std::string_view text_;
   PlyHeader& out_;
@@ -178,15 +181,16 @@ constexpr std::string_view vertex_name = "vertex";
 Status fields_of(const PlyElement& vertex, std::vector<Field>& out, std::size_t& stride) {
   for (const PlyProperty& property : vertex.properties) {
     if (property.length_type) {
-      return bad_byte(property.offset,
-                      "property {} of element vertex is a list (only numbers are read there; write "
-                      "the file without it)",
-                      quote(property.name));
+      return bad_byte(
+          property.offset,
+          "property {} of element 'vertex' is a list (expected a number; write the file "
+          "without this list)",
+          quote(property.name));
     }
     out.push_back({std::string(property.name.substr(0, max_name_length + 1)), property.type});
   }
   if (const Status status = lay_out(out, stride); !status.ok()) {
-    return bad_byte(vertex.offset, "element vertex: {}", status.message());
+    return bad_byte(vertex.offset, "element 'vertex': {}", status.message());
   }
   return {};
 }
@@ -213,7 +217,9 @@ class ElementSkipper {
   static bool is_list(const PlyProperty& property) { return property.length_type.has_value(); }
 
   [[nodiscard]] Status cut_off(const PlyElement& element) const {
-    return bad_byte(bytes_.size(), "the file ends within the {} of element {} before the points",
+    return bad_byte(bytes_.size(),
+                    "the file ends within the {} items of element {}, before the points (the file "
+                    "may be truncated)",
                     element.count, quote(element.name));
   }
 
@@ -233,8 +239,8 @@ class ElementSkipper {
       if (bytes_.size() - offset_ < size) return cut_off(element);
       const std::int64_t length = length_at(offset_, *property.length_type);
       if (length < 0) {
-        return bad_byte(offset_, "a list {} of length {} in element {}", quote(property.name),
-                        length, quote(element.name));
+        return bad_byte(offset_, "list {} of element {} has length {} (expected 0 or more)",
+                        quote(property.name), quote(element.name), length);
       }
       numbers = static_cast<std::size_t>(length);
       offset_ += size;
@@ -245,7 +251,7 @@ class ElementSkipper {
     return {};
   }
 
-  /// PLY's integers have 32 bits at most.
+  /// Integers in PLY files have at most 32 bits.
   [[nodiscard]] std::int64_t length_at(std::size_t offset, FieldType type) const {
     return visit_type(type, [&]<class T>() {
       std::array<std::byte, sizeof(T)> number;
@@ -315,7 +321,7 @@ const char* ply_type(FieldType type) {
   return "double";
 }
 
-/// One number of a point on its way from a row of the cloud to a row of the file.
+/// Where one number of each point is copied from (a row of the cloud) and to (a row of the file).
 struct Column {
   const Field* from = nullptr;
   std::size_t element = 0;
@@ -330,7 +336,8 @@ Status plan_columns(const Cloud& cloud, std::vector<Column>& columns, std::size_
     const FieldType type = is_wide ? FieldType::float64 : field.type;
     for (std::size_t i = 0; i < field.count; ++i) {
       if (properties.size() == max_fields) {
-        return invalid("more than {} properties for PLY (write PCD or NPY)", max_fields);
+        return invalid("the file would have more than {} properties (write PCD or NPY instead)",
+                       max_fields);
       }
       properties.push_back(
           {field.count == 1 ? field.name : fmt::format("{}_{}", field.name, i), type});
@@ -338,13 +345,13 @@ Status plan_columns(const Cloud& cloud, std::vector<Column>& columns, std::size_
     }
   }
   if (const Status status = lay_out(properties, stride); !status.ok()) {
-    return invalid("{} (as PLY properties; write PCD or NPY)", status.message());
+    return invalid("PLY properties: {}; or write PCD or NPY instead", status.message());
   }
   for (std::size_t i = 0; i < columns.size(); ++i) columns[i].to = std::move(properties[i]);
   return {};
 }
 
-/// Whether a double holds every integer up to this magnitude.
+/// Whether a double represents every integer up to this magnitude exactly.
 template <class T>
 bool is_exact_as_double(T value) {
   constexpr T limit = T{1} << 53U;
@@ -363,8 +370,8 @@ Status convert_to_double(const Cloud& cloud, const Column& column, std::size_t s
     const T value = load<T>(from + i * cloud.stride());
     if (!is_exact_as_double(value)) {
       return invalid(
-          "field {} of point {} is {}: PLY has no 64-bit integers and double would round it (write "
-          "PCD or NPY)",
+          "field {} of point {} is {}, which PLY cannot store exactly (it has no 64-bit integers; "
+          "write PCD or NPY instead)",
           quote(column.from->name), i, value);
     }
     store(rows.data() + i * stride + column.to.offset, static_cast<double>(value));

@@ -12,16 +12,16 @@
 namespace flagstone::io {
 
 /// Reads the vertices of a PLY file: ascii, binary_little_endian or binary_big_endian. Elements
-/// before them are skipped, elements behind them not looked at; a list in the vertices is an error.
-/// bad_file with the byte offset and the reason, out_of_memory. Never throws; `out` is only changed
-/// on success.
+/// before the vertices are skipped, and elements after them are not read. A list property of the
+/// vertices is an error. bad_file with the byte offset and the reason, out_of_memory. Never throws;
+/// changes `out` only on success.
 Status read_ply(std::span<const std::byte> bytes, Cloud& out);
 
-/// Writes PLY 1.0, binary_little_endian, one element \`vertex\`. A field of more than one number
-/// becomes properties name_0, name_1, ...; padding is left out; 64-bit integers, which PLY does not
-/// have, become double where no value changes by it. invalid_argument where one would, where two
-/// properties would have one name, or where there would be more than max_fields. out_of_memory.
-/// Never throws.
+/// Writes PLY 1.0, binary_little_endian, with one element, `vertex`. A field of several numbers
+/// becomes the properties name_0, name_1, ...; padding is omitted. PLY has no 64-bit integers, so
+/// they become double. invalid_argument if this would change a value, if two properties would have
+/// the same name, or if there would be more than max_fields properties; out_of_memory. Never
+/// throws.
 Status write_ply(const Cloud& cloud, std::vector<std::byte>& out);
 
 }  // namespace flagstone::io

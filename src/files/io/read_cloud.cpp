@@ -19,18 +19,18 @@
 namespace flagstone::io {
 namespace {
 
-/// Are these whole points?
+/// Checks that `size` bytes are a whole number of points.
 Status check_size(std::size_t size, std::size_t floats_per_point) {
   if (floats_per_point < 3 || floats_per_point > max_fields) {
-    return invalid("{} floats a point (allowed: 3 to {}; set it with --columns)", floats_per_point,
+    return invalid("{} floats per point (expected 3 to {}; set --columns)", floats_per_point,
                    max_fields);
   }
   const std::size_t stride = floats_per_point * sizeof(float);
   const std::size_t rest = size % stride;
   if (rest == 0) return {};
   return bad_byte(size - rest,
-                  "{} bytes are not a whole number of points of {} floats, {} bytes each (say "
-                  "how many floats a point has with --columns, or the file is cut off)",
+                  "{} bytes are not a whole number of points (expected {} floats, {} bytes each; "
+                  "set --columns, or check whether the file is truncated)",
                   size, floats_per_point, stride);
 }
 
@@ -56,14 +56,17 @@ Status write_raw_points(const Cloud& cloud, std::vector<std::byte>& out) {
     const auto fields = cloud.fields();
     for (const Field& field : fields) {
       if (field.type != FieldType::float32) {
-        return invalid("field {} is {}: raw files hold float32 only (write PCD, PLY or NPY)",
-                       quote(field.name), to_string(field.type));
+        return invalid(
+            "field {} is {} (expected float32 in raw files; write PCD, PLY or NPY instead)",
+            quote(field.name), to_string(field.type));
       }
     }
     constexpr std::array<std::string_view, 3> first_three{"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
       if (fields.size() <= i || fields[i].name != first_three[i]) {
-        return invalid("raw files need x, y and z as first fields (write PCD, PLY or NPY)");
+        return invalid(
+            "the fields are in a different order (expected x, y and z first in raw files; write "
+            "PCD, PLY or NPY instead)");
       }
     }
     out.assign(cloud.bytes().begin(), cloud.bytes().end());
@@ -127,13 +130,15 @@ Status CloudReader::read(const std::filesystem::path& path) {
 Status CloudReader::load(const std::filesystem::path& path) {
   const std::optional<CloudFormat> format = format_of(path);
   if (!format) {
-    return refuse(path, "no format has this ending (allowed: .bin, .pcd.bin, .pcd, .ply, .npy)");
+    return refuse(path, "unknown file extension (expected .bin, .pcd.bin, .pcd, .ply or .npy)");
   }
   const int columns = options_.columns;
   if (columns != 0 && (columns < 3 || columns > static_cast<int>(max_fields))) {
-    return refuse(path, "--columns takes 3 to 1024 floats a point, or 0: by the name");
+    return refuse(path, fmt::format("{} floats per point (expected 3 to {}, or 0 to choose by file "
+                                    "extension; set --columns)",
+                                    columns, max_fields));
   }
-  // Raw points borrowed the memory of their file; other formats left it here.
+  // After raw points the memory of the file belongs to the cloud; after other formats it is here.
   if (bytes_.capacity() == 0) bytes_ = cloud_.release_rows();
   if (Status status = load_bytes(path, bytes_); !status.ok()) return status;
   file_size_ = bytes_.size();

@@ -14,16 +14,16 @@
 
 namespace flagstone::io {
 
-/// Reads points that are `floats_per_point` (3 to max_fields) little-endian 32-bit floats each and
-/// nothing else, x, y and z first: KITTI's .bin with 4, nuScenes' .pcd.bin with 5.
-/// bad_file, invalid_argument, out_of_memory. Never throws; `out` is only changed on success.
+/// Reads a file that consists of little-endian 32-bit floats only: `floats_per_point` (3 to
+/// max_fields) per point, x, y and z first. KITTI's .bin has 4, nuScenes' .pcd.bin has 5.
+/// bad_file, invalid_argument, out_of_memory. Never throws; changes `out` only on success.
 Status read_raw_points(std::span<const std::byte> bytes, std::size_t floats_per_point, Cloud& out);
 
-/// The same without a copy: the bytes become the cloud's rows.
+/// As read_raw_points(), without copying: the bytes become the rows of the cloud.
 Status adopt_raw_points(std::vector<std::byte> bytes, std::size_t floats_per_point, Cloud& out);
 
-/// Writes the rows as they are. invalid_argument where a field is not a float32 or x, y and z are
-/// not the first three; out_of_memory. Never throws.
+/// Writes the rows unchanged. invalid_argument if a field is not float32 or x, y and z are not the
+/// first three fields; out_of_memory. Never throws.
 Status write_raw_points(const Cloud& cloud, std::vector<std::byte>& out);
 
 /// The point cloud formats. docs/reference/file-formats.md says what each may hold.
@@ -34,46 +34,47 @@ enum class CloudFormat {
   npy,
 };
 
-/// What a reader is told beyond the file.
+/// Options for files that do not describe themselves.
 struct ReadOptions {
-  int columns = 0;  ///< floats a point in raw files, 3 to max_fields; 0: 5 for .pcd.bin, else 4
+  int columns =
+      0;  ///< floats per point in raw files, 3 to max_fields; 0: 5 for .pcd.bin, otherwise 4
 };
 
-/// The format a file name stands for, by its ending in any case: `.pcd.bin` and `.bin` are raw,
-/// `.pcd`, `.ply`, `.npy`; nothing for other names.
+/// The format that belongs to the file extension, in upper or lower case: `.pcd.bin` and `.bin` are
+/// raw; `.pcd`, `.ply` and `.npy`. Nothing for other extensions.
 [[nodiscard]] std::optional<CloudFormat> format_of(const std::filesystem::path& path) noexcept;
 
-/// Whether a file met while walking a folder is taken for a scan: the name stands for a format, is
-/// not hidden, and is not that of a label file (`_lidarseg.bin`, `.label.npy`), of heights or of a
-/// surface (`.heights.npy`, `.surface.npy`, `.ground.npy`).
+/// Whether a file found in a directory is treated as a scan: its extension is known, it is not
+/// hidden, and it is not a file of labels (`_lidarseg.bin`, `.label.npy`), heights
+/// (`.heights.npy`, `.ground.npy`), a surface (`.surface.npy`) or return kinds (`.return.npy`).
 [[nodiscard]] bool is_scan_name(const std::filesystem::path& path) noexcept;
 
-/// Reads a point cloud; the name says the format. Never throws. `out` is only changed on success.
-/// The message of an error is one line, `PATH: byte OFFSET: reason (what is allowed, what to do)`,
-/// without the offset where no byte of the file is to blame. not_found, unreadable, bad_file,
-/// invalid_argument (unknown ending, columns out of range), out_of_memory.
+/// Reads a point cloud; the file extension determines the format. Never throws; changes `out` only
+/// on success. An error message is one line, `PATH: byte OFFSET: PROBLEM (expected EXPECTED;
+/// HINT)`, without the offset if the error has no position in the file. not_found, unreadable,
+/// bad_file, invalid_argument (unknown extension, columns out of range), out_of_memory.
 Status read_cloud(const std::filesystem::path& path, const ReadOptions& options, Cloud& out);
 
-/// The same for bytes in memory; the message has no path.
+/// As read_cloud(), for bytes in memory; the message has no path.
 Status parse_cloud(std::span<const std::byte> bytes, CloudFormat format,
                    std::size_t floats_per_point, Cloud& out);
 
-/// Reads one cloud after another into memory that it keeps: once that has grown to the largest
-/// file, raw points are read where they stay and nothing is allocated for them. One per thread.
+/// Reads clouds into memory that it reuses. Once that memory has grown to the largest file, reading
+/// raw points neither allocates nor copies. Not thread-safe: use one instance per thread.
 class CloudReader {
  public:
   explicit CloudReader(const ReadOptions& options = {}) : options_(options) {}
 
-  /// As read_cloud(), into cloud(), which has no points and no fields after a failure.
+  /// As read_cloud(), into cloud(). After a failure cloud() has no points and no fields.
   Status read(const std::filesystem::path& path);
 
-  /// What was read last. Valid until the next read().
+  /// The cloud read last. Valid until the next read().
   [[nodiscard]] const Cloud& cloud() const noexcept { return cloud_; }
 
-  /// The same, to keep.
+  /// Moves the cloud read last out of the reader.
   [[nodiscard]] Cloud release() noexcept { return std::exchange(cloud_, {}); }
 
-  /// How many bytes the last file had; 0 after a failure.
+  /// Size of the last file in bytes; 0 after a failure.
   [[nodiscard]] std::size_t file_size() const noexcept { return file_size_; }
 
  private:
@@ -81,7 +82,7 @@ class CloudReader {
 
   ReadOptions options_;
   Cloud cloud_;
-  std::vector<std::byte> bytes_;  // of a file; lent to the cloud while that holds raw points
+  std::vector<std::byte> bytes_;  // of a file; moved into the cloud while that contains raw points
   std::size_t file_size_ = 0;
 };
 

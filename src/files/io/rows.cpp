@@ -28,8 +28,8 @@ Status check_names(std::span<const Field> fields) {
   for (const Field& field : fields) {
     if (!is_field_name(field.name)) {
       return invalid(
-          "field name {}: allowed are 1 to {} printable ASCII characters without space, quotes and "
-          "backslash",
+          "field name {} is not valid (expected 1 to {} printable ASCII characters without spaces, "
+          "quotes and backslashes)",
           quote(field.name), max_name_length);
     }
     if (!field.is_padding()) names.push_back(field.name);
@@ -37,8 +37,8 @@ Status check_names(std::span<const Field> fields) {
   std::ranges::sort(names);
   const auto twice = std::ranges::adjacent_find(names);
   if (twice == names.end()) return {};
-  return invalid("field {} occurs twice (rename one; only {} may repeat)", quote(*twice),
-                 quote(padding_name));
+  return invalid("field {} occurs twice (rename one of them; only {} may be repeated)",
+                 quote(*twice), quote(padding_name));
 }
 
 Status check_coordinates(std::span<const Field> fields) {
@@ -50,11 +50,11 @@ Status check_coordinates(std::span<const Field> fields) {
         if (!present.empty()) present += ' ';
         present += quote(other.name);
       }
-      return invalid("no field {} (a point needs x, y and z; there are: {}{})", quote(name),
-                     present, fields.size() > 8 ? " ..." : "");
+      return invalid("there is no field {} (expected x, y and z; the fields are: {}{})",
+                     quote(name), present, fields.size() > 8 ? " ..." : "");
     }
     if (field->count != 1) {
-      return invalid("field {} has count {} (x, y and z must be one number each)", quote(name),
+      return invalid("field {} has count {} (expected one number each for x, y and z)", quote(name),
                      field->count);
     }
   }
@@ -73,7 +73,7 @@ void copy_items(const std::byte* from, std::size_t from_stride, std::byte* to,
 
 Status lay_out(std::span<Field> fields, std::size_t& stride) {
   if (fields.size() > max_fields) {
-    return invalid("{} fields (at most {} are allowed)", fields.size(), max_fields);
+    return invalid("there are {} fields (expected at most {})", fields.size(), max_fields);
   }
   if (Status status = check_names(fields); !status.ok()) return status;
   if (Status status = check_coordinates(fields); !status.ok()) return status;
@@ -81,7 +81,7 @@ Status lay_out(std::span<Field> fields, std::size_t& stride) {
   for (Field& field : fields) {
     const std::size_t item = size_of(field.type);
     if (field.count == 0 || field.count > (max_stride - offset) / item) {
-      return invalid("field {} has count {} (allowed: 1 or more, rows of at most {} bytes)",
+      return invalid("field {} has count {} (expected at least 1, and rows of at most {} bytes)",
                      quote(field.name), field.count, max_stride);
     }
     field.offset = offset;
@@ -140,14 +140,15 @@ Status check_binary_rows(std::span<const std::byte> bytes, std::size_t offset, s
   if (points > left / stride) {
     return bad_byte(
         bytes.size(),
-        "the header announces {} points of {} bytes, the {} bytes behind it hold {} (is "
-        "the file cut off?)",
+        "the header specifies {} points of {} bytes, but the remaining {} bytes contain only {} "
+        "(the file may be truncated)",
         points, stride, left, left / stride);
   }
   if (points_are_last && left / stride > points) {
     return bad_byte(
         offset + points * stride,
-        "{} bytes after the {} points the header announces (correct the header's count)",
+        "there are {} bytes after the {} points that the header specifies (correct the number of "
+        "points in the header)",
         left - points * stride, points);
   }
   return {};
@@ -157,7 +158,8 @@ namespace {
 
 bool ends_word(char c) { return is_blank(c) || c == '\n'; }
 
-/// Reads a number that fills `word`; false where the word is none or the type cannot hold it.
+/// Reads a number that fills `word`. False if the word is not a number or out of range for the
+/// type.
 template <class T>
 bool read_number(std::string_view word, std::byte* to) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
@@ -166,8 +168,7 @@ bool read_number(std::string_view word, std::byte* to) {
   T value = 0;
   auto [stop, error] = std::from_chars(begin, end, value);
   if constexpr (std::is_same_v<T, float>) {
-    if (error ==
-        std::errc::result_out_of_range) {  // too small is as good as zero, too large is not
+    if (error == std::errc::result_out_of_range) {  // accept values too small for a float
       double wide = 0;
       error = std::from_chars(begin, end, wide).ec;
       if (std::abs(wide) > std::numeric_limits<float>::max()) return false;
@@ -179,7 +180,6 @@ bool read_number(std::string_view word, std::byte* to) {
   return true;
 }
 
-/// Reads one point after the other off the text.
 class RowReader {
  public:
   RowReader(std::string_view text, std::size_t offset, std::span<const Field> fields)
@@ -194,20 +194,20 @@ class RowReader {
       for (std::size_t i = 0; i < field.count; ++i, ++numbers) {
         const std::string_view word = next_word();
         if (word.empty()) {
-          return bad_byte(offset_, "point {} has {} numbers, the header announces {} a point",
-                          point, numbers, numbers_in_row(fields_));
+          return bad_byte(offset_, "point {} has {} numbers (expected {})", point, numbers,
+                          numbers_in_row(fields_));
         }
         std::byte* const to = row + field.offset + i * size_of(field.type);
         if (!visit_type(field.type, [&]<class T>() { return read_number<T>(word, to); })) {
-          return bad_byte(offset_ - word.size(), "{} is not a {} (field {} of point {})",
-                          quote(word), to_string(field.type), quote(field.name), point);
+          return bad_byte(offset_ - word.size(), "field {} of point {} is {} (expected {})",
+                          quote(field.name), point, quote(word), to_string(field.type));
         }
       }
     }
     if (const std::string_view word = next_word(); !word.empty()) {
       return bad_byte(offset_ - word.size(),
-                      "{} after the {} numbers of point {} (one point a line)", quote(word),
-                      numbers, point);
+                      "{} follows the {} numbers of point {} (expected one point per line)",
+                      quote(word), numbers, point);
     }
     return {};
   }
@@ -240,8 +240,8 @@ Status read_ascii_rows(std::string_view text, std::span<const Field> fields, std
   if (points > (left + 1) / (2 * numbers)) {
     return bad_byte(
         text.size(),
-        "the header announces {} points of {} numbers, too many for the {} bytes behind it "
-        "(is the file cut off?)",
+        "the header specifies {} points of {} numbers, too many for the remaining {} bytes (the "
+        "file may be truncated)",
         points, numbers, left);
   }
   rows.resize(points * stride);
@@ -258,8 +258,10 @@ Status read_ascii_rows(std::string_view text, std::span<const Field> fields, std
 Status skip_lines(std::string_view text, std::size_t lines, std::size_t& offset) {
   for (std::size_t skipped = 0; skipped < lines;) {
     if (offset == text.size()) {
-      return bad_byte(offset, "the file ends after {} of {} lines before the points", skipped,
-                      lines);
+      return bad_byte(offset,
+                      "the file ends after {} of the {} lines before the points (the file may be "
+                      "truncated)",
+                      skipped, lines);
     }
     const std::string_view line = next_line(text, offset);
     if (!std::ranges::all_of(line, is_blank)) ++skipped;
@@ -272,7 +274,8 @@ Status check_nothing_follows(std::string_view text, std::size_t offset, std::siz
   const auto found = std::ranges::find_if_not(rest, ends_word);
   if (found == rest.end()) return {};
   return bad_byte(offset + static_cast<std::size_t>(found - rest.begin()),
-                  "more data after the {} points the header announces (correct the header's count)",
+                  "there is more data after the {} points that the header specifies (correct the "
+                  "number of points in the header)",
                   points);
 }
 

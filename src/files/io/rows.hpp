@@ -16,8 +16,8 @@
 
 namespace flagstone::io {
 
-// Rows are kept as little-endian bytes and read as the machine's own numbers.
-static_assert(std::endian::native == std::endian::little, "flagstone reads on little-endian only");
+// Rows are little-endian bytes, which are read as numbers without conversion.
+static_assert(std::endian::native == std::endian::little, "flagstone requires a little-endian CPU");
 
 /// Calls `work.template operator()<T>()` with the C++ type of `type`.
 template <class Work>
@@ -37,7 +37,7 @@ decltype(auto) visit_type(FieldType type, Work&& work) {
   return work.template operator()<double>();
 }
 
-/// The number at an address of any alignment.
+/// Loads a number from an address of any alignment.
 template <class T>
 T load(const std::byte* from) noexcept {
   T value;
@@ -51,42 +51,44 @@ void store(std::byte* to, T value) noexcept {
   std::memcpy(to, &value, sizeof value);
 }
 
-/// Sets the fields' offsets one behind the other, and `stride` to the length of a row. What Cloud
-/// demands of fields is checked here: invalid_argument with the reason.
+/// Sets the offsets of the fields so that they are packed, and `stride` to the length of a row in
+/// bytes. invalid_argument with the reason if the fields break a rule of Cloud::from_rows().
 Status lay_out(std::span<Field> fields, std::size_t& stride);
 
-/// How many numbers a row has.
+/// The number of numbers in a row.
 std::size_t numbers_in_row(std::span<const Field> fields) noexcept;
 
-/// Copies `count` items of `size` bytes from places `from_stride` apart to places `to_stride`
-/// apart.
+/// Copies `count` items of `size` bytes from addresses `from_stride` bytes apart to addresses
+/// `to_stride` bytes apart.
 void copy_column(const std::byte* from, std::size_t from_stride, std::byte* to,
                  std::size_t to_stride, std::size_t size, std::size_t count) noexcept;
 
-/// Turns columns (all points' first field, then all points' second, ...) into rows.
+/// Converts columns (the first field of all points, then the second field of all points, ...) to
+/// rows.
 std::vector<std::byte> rows_from_columns(std::span<const std::byte> columns,
                                          std::span<const Field> fields, std::size_t stride);
 
 /// Reverses the bytes of every number of `field` in all rows.
 void swap_bytes(std::span<std::byte> rows, std::size_t stride, const Field& field) noexcept;
 
-/// Whether a file's bytes from `offset` on can be the `points` rows of `stride` bytes its header
-/// announces: bad_file where there are fewer, and where a row or more is left over if nothing else
-/// may follow them (`points_are_last`).
+/// Checks that the file contains, from `offset`, the `points` rows of `stride` bytes that its
+/// header specifies. bad_file if there are fewer, or if nothing may follow the points
+/// (`points_are_last`) and at least one row is left over.
 Status check_binary_rows(std::span<const std::byte> bytes, std::size_t offset, std::size_t points,
                          std::size_t stride, bool points_are_last);
 
-/// Reads `points` lines of numbers, a point a line with all its fields in order, from `text` at
-/// `offset`, which moves behind the last line. Empty lines are skipped. `nan` and `inf` are numbers
-/// of float fields. A number takes two bytes of text at least, so a header that announces more
-/// points than that is refused before anything is allocated. bad_file.
+/// Reads `points` lines of numbers, one point per line with all fields in order, from `text` at
+/// `offset`, which moves past the last line. Skips empty lines. Float fields may be `nan` or `inf`.
+/// A number takes at least two bytes of text: if the header specifies more points than fit, this
+/// fails before it allocates memory. bad_file.
 Status read_ascii_rows(std::string_view text, std::span<const Field> fields, std::size_t stride,
                        std::size_t points, std::size_t& offset, std::vector<std::byte>& rows);
 
-/// Moves `offset` behind `lines` lines that are not empty. bad_file where there are fewer.
+/// Moves `offset` past `lines` non-empty lines. bad_file if there are fewer.
 Status skip_lines(std::string_view text, std::size_t lines, std::size_t& offset);
 
-/// bad_file where `text` holds more than blanks from `offset` on: points the header does not count.
+/// bad_file if `text` contains anything but blanks from `offset`: points that the header does not
+/// count.
 Status check_nothing_follows(std::string_view text, std::size_t offset, std::size_t points);
 
 }  // namespace flagstone::io

@@ -29,13 +29,13 @@ constexpr std::array<std::string_view, 14> keys = {
 
 constexpr double most_beams = 1024;
 
-/// The keys of one file. What is wrong with one throws std::invalid_argument that says where.
+/// The keys of one file. An invalid key or value throws std::invalid_argument with its position.
 class Fields {
  public:
   Fields(const toml::table& table, std::string_view source) : table_(table), source_(source) {
     for (const auto& [key, node] : table) {
       if (std::ranges::find(keys, key.str()) != keys.end()) continue;
-      refuse(node, fmt::format("{} is no field of a sensor; allowed: {}", quote(key.str()),
+      refuse(node, fmt::format("{} is not a key of a sensor (expected one of {})", quote(key.str()),
                                fmt::join(keys, ", ")));
     }
   }
@@ -57,7 +57,7 @@ class Fields {
     if (node == nullptr) return;
     const auto text = node->value_exact<std::string>();
     if (!text || text->empty() || printable(*text) != *text) {
-      refuse(*node, fmt::format("{} is not a text of one line", key));
+      refuse(*node, fmt::format("{} must be a string on one line", key));
     }
     value = *text;
   }
@@ -70,7 +70,7 @@ class Fields {
     const toml::node* node = table_.get(key);
     if (node == nullptr) return;
     const auto whole = node->value_exact<std::int64_t>();
-    if (!whole) refuse(*node, fmt::format("{} is not a whole number", key));
+    if (!whole) refuse(*node, fmt::format("{} must be an integer", key));
     constexpr std::int64_t most = std::numeric_limits<int>::max();
     value = static_cast<int>(std::clamp(*whole, -most, most));
   }
@@ -79,14 +79,14 @@ class Fields {
     const toml::node* node = table_.get(key);
     if (node == nullptr) return;
     const toml::array* array = node->as_array();
-    if (array == nullptr) refuse(*node, fmt::format("{} is not an array of numbers", key));
+    if (array == nullptr) refuse(*node, fmt::format("{} must be an array of numbers", key));
     values.clear();
     for (const toml::node& element : *array) values.push_back(number(key, element));
   }
 
  private:
   double number(std::string_view key, const toml::node& node) const {
-    if (!node.is_number()) refuse(node, fmt::format("{} is not a number", key));
+    if (!node.is_number()) refuse(node, fmt::format("{} must be a number", key));
     return node.value_or(0.0);
   }
 
@@ -94,14 +94,14 @@ class Fields {
   std::string_view source_;
 };
 
-/// A number that must be there for the short form of elevations.
+/// An angle that the short form of elevations requires.
 double angle_of(const Fields& fields, std::string_view key) {
   double angle = std::numeric_limits<double>::quiet_NaN();
   fields.read(key, angle);
   if (!(std::abs(angle) <= 90)) {
-    fields.refuse(key, fmt::format("{} is missing or out of range; allowed: -90 to 90 degrees, "
-                                   "with beams, elevation_top and elevation_bottom; or give "
-                                   "elevations, one for each beam",
+    fields.refuse(key, fmt::format("{} is missing or out of range (expected -90 to 90 degrees; set "
+                                   "beams, elevation_top and elevation_bottom, or elevations with "
+                                   "one value per beam)",
                                    key));
   }
   return angle;
@@ -115,8 +115,8 @@ std::vector<double> elevations_of(const Fields& fields, bool draws_rosette) {
   if (fields.has("elevations")) {
     if (is_short) {
       fields.refuse("elevations",
-                    "elevations stand beside beams, elevation_top or elevation_bottom; allowed: "
-                    "one way or the other");
+                    "elevations cannot be combined with beams, elevation_top or elevation_bottom "
+                    "(remove one or the other)");
     }
     fields.read("elevations", elevations);
     return elevations;
@@ -127,13 +127,14 @@ std::vector<double> elevations_of(const Fields& fields, bool draws_rosette) {
   fields.read("beams", beams);
   if (beams < 1 || beams > most_beams) {
     fields.refuse("beams",
-                  fmt::format("beams is missing or out of range; allowed: 1 to {}", most_beams));
+                  fmt::format("beams is missing or out of range (expected 1 to {})", most_beams));
   }
   if (beams == 1 ? top != bottom : !(top > bottom)) {
-    fields.refuse("elevation_top",
-                  fmt::format("elevation_top = {}; allowed: above elevation_bottom = {}, for one "
-                              "beam the same",
-                              top, bottom));
+    fields.refuse(
+        "elevation_top",
+        fmt::format("elevation_top = {} (expected a value above elevation_bottom = {}, or "
+                    "equal to it with one beam)",
+                    top, bottom));
   }
   for (int i = 0; i < beams; ++i) {
     elevations.push_back(beams == 1 ? top : top - (top - bottom) * i / (beams - 1));
@@ -141,7 +142,7 @@ std::vector<double> elevations_of(const Fields& fields, bool draws_rosette) {
   return elevations;
 }
 
-/// Where the value stands that Sensor::check() complains of: the longest key that it names.
+/// The key of the value that Sensor::check() rejected: the longest key in its message.
 std::string_view key_in(std::string_view complaint, const Fields& fields) {
   std::string_view found = "name";
   for (const std::string_view key : keys) {
@@ -176,7 +177,7 @@ Sensor sensor_of(const Fields& fields, const std::string& name) {
   fields.read("max_range", sensor.max_range);
   fields.read("range_sigma", sensor.range_sigma);
   if (!fields.has("height")) {
-    fields.refuse("height", "height is missing: metres above the ground, 0 to 100 m");
+    fields.refuse("height", "height is missing (expected metres above the ground, 0 to 100)");
   }
   fields.read("height", sensor.height);
   try {
@@ -226,7 +227,7 @@ Status find_sensor(const std::string& name_or_file, Sensor& out) {
     return {};
   } catch (const std::invalid_argument& error) {
     return Status(StatusCode::invalid_argument,
-                  printable(fmt::format("{}; or a .toml file of your own", error.what())));
+                  printable(fmt::format("{}; or pass the path of a .toml file", error.what())));
   }
 }
 

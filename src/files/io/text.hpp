@@ -13,18 +13,18 @@
 
 namespace flagstone::io {
 
-/// A file's bytes as text.
+/// The bytes of a file as text, without copying.
 inline std::string_view as_text(std::span<const std::byte> bytes) noexcept {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// The text from `offset` to the next newline or the end; `offset` moves behind it.
+/// The text from `offset` to the next newline or the end. Moves `offset` past the newline.
 std::string_view next_line(std::string_view text, std::size_t& offset) noexcept;
 
-/// The words of a line, at most `limit` of them; what separates them are spaces, tabs and returns.
+/// The words of a line, at most the first `limit`. Words are separated as is_blank() defines.
 std::vector<std::string_view> words_of(std::string_view line, std::size_t limit);
 
-/// A whole number of digits only, or nothing.
+/// The integer that `word` spells, or nothing if it contains anything else or is out of range.
 template <class T>
 std::optional<T> whole_number(std::string_view word) noexcept {
   T value = 0;
@@ -35,18 +35,18 @@ std::optional<T> whole_number(std::string_view word) noexcept {
   return value;
 }
 
-/// What separates words on a line.
+/// Whether `c` separates words on a line.
 constexpr bool is_blank(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/// The last part of `path`, which must outlive it.
+/// The last component of `path`. Valid as long as `path`.
 std::string_view file_name(const std::filesystem::path& path) noexcept;
 
-/// The last part of `path` in lower case.
+/// The last component of `path` in lower case.
 std::string lower_case_name(const std::filesystem::path& path);
 
-/// Whether `name` ends with `ending`, which is in lower case, in any case.
+/// Whether `name`, in upper or lower case, ends with `ending`, which must be in lower case.
 bool ends_with(std::string_view name, std::string_view ending) noexcept;
 
 }  // namespace flagstone::io

@@ -37,7 +37,7 @@ Status write_cloud(const std::filesystem::path& path, CloudFormat format, const 
 
 Status write_cloud(const std::filesystem::path& path, const Cloud& cloud) {
   const std::optional<CloudFormat> format = format_of(path);
-  if (!format) return refuse(path, "no format has this ending (allowed: .bin, .pcd, .ply, .npy)");
+  if (!format) return refuse(path, "unknown file extension (expected .bin, .pcd, .ply or .npy)");
   return write_cloud(path, *format, cloud);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// A reader allocates what the file's size justifies, never what its header says, and lives with
-// an allocation that fails.
+// Readers allocate in proportion to the size of the file, never as a header specifies, and report a
+// failed allocation as a status.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@
 namespace flagstone::io {
 namespace {
 
-// What a header's words and an error's text may take.
+// Bytes that parsing a header and formatting an error may allocate.
 constexpr std::size_t any_file = std::size_t{64} * 1024;
 
 template <class Read>
@@ -43,7 +43,7 @@ std::string pcd_header(const std::string& points, const std::string& data,
 
 const std::string endless = "18446744073709551615";
 
-TEST(Allocation, IsSmallForHeadersThatLie) {
+TEST(Allocation, IsSmallForHeadersWithWrongSizes) {
   const std::string zeros(1000, '0');
   const std::string ply_end =
       "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
@@ -67,14 +67,14 @@ TEST(Allocation, IsSmallForHeadersThatLie) {
   }
 }
 
-TEST(Allocation, IsTheFilesSizeForRawPoints) {
+TEST(Allocation, IsAtMostTheFileSizeForRawPoints) {
   const Bytes file(1600000);
   Cloud cloud;
   EXPECT_LT(allocated_by([&] { EXPECT_TRUE(read_raw_points(file, 4, cloud).ok()); }),
             file.size() + any_file);
 }
 
-TEST(Allocation, IsSmallForRawFilesNoLargerThanOneReadBefore) {
+TEST(Allocation, IsSmallForRawFilesNoLargerThanAPreviousOne) {
   const TemporaryFolder folder;
   put_file(folder / "a.bin", std::string(1600000, '\0'));
   put_file(folder / "b.bin", std::string(1599984, '\0'));
@@ -86,7 +86,7 @@ TEST(Allocation, IsSmallForRawFilesNoLargerThanOneReadBefore) {
   EXPECT_LT(allocated_by([&] { EXPECT_TRUE(reader.read(folder / "a.bin").ok()); }), any_file);
 }
 
-TEST(Allocation, IsSmallForLabelFilesNoLongerThanOneWrittenBefore) {
+TEST(Allocation, IsSmallForLabelFilesNoLongerThanAPreviousOne) {
   const TemporaryFolder folder;
   const std::vector<Label> labels(100000);
   LabelWriter writer;
@@ -100,30 +100,30 @@ TEST(Allocation, IsSmallForLabelFilesNoLongerThanOneWrittenBefore) {
             any_file);
 }
 
-TEST(Allocation, IsTheFilesSizeForBinaryPcd) {
+TEST(Allocation, IsAtMostTheFileSizeForBinaryPcd) {
   const Bytes file = joined({bytes_of(pcd_header("100000", "binary")), Bytes(1200000)});
   Cloud cloud;
   EXPECT_LT(allocated_by([&] { EXPECT_TRUE(read_pcd(file, cloud).ok()); }), file.size() + any_file);
 }
 
-TEST(Allocation, IsFiveTimesTheFilesSizeForCoordinatesOfAByte) {
+TEST(Allocation, IsAtMostFiveTimesTheFileSizeForOneByteCoordinates) {
   const Bytes file = joined({bytes_of(pcd_header("100000", "binary", "U", "1")), Bytes(300000)});
   Cloud cloud;
   EXPECT_LT(allocated_by([&] { EXPECT_TRUE(read_pcd(file, cloud).ok()); }),
             5 * file.size() + any_file);
 }
 
-TEST(Allocation, IsFourTimesTheTextForTheShortestNumbers) {
+TEST(Allocation, IsAtMostSixTimesTheTextForTheShortestNumbers) {
   std::string text = pcd_header("100000", "ascii", "F", "8");
   for (int i = 0; i < 100000; ++i) text += "1 1 1\n";
   const Bytes file = bytes_of(text);
   Cloud cloud;
-  // The rows are four times the text, the converted coordinates twice.
+  // The rows take four times the size of the text, the converted coordinates twice.
   EXPECT_LT(allocated_by([&] { EXPECT_TRUE(read_pcd(file, cloud).ok()); }),
             6 * file.size() + any_file);
 }
 
-TEST(Allocation, IsWhatTheStreamExpandsToForCompressedPcd) {
+TEST(Allocation, IsAtMostTwiceTheExpandedSizeForCompressedPcd) {
   const Bytes columns(1200000);
   const Bytes stream = compress_lzf(columns);
   const Bytes file = joined(
@@ -135,7 +135,7 @@ TEST(Allocation, IsWhatTheStreamExpandsToForCompressedPcd) {
   EXPECT_GT(88 * file.size(), columns.size());
 }
 
-TEST(Allocation, IsFourTimesTheFilesSizeForLabels) {
+TEST(Allocation, IsAtMostFourTimesTheFileSizeForLabels) {
   const Bytes file(100000);
   std::vector<std::uint32_t> classes;
   EXPECT_LT(allocated_by([&] {
@@ -144,7 +144,7 @@ TEST(Allocation, IsFourTimesTheFilesSizeForLabels) {
             4 * file.size() + any_file);
 }
 
-TEST(Allocation, ThatFailsAnywhereIsAStatus) {
+TEST(Allocation, ReturnsOutOfMemoryIfAnyAllocationFails) {
   const Bytes file = joined({bytes_of(pcd_header("100", "binary", "F", "8")), Bytes(2400)});
   Cloud cloud;
   const std::size_t needed = allocated_by([&] { ASSERT_TRUE(read_pcd(file, cloud).ok()); });

@@ -22,7 +22,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-TEST(WriteFile, MakesANewFile) {
+TEST(WriteFile, CreatesANewFile) {
   const TemporaryFolder folder;
 
   EXPECT_THAT(write_file(folder / "a", "hello"), is_ok());
@@ -31,7 +31,7 @@ TEST(WriteFile, MakesANewFile) {
   EXPECT_EQ(folder.entries(), 1);
 }
 
-TEST(WriteFile, ReplacesAnOldOne) {
+TEST(WriteFile, ReplacesAnOldFile) {
   const TemporaryFolder folder;
   put_file(folder / "a", "old and longer");
 
@@ -41,13 +41,13 @@ TEST(WriteFile, ReplacesAnOldOne) {
   EXPECT_EQ(folder.entries(), 1);
 }
 
-TEST(WriteFile, WritesNothingToo) {
+TEST(WriteFile, WritesAnEmptyFile) {
   const TemporaryFolder folder;
   EXPECT_THAT(write_file(folder / "a", ""), is_ok());
   EXPECT_TRUE(fs::exists(folder / "a"));
 }
 
-TEST(WriteFile, LeavesNothingBehindWhenTheDiskRefuses) {
+TEST(WriteFile, LeavesNothingBehindIfTheDiskIsFull) {
   const TemporaryFolder folder;
   const FileSizeLimit limit(1000);
 
@@ -59,7 +59,7 @@ TEST(WriteFile, LeavesNothingBehindWhenTheDiskRefuses) {
   EXPECT_EQ(folder.entries(), 0);
 }
 
-TEST(WriteFile, KeepsTheOldFileWhenTheDiskRefuses) {
+TEST(WriteFile, KeepsTheOldFileIfTheDiskIsFull) {
   const TemporaryFolder folder;
   put_file(folder / "a", "old");
   const FileSizeLimit limit(1000);
@@ -71,14 +71,14 @@ TEST(WriteFile, KeepsTheOldFileWhenTheDiskRefuses) {
   EXPECT_EQ(folder.entries(), 1);
 }
 
-TEST(WriteFile, NeedsItsFolder) {
+TEST(WriteFile, RequiresAnExistingDirectory) {
   const TemporaryFolder folder;
   EXPECT_THAT(write_file(folder / "none" / "a", "x"),
               fails(StatusCode::unwritable, HasSubstr("No such file or directory")));
   EXPECT_EQ(folder.entries(), 0);
 }
 
-TEST(WriteFile, NeedsAFolderThatMayBeWrittenTo) {
+TEST(WriteFile, RequiresAWritableDirectory) {
   const TemporaryFolder folder;
   using enum fs::perms;
   fs::permissions(folder.path(), owner_read | owner_exec | others_read | others_exec);
@@ -88,10 +88,10 @@ TEST(WriteFile, NeedsAFolderThatMayBeWrittenTo) {
               fails(StatusCode::unwritable, HasSubstr("Permission denied")));
 }
 
-TEST(WriteFile, DoesNotReplaceAFolder) {
+TEST(WriteFile, DoesNotReplaceADirectory) {
   const TemporaryFolder folder;
   EXPECT_THAT(write_file(folder.path(), "x"),
-              fails(StatusCode::unwritable, HasSubstr("is a folder")));
+              fails(StatusCode::unwritable, HasSubstr("is a directory")));
   EXPECT_EQ(folder.entries(), 0);
 }
 
@@ -119,15 +119,15 @@ TEST(WriteFile, FollowsASymbolicLink) {
   EXPECT_EQ(contents_of(folder / "target"), "new");
 }
 
-TEST(WriteFile, RefusesALinkThatLeadsNowhere) {
+TEST(WriteFile, RejectsABrokenLink) {
   const TemporaryFolder folder;
   fs::create_symlink("nowhere", folder / "link");
   EXPECT_THAT(write_file(folder / "link", "x"),
-              fails(StatusCode::unwritable, HasSubstr("leads nowhere")));
+              fails(StatusCode::unwritable, HasSubstr("broken symbolic link")));
   EXPECT_EQ(folder.entries(), 1);
 }
 
-TEST(WriteFile, PassesOverATemporaryThatIsThere) {
+TEST(WriteFile, SkipsExistingTemporaryFiles) {
   const TemporaryFolder folder;
   for (int i = 0; i < 100; ++i) {
     put_file(

@@ -18,7 +18,7 @@ inline const std::vector all_field_types{
     FieldType::int8,   FieldType::uint8, FieldType::int16,  FieldType::uint16,  FieldType::int32,
     FieldType::uint32, FieldType::int64, FieldType::uint64, FieldType::float32, FieldType::float64};
 
-/// Fields of any types, counts and order: x, y and z among up to six more, some of them padding.
+/// Fields of random types, counts and order: x, y and z and up to six more, some of them padding.
 inline rc::Gen<std::vector<Field>> arbitrary_fields() {
   return rc::gen::exec([] {
     std::vector<Field> fields{{"x"}, {"y"}, {"z"}};
@@ -36,8 +36,7 @@ inline rc::Gen<std::vector<Field>> arbitrary_fields() {
   });
 }
 
-/// Up to forty points of such fields, of any bytes: NaN, infinities and the largest integers among
-/// them.
+/// Up to 40 points with such fields and random bytes, including NaN and infinity.
 inline rc::Gen<Cloud> arbitrary_cloud() {
   return rc::gen::exec([] {
     const auto fields = *arbitrary_fields();
@@ -57,7 +56,7 @@ inline rc::Gen<Cloud> arbitrary_cloud() {
 
 namespace rc {
 
-/// What a failing property prints.
+/// How rapidcheck prints a cloud of a failed property.
 inline void showValue(const flagstone::io::Cloud& cloud, std::ostream& out) {
   out << cloud.size() << " points of";
   for (const auto& field : cloud.fields()) {

@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// So many points, number i at (i, 2i, 3i) of intensity `tag`.
+/// `points` points, point i at (i, 2i, 3i) with intensity `tag`.
 Cloud cloud_of(std::size_t points, float tag) {
   std::vector<float> floats;
   for (std::size_t i = 0; i < points; ++i) {
@@ -35,9 +35,9 @@ bool same(const Cloud& a, const Cloud& b) {
   return std::ranges::equal(a.fields(), b.fields()) && std::ranges::equal(a.bytes(), b.bytes());
 }
 
-class ReadingClouds : public ::testing::Test {
+class CloudReaderTest : public ::testing::Test {
  protected:
-  /// Writes a cloud; the name says the format.
+  /// Writes a cloud in the format of its file extension.
   [[nodiscard]] std::filesystem::path put(const std::string& name, const Cloud& cloud) const {
     EXPECT_THAT(write_cloud(folder_ / name, cloud), is_ok());
     return folder_ / name;
@@ -47,8 +47,8 @@ class ReadingClouds : public ::testing::Test {
   CloudReader reader_;
 };
 
-TEST_F(ReadingClouds, OneAfterAnotherGivesEachAsItIsAlone) {
-  // Larger, smaller, of other formats in between: nothing of an earlier file may be left.
+TEST_F(CloudReaderTest, ReadsEachOfSeveralFilesAsIfAlone) {
+  // Different sizes and formats: nothing of an earlier file may remain.
   const std::vector<std::string> names{"a.bin", "b.bin", "c.pcd", "d.bin", "e.npy",
                                        "f.ply", "g.pcd", "h.bin", "i.bin"};
   const std::vector<std::size_t> sizes{100, 30, 70, 200, 5, 120, 0, 0, 90};
@@ -63,7 +63,7 @@ TEST_F(ReadingClouds, OneAfterAnotherGivesEachAsItIsAlone) {
   }
 }
 
-TEST_F(ReadingClouds, ReadsRawPointsToWhereTheOnesBeforeWere) {
+TEST_F(CloudReaderTest, ReusesTheMemoryOfRawPoints) {
   const auto large = put("large.bin", cloud_of(1000, 1));
   const auto small = put("small.bin", cloud_of(900, 2));
   ASSERT_THAT(reader_.read(large), is_ok());
@@ -75,7 +75,7 @@ TEST_F(ReadingClouds, ReadsRawPointsToWhereTheOnesBeforeWere) {
   EXPECT_EQ(reader_.cloud().bytes().data(), place);
 }
 
-TEST_F(ReadingClouds, LeavesNoPointsAfterAFailureAndGoesOn) {
+TEST_F(CloudReaderTest, HasNoPointsAfterAFailureAndReadsTheNextFile) {
   const auto good = put("good.bin", cloud_of(50, 1));
   put_file(folder_ / "cut.bin", std::string(45, 'x'));
   put_file(folder_ / "cut.pcd", "FIELDS x y z\n");
@@ -93,7 +93,7 @@ TEST_F(ReadingClouds, LeavesNoPointsAfterAFailureAndGoesOn) {
   EXPECT_TRUE(same(reader_.cloud(), cloud_of(50, 1)));
 }
 
-TEST_F(ReadingClouds, FailsWithTheMessagesOfReadCloud) {
+TEST_F(CloudReaderTest, FailsWithTheMessagesOfReadCloud) {
   put_file(folder_ / "cut.bin", std::string(45, 'x'));
   for (const std::string name : {"cut.bin", "none.bin", "scan.txt"}) {
     Cloud cloud;
@@ -107,7 +107,7 @@ TEST_F(ReadingClouds, FailsWithTheMessagesOfReadCloud) {
   }
 }
 
-TEST_F(ReadingClouds, GivesTheCloudAway) {
+TEST_F(CloudReaderTest, ReleasesTheCloud) {
   const auto path = put("a.bin", cloud_of(10, 1));
   ASSERT_THAT(reader_.read(path), is_ok());
 

@@ -30,7 +30,7 @@ Cloud two_points() {
   return cloud;
 }
 
-TEST(Cloud, GivesItsRowsMemoryAwayAndIsEmptyThen) {
+TEST(Cloud, ReleasesItsRowsAndIsThenEmpty) {
   Cloud cloud;
   ASSERT_THAT(Cloud::from_rows({{"x"}, {"y"}, {"z"}}, Bytes(36), cloud), is_ok());
   const std::byte* const place = cloud.bytes().data();
@@ -58,7 +58,7 @@ TEST(Cloud, PacksFieldsInTheirOrder) {
   EXPECT_EQ(cloud.find("w"), nullptr);
 }
 
-TEST(Cloud, ViewOfFloatCoordinatesIsTheRowsThemselves) {
+TEST(Cloud, ViewOfFloatCoordinatesRefersToTheRows) {
   const Cloud cloud = two_points();
 
   EXPECT_EQ(cloud.view().data(), cloud.bytes().data());
@@ -105,43 +105,43 @@ TEST(Cloud, ValueReadsAnyElementOfAnyType) {
   EXPECT_EQ(cloud.value(0, *cloud.find("t")), 7.0);
 }
 
-TEST(Cloud, RefusesFieldsWithoutX) {
+TEST(Cloud, RejectsFieldsWithoutX) {
   Cloud cloud;
   EXPECT_THAT(Cloud::from_rows({{"X"}, {"y"}, {"z"}}, {}, cloud),
               fails(StatusCode::invalid_argument, HasSubstr("no field 'x'")));
 }
 
-TEST(Cloud, RefusesANameTwice) {
+TEST(Cloud, RejectsDuplicateNames) {
   Cloud cloud;
   EXPECT_THAT(Cloud::from_rows({{"x"}, {"y"}, {"z"}, {"y"}}, {}, cloud),
               fails(StatusCode::invalid_argument, HasSubstr("'y' occurs twice")));
 }
 
-TEST(Cloud, LetsPaddingRepeat) {
+TEST(Cloud, AllowsRepeatedPadding) {
   Cloud cloud;
   EXPECT_THAT(Cloud::from_rows({{"x"}, {"_"}, {"y"}, {"_"}, {"z"}}, Bytes(20), cloud), is_ok());
 }
 
-TEST(Cloud, RefusesCoordinatesOfSeveralNumbers) {
+TEST(Cloud, RejectsCoordinatesOfSeveralNumbers) {
   Cloud cloud;
   EXPECT_THAT(Cloud::from_rows({{"x", float32, 2}, {"y"}, {"z"}}, {}, cloud),
               fails(StatusCode::invalid_argument, HasSubstr("'x' has count 2")));
 }
 
-TEST(Cloud, RefusesARowThatOverflows) {
+TEST(Cloud, RejectsRowsThatAreTooLong) {
   Cloud cloud;
   const std::size_t huge = std::numeric_limits<std::size_t>::max() / 4 + 2;
   EXPECT_THAT(Cloud::from_rows({{"x"}, {"y"}, {"z"}, {"n", float32, huge}}, {}, cloud),
               fails(StatusCode::invalid_argument, HasSubstr("rows of at most 65536 bytes")));
 }
 
-TEST(Cloud, RefusesFieldsOfNoNumbers) {
+TEST(Cloud, RejectsFieldsWithCountZero) {
   Cloud cloud;
   EXPECT_THAT(Cloud::from_rows({{"x"}, {"y"}, {"z"}, {"n", float32, 0}}, {}, cloud),
               fails(StatusCode::invalid_argument, HasSubstr("has count 0")));
 }
 
-TEST(Cloud, RefusesNamesThatAFormatCouldNotHold) {
+TEST(Cloud, RejectsNamesThatAFormatCannotStore) {
   for (const char* name : {"", "a b", "a'", "a\\", "\n", "\xc3\xa9"}) {
     Cloud cloud;
     EXPECT_THAT(Cloud::from_rows({{"x"}, {"y"}, {"z"}, {name}}, {}, cloud),
@@ -149,17 +149,17 @@ TEST(Cloud, RefusesNamesThatAFormatCouldNotHold) {
   }
 }
 
-TEST(Cloud, RefusesPartOfARow) {
+TEST(Cloud, RejectsAnIncompleteRow) {
   Cloud cloud;
   EXPECT_THAT(Cloud::from_rows(xyz, Bytes(13), cloud),
               fails(StatusCode::invalid_argument, HasSubstr("13 bytes")));
 }
 
-TEST(Cloud, FromFloatsRefusesFewerThanThreeAPoint) {
+TEST(Cloud, FromFloatsRejectsFewerThanThreePerPoint) {
   Cloud cloud;
   const std::vector<float> values(4);
   EXPECT_THAT(Cloud::from_floats(values, 2, cloud),
-              fails(StatusCode::invalid_argument, HasSubstr("2 floats a point")));
+              fails(StatusCode::invalid_argument, HasSubstr("2 floats per point")));
 }
 
 TEST(UnnamedFields, AreNamedByColumn) {
@@ -185,7 +185,7 @@ TEST(WithLabels, AddsOneFieldAndKeepsTheRest) {
   EXPECT_EQ(labelled.value(1, *labelled.find("intensity")), 0.25);
 }
 
-TEST(WithLabels, ReplacesALabelThatIsThere) {
+TEST(WithLabels, ReplacesExistingLabels) {
   Cloud cloud;
   const std::vector<Field> fields{{"x"}, {"label", uint32}, {"y"}, {"z"}};
   ASSERT_THAT(Cloud::from_rows(fields, numbers({1.0F, 9.0F, 2.0F, 3.0F}), cloud), is_ok());
@@ -199,14 +199,14 @@ TEST(WithLabels, ReplacesALabelThatIsThere) {
   EXPECT_EQ(cloud.view()[0].y, 2.0F);
 }
 
-TEST(WithLabels, RefusesAnotherNumberOfLabels) {
+TEST(WithLabels, RejectsAnotherNumberOfLabels) {
   const Cloud cloud = two_points();
   Cloud out;
   EXPECT_THAT(with_labels(cloud, std::vector{Label::ground}, out),
               fails(StatusCode::invalid_argument, HasSubstr("1 labels for 2 points")));
 }
 
-TEST(WithHeights, AddsAFloatFieldBehindTheOthers) {
+TEST(WithHeights, AppendsAFloatField) {
   const Cloud cloud = two_points();
   const float nan = std::numeric_limits<float>::quiet_NaN();
   Cloud with;
@@ -236,14 +236,14 @@ TEST(WithHeights, ReplacesHeightsOfAnyType) {
   EXPECT_EQ(cloud.view()[0].z, 3.0F);
 }
 
-TEST(WithHeights, RefusesAnotherNumberOfHeights) {
+TEST(WithHeights, RejectsAnotherNumberOfHeights) {
   const Cloud cloud = two_points();
   Cloud out;
   EXPECT_THAT(with_heights(cloud, std::vector{1.0F}, out),
               fails(StatusCode::invalid_argument, HasSubstr("1 heights for 2 points")));
 }
 
-TEST(Select, TakesPointsInTheGivenOrder) {
+TEST(Select, KeepsTheGivenOrder) {
   const Cloud cloud = two_points();
   Cloud out;
 
@@ -255,14 +255,14 @@ TEST(Select, TakesPointsInTheGivenOrder) {
   EXPECT_EQ(out.value(2, *out.find("intensity")), 0.25);
 }
 
-TEST(Select, RefusesAnIndexBeyondTheCloud) {
+TEST(Select, RejectsAnIndexOutOfRange) {
   const Cloud cloud = two_points();
   Cloud out;
   EXPECT_THAT(select(cloud, std::vector<std::size_t>{2}, out),
-              fails(StatusCode::invalid_argument, HasSubstr("point 2 of a cloud of 2")));
+              fails(StatusCode::invalid_argument, HasSubstr("index 2 is out of range")));
 }
 
-TEST(Select, WhereAMaskIsSet) {
+TEST(Select, SelectsPointsByMask) {
   const Cloud cloud = two_points();
   Cloud out;
 
@@ -272,14 +272,14 @@ TEST(Select, WhereAMaskIsSet) {
   EXPECT_EQ(out.view()[0].x, 4.0F);
 }
 
-TEST(Select, RefusesAMaskOfAnotherSize) {
+TEST(Select, RejectsAMaskOfAnotherSize) {
   const Cloud cloud = two_points();
   Cloud out;
   EXPECT_THAT(select_where(cloud, std::vector<std::uint8_t>{1}, out),
-              fails(StatusCode::invalid_argument, HasSubstr("a mask of 1 for 2 points")));
+              fails(StatusCode::invalid_argument, HasSubstr("a mask of size 1 for 2 points")));
 }
 
-RC_GTEST_PROP(Select, AMaskAndItsOppositeShareOutEveryPoint, ()) {
+RC_GTEST_PROP(Select, MaskAndItsOppositeSelectEachPointOnce, ()) {
   const Cloud cloud = *arbitrary_cloud();
   const auto mask = *rc::gen::container<std::vector<std::uint8_t>>(
       cloud.size(), rc::gen::inRange<std::uint8_t>(0, 2));

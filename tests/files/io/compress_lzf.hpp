@@ -9,8 +9,8 @@
 
 namespace flagstone::io {
 
-/// A LZF stream that expands to `bytes`: the plainest compressor, which looks for the longest match
-/// everywhere it may refer to. The product only expands, so this one serves tests and fuzzers.
+/// An LZF stream that expands to `bytes`. A simple compressor for tests and fuzzers, which searches
+/// the whole window for the longest match. The library itself only expands.
 inline std::vector<std::byte> compress_lzf(std::span<const std::byte> bytes) {
   constexpr std::size_t longest_literal = 32;
   constexpr std::size_t longest_match = 264;

@@ -10,7 +10,7 @@
 
 namespace flagstone::io {
 
-/// Files as a test makes and looks at them, without the code under test.
+/// Writes a file without the code under test.
 inline void put_file(const std::filesystem::path& path, std::string_view contents) {
   std::ofstream(path, std::ios::binary) << contents;
 }

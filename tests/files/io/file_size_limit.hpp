@@ -6,9 +6,9 @@
 
 namespace flagstone::io {
 
-/// Lets the system refuse to write more than so many bytes to any file, as a full disk does, and
-/// end the process with SIGXFSZ if it is not told otherwise.
-/// Programs that are started meanwhile are limited too.
+/// RAII guard that limits the size of every file to `bytes`, to simulate a full disk. A write
+/// beyond the limit fails, and raises SIGXFSZ unless it is blocked. Child processes inherit the
+/// limit.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

@@ -15,13 +15,13 @@
 
 namespace flagstone::io {
 
-/// A NumPy array of float32, by rows.
+/// A NumPy array of float32 in C order.
 struct FloatArray {
   std::vector<std::size_t> shape;
   std::vector<float> values;
 };
 
-/// The array of a file; without a shape, and a failed test, where it is none.
+/// Reads the array of a file. If the file is not an array, the test fails and the shape is empty.
 inline FloatArray float_array_of(const std::filesystem::path& path) {
   const std::string file = contents_of(path);
   NpyHeader header;

@@ -27,7 +27,7 @@ Status write_heights(const std::filesystem::path& path, const std::vector<float>
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-TEST(HeightFile, GivesBackWhatWasWritten) {
+TEST(HeightFile, ReadsBackTheWrittenHeights) {
   const TemporaryFolder folder;
   const std::vector<float> heights{0.25F, -1.5F, unknown};
 
@@ -41,7 +41,7 @@ TEST(HeightFile, GivesBackWhatWasWritten) {
   EXPECT_TRUE(std::isnan(read[2]));
 }
 
-TEST(HeightFile, OfNoPointsIsReadToo) {
+TEST(HeightFile, ReadsNoPoints) {
   const TemporaryFolder folder;
   ASSERT_THAT(write_heights(folder / "a.npy", {}), is_ok());
 
@@ -50,7 +50,7 @@ TEST(HeightFile, OfNoPointsIsReadToo) {
   EXPECT_TRUE(read.empty());
 }
 
-TEST(HeightFile, HasTheSizeThatIsForetold) {
+TEST(HeightFile, HasThePredictedSize) {
   const TemporaryFolder folder;
   for (const std::size_t points : {0U, 1U, 123'456U}) {
     ASSERT_THAT(write_heights(folder / "a.npy", std::vector<float>(points)), is_ok());
@@ -58,7 +58,7 @@ TEST(HeightFile, HasTheSizeThatIsForetold) {
   }
 }
 
-TEST(HeightFile, OfAnotherScanIsRefusedWithBothSizes) {
+TEST(HeightFile, RejectsAnotherNumberOfPointsAndReportsBothNumbers) {
   const TemporaryFolder folder;
   ASSERT_THAT(write_heights(folder / "a.npy", std::vector<float>(3)), is_ok());
 
@@ -69,7 +69,7 @@ TEST(HeightFile, OfAnotherScanIsRefusedWithBothSizes) {
   EXPECT_THAT(read, ElementsAre(1));
 }
 
-TEST(HeightFile, CutShortIsRefused) {
+TEST(HeightFile, RejectsATruncatedFile) {
   const TemporaryFolder folder;
   ASSERT_THAT(write_heights(folder / "a.npy", std::vector<float>(3)), is_ok());
   std::filesystem::resize_file(folder / "a.npy", height_file_size(3) - 1);
@@ -79,7 +79,7 @@ TEST(HeightFile, CutShortIsRefused) {
               fails(StatusCode::bad_file, HasSubstr("11 bytes follow")));
 }
 
-TEST(HeightFile, OfOtherNumbersOrShapesIsRefused) {
+TEST(HeightFile, RejectsOtherTypesAndShapes) {
   const TemporaryFolder folder;
   const auto complaint = [&](const std::string& dictionary) {
     const std::string padded = dictionary + std::string(117 - dictionary.size(), ' ') + '\n';
@@ -97,7 +97,7 @@ TEST(HeightFile, OfOtherNumbersOrShapesIsRefused) {
   EXPECT_EQ(complaint("{'descr': '<f4', 'fortran_order': False, 'shape': (0,), }"), "");
 }
 
-TEST(HeightFile, ThatIsNotThereIsNamed) {
+TEST(HeightFile, ReportsTheNameOfAMissingFile) {
   std::vector<float> read;
   EXPECT_THAT(read_height_file("nowhere/a.npy", 1, read),
               fails(StatusCode::not_found, HasSubstr("nowhere/a.npy")));

@@ -25,7 +25,7 @@ using ::testing::StartsWith;
 const std::vector all_labels{Label::nonground, Label::ground, Label::noise, Label::out_of_range,
                              Label::invalid};
 
-TEST(LabelFile, HoldsOneCodeAPoint) {
+TEST(LabelFile, ContainsOneCodePerPoint) {
   const TemporaryFolder folder;
 
   ASSERT_THAT(write_label_file(folder / "a.label", all_labels, LabelMap::flagstone), is_ok());
@@ -34,7 +34,7 @@ TEST(LabelFile, HoldsOneCodeAPoint) {
   EXPECT_EQ(contents_of(folder / "a.label"), as_text(expected));
 }
 
-TEST(LabelFile, HoldsRoadForGroundInSemanticKittisTerms) {
+TEST(LabelFile, UsesRoadForGroundWithSemanticKittiCodes) {
   const TemporaryFolder folder;
 
   ASSERT_THAT(write_label_file(folder / "a.label", all_labels, LabelMap::semantic_kitti), is_ok());
@@ -43,7 +43,7 @@ TEST(LabelFile, HoldsRoadForGroundInSemanticKittisTerms) {
   EXPECT_EQ(contents_of(folder / "a.label"), as_text(expected));
 }
 
-TEST(LabelFile, HoldsTheSameNumbersAsANumPyArray) {
+TEST(LabelFile, ContainsTheSameCodesAsANumPyArray) {
   const TemporaryFolder folder;
 
   ASSERT_THAT(LabelWriter(LabelMap::flagstone).write_label_npy(folder / "a.npy", all_labels),
@@ -59,7 +59,7 @@ TEST(LabelFile, HoldsTheSameNumbersAsANumPyArray) {
   EXPECT_THAT(contents_of(folder / "b.npy"), ::testing::EndsWith(std::string("\0\x28\0\0\0", 5)));
 }
 
-TEST(LabelFile, HoldsNothingOfTheScanBefore) {
+TEST(LabelFile, ContainsNothingOfThePreviousScan) {
   const TemporaryFolder folder;
   LabelWriter writer;
   const std::vector<Label> more(1000, Label::ground);
@@ -76,7 +76,7 @@ TEST(LabelFile, HoldsNothingOfTheScanBefore) {
   }
 }
 
-TEST(LabelFile, IsNotThereWhereItCannotBeWritten) {
+TEST(LabelFile, ReportsThePathThatCannotBeWritten) {
   const TemporaryFolder folder;
   EXPECT_THAT(write_label_file(folder / "none" / "a.label", all_labels, LabelMap::flagstone),
               fails(StatusCode::unwritable, HasSubstr("none/a.label: ")));
@@ -97,7 +97,7 @@ RC_GTEST_PROP(LabelFile, ReadsBackInBothFormats, ()) {
   RC_ASSERT(from_npy == labels);
 }
 
-TEST(LabelFile, OfOtherCodesIsNoLabelFileOfOurs) {
+TEST(LabelFile, RejectsAnUnknownCode) {
   const TemporaryFolder folder;
   ASSERT_THAT(write_class_file(folder / "a.label", std::vector<std::uint32_t>{0, 5}), is_ok());
   std::vector<Label> labels;
@@ -105,7 +105,7 @@ TEST(LabelFile, OfOtherCodesIsNoLabelFileOfOurs) {
               fails(StatusCode::bad_file, HasSubstr("a.label: the label of point 1 is 5")));
 }
 
-TEST(Reference, TakesTheClassFromTheLowSixteenBits) {
+TEST(Reference, ReadsTheClassFromTheLowSixteenBits) {
   std::vector<std::uint32_t> classes;
   ASSERT_THAT(parse_reference(numbers<std::uint32_t>({0x00070028, 0xffff0000}), ClassFormat::label,
                               2, classes),
@@ -113,7 +113,7 @@ TEST(Reference, TakesTheClassFromTheLowSixteenBits) {
   EXPECT_THAT(classes, ElementsAre(40, 0));
 }
 
-TEST(Reference, TakesAByteAPointFromLidarseg) {
+TEST(Reference, ReadsOneBytePerPointFromLidarseg) {
   std::vector<std::uint32_t> classes;
   ASSERT_THAT(parse_reference(numbers<std::uint8_t>({24, 255}), ClassFormat::lidarseg, 2, classes),
               is_ok());
@@ -136,53 +136,54 @@ TEST(Reference, ReadsIntegerArrays) {
   EXPECT_THAT(classes, ElementsAre(258));
 }
 
-TEST(Reference, RefusesArraysThatAreNoLabels) {
+TEST(Reference, RejectsArraysThatAreNotLabels) {
   std::vector<std::uint32_t> classes;
   const auto parse = [&](const Bytes& file) {
     return parse_reference(file, ClassFormat::npy, 2, classes);
   };
   EXPECT_THAT(parse(npy_file("<f4", "(2,)", Bytes(8))),
-              is_bad_at(20, "labels are float32 (integers are needed)"));
+              is_bad_at(20, "labels are float32 (expected integers)"));
   EXPECT_THAT(parse(npy_file("<i4", "(1, 2)", Bytes(8))),
-              fails(StatusCode::bad_file, HasSubstr("is not N or N x 1")));
+              fails(StatusCode::bad_file, HasSubstr("expected N or N x 1")));
   EXPECT_THAT(parse(npy_file("<i4", "()", Bytes(8))),
-              fails(StatusCode::bad_file, HasSubstr("is not N or N x 1")));
+              fails(StatusCode::bad_file, HasSubstr("expected N or N x 1")));
   EXPECT_THAT(parse(npy_file("<i4", "(18446744073709551615,)", Bytes(8))),
               fails(StatusCode::bad_file, HasSubstr("8 bytes follow")));
   EXPECT_THAT(parse(npy_file("<i4", "(2,)", Bytes(7))),
               fails(StatusCode::bad_file, HasSubstr("7 bytes follow")));
 }
 
-TEST(Reference, RefusesClassesThatAreNone) {
+TEST(Reference, RejectsInvalidClasses) {
   std::vector<std::uint32_t> classes;
   const Bytes negative = npy_file("<i4", "(2,)", numbers<std::int32_t>({1, -1}));
   EXPECT_THAT(parse_reference(negative, ClassFormat::npy, 2, classes),
-              is_bad_at(negative.size() - 4, "label 1 is not within 0 to"));
+              is_bad_at(negative.size() - 4, "label of point 1 is out of range (expected 0 to"));
   const Bytes large = npy_file("<u8", "(1,)", numbers<std::uint64_t>({1ULL << 32U}));
   EXPECT_THAT(parse_reference(large, ClassFormat::npy, 1, classes),
-              is_bad_at(large.size() - 8, "label 0 is not within"));
+              is_bad_at(large.size() - 8, "label of point 0 is out of range"));
   EXPECT_TRUE(classes.empty());
 }
 
-TEST(Reference, OfAnotherSizeNamesBothNumbers) {
+TEST(Reference, ReportsBothNumbersIfTheyDiffer) {
   std::vector<std::uint32_t> classes;
   EXPECT_THAT(parse_reference(Bytes(8), ClassFormat::label, 3, classes),
-              is_bad_at(8, "holds 2 labels, the scan has 3 points"));
+              is_bad_at(8, "contains 2 labels, but the scan has 3 points"));
   EXPECT_THAT(parse_reference(Bytes(8), ClassFormat::label, 1, classes),
-              is_bad_at(4, "holds 2 labels, the scan has 1 points"));
+              is_bad_at(4, "contains 2 labels, but the scan has 1 points"));
   EXPECT_THAT(parse_reference(Bytes(8), ClassFormat::lidarseg, 2, classes),
-              is_bad_at(2, "holds 8 labels, the scan has 2 points"));
-  EXPECT_THAT(parse_reference(npy_file("<i2", "(4,)", Bytes(8)), ClassFormat::npy, 3, classes),
-              fails(StatusCode::bad_file, HasSubstr("holds 4 labels, the scan has 3 points")));
+              is_bad_at(2, "contains 8 labels, but the scan has 2 points"));
+  EXPECT_THAT(
+      parse_reference(npy_file("<i2", "(4,)", Bytes(8)), ClassFormat::npy, 3, classes),
+      fails(StatusCode::bad_file, HasSubstr("contains 4 labels, but the scan has 3 points")));
 }
 
-TEST(Reference, OfPartOfALabelNamesTheSizes) {
+TEST(Reference, ReportsTheSizeOfAnIncompleteLabel) {
   std::vector<std::uint32_t> classes;
   EXPECT_THAT(parse_reference(Bytes(7), ClassFormat::label, 2, classes),
               is_bad_at(4, "7 bytes are not a whole number of labels"));
 }
 
-TEST(Reference, IsReadByName) {
+TEST(Reference, IsReadByExtension) {
   const TemporaryFolder folder;
   put_file(folder / "a.label", std::string(8, '\1'));
   put_file(folder / "a_lidarseg.bin", std::string(8, '\1'));
@@ -191,7 +192,7 @@ TEST(Reference, IsReadByName) {
   EXPECT_THAT(read_reference(folder / "a.label", 2, classes), is_ok());
   EXPECT_THAT(read_reference(folder / "a_lidarseg.bin", 8, classes), is_ok());
   EXPECT_THAT(read_reference(folder / "a.txt", 8, classes),
-              fails(StatusCode::invalid_argument, HasSubstr("allowed: .label, .bin, .npy")));
+              fails(StatusCode::invalid_argument, HasSubstr("expected .label, .bin or .npy")));
   EXPECT_THAT(read_reference(folder / "b.label", 8, classes),
               fails(StatusCode::not_found, HasSubstr("b.label: ")));
   const auto path = folder / "a.label";

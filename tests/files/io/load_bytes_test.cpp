@@ -21,7 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-TEST(LoadBytes, ReadsAFileWhole) {
+TEST(LoadBytes, ReadsAWholeFile) {
   const TemporaryFolder folder;
   const std::string contents = "a\n" + std::string(100000, '\0') + "b";
   put_file(folder / "a", contents);
@@ -40,7 +40,7 @@ TEST(LoadBytes, ReadsAnEmptyFile) {
   EXPECT_TRUE(bytes.empty());
 }
 
-TEST(LoadBytes, SaysThatAFileIsMissing) {
+TEST(LoadBytes, ReportsAMissingFile) {
   const TemporaryFolder folder;
   Bytes bytes;
   const auto path = folder / "none";
@@ -49,20 +49,20 @@ TEST(LoadBytes, SaysThatAFileIsMissing) {
                     AllOf(StartsWith(path.string() + ": "), HasSubstr("No such file"))));
 }
 
-TEST(LoadBytes, KeepsAMessageOnOneLineWhateverThePath) {
+TEST(LoadBytes, ReportsOneLineForAnyPath) {
   Bytes bytes;
   EXPECT_THAT(load_bytes("no\nsuch\nfile", bytes),
               fails(StatusCode::not_found, StartsWith(R"(no\x0asuch\x0afile: )")));
 }
 
-TEST(LoadBytes, RefusesAFolder) {
+TEST(LoadBytes, RejectsADirectory) {
   const TemporaryFolder folder;
   Bytes bytes;
   EXPECT_THAT(load_bytes(folder.path(), bytes),
-              fails(StatusCode::unreadable, HasSubstr("is a folder")));
+              fails(StatusCode::unreadable, HasSubstr("is a directory")));
 }
 
-TEST(LoadBytes, RefusesAPipeWithoutWaitingForIt) {
+TEST(LoadBytes, RejectsAPipeWithoutWaiting) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
   Bytes bytes;
@@ -70,13 +70,13 @@ TEST(LoadBytes, RefusesAPipeWithoutWaitingForIt) {
               fails(StatusCode::unreadable, HasSubstr("is a pipe")));
 }
 
-TEST(LoadBytes, RefusesADevice) {
+TEST(LoadBytes, RejectsADevice) {
   Bytes bytes;
   EXPECT_THAT(load_bytes("/dev/zero", bytes),
               fails(StatusCode::unreadable, HasSubstr("is a device")));
 }
 
-TEST(LoadBytes, RefusesWhatItMayNotRead) {
+TEST(LoadBytes, ReportsMissingPermission) {
   const TemporaryFolder folder;
   put_file(folder / "a", "x");
   std::filesystem::permissions(folder / "a", std::filesystem::perms::none);
@@ -86,16 +86,16 @@ TEST(LoadBytes, RefusesWhatItMayNotRead) {
               fails(StatusCode::unreadable, HasSubstr("Permission denied")));
 }
 
-TEST(LoadBytes, RefusesAFileBeyondTheLimitBeforeAllocating) {
+TEST(LoadBytes, RejectsAFileAboveTheLimitBeforeAllocating) {
   const TemporaryFolder folder;
   put_file(folder / "a", "");
-  std::filesystem::resize_file(folder / "a", max_file_size + 1);  // a hole, it takes no room
+  std::filesystem::resize_file(folder / "a", max_file_size + 1);  // sparse: takes no space on disk
   Bytes bytes;
   EXPECT_THAT(load_bytes(folder / "a", bytes),
               fails(StatusCode::bad_file, HasSubstr("at most 8589934592")));
 }
 
-TEST(LoadBytes, UsesTheMemoryThatItIsHanded) {
+TEST(LoadBytes, ReusesTheMemoryOfTheResult) {
   const TemporaryFolder folder;
   put_file(folder / "long", std::string(5000, 'a'));
   put_file(folder / "short", "bcd");
@@ -109,7 +109,7 @@ TEST(LoadBytes, UsesTheMemoryThatItIsHanded) {
   EXPECT_EQ(bytes.data(), place);
 }
 
-TEST(LoadBytes, LeavesNothingOfAnEarlierFileWhereItFails) {
+TEST(LoadBytes, IsEmptyAfterAFailure) {
   const TemporaryFolder folder;
   Bytes bytes(100);
   EXPECT_FALSE(load_bytes(folder / "none", bytes).ok());

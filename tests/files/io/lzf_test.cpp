@@ -26,33 +26,33 @@ Bytes stream(std::initializer_list<std::uint8_t> items) { return numbers(items);
 TEST(Lzf, ExpandsALiteral) { EXPECT_EQ(expanded(stream({2, 'a', 'b', 'c'})), bytes_of("abc")); }
 
 TEST(Lzf, ExpandsAShortReference) {
-  // 'abc', then 3 bytes from 3 back: length code 1, distance less one 2.
+  // 'abc', then 3 bytes from 3 back: length code 1, distance minus one is 2.
   EXPECT_EQ(expanded(stream({2, 'a', 'b', 'c', 1U << 5U, 2})), bytes_of("abcabc"));
 }
 
-TEST(Lzf, ExpandsAReferenceIntoWhatItWrites) {
+TEST(Lzf, ExpandsAnOverlappingReference) {
   EXPECT_EQ(expanded(stream({0, 'a', 3U << 5U, 0})), bytes_of("aaaaaa"));
 }
 
-TEST(Lzf, ThreeBytesExpandTo264AtMost) {
+TEST(Lzf, ThreeBytesExpandToAtMost264) {
   EXPECT_EQ(expanded(stream({0, 'a', 7U << 5U, 255, 0})).size(), 265U);
 }
 
-TEST(Lzf, OfNothingIsNothing) { EXPECT_TRUE(expanded({}).empty()); }
+TEST(Lzf, ExpandsAnEmptyStream) { EXPECT_TRUE(expanded({}).empty()); }
 
-TEST(Lzf, RefusesAReferenceBeforeTheStart) {
+TEST(Lzf, RejectsAReferenceBeforeTheStart) {
   std::size_t size = 0;
   EXPECT_THAT(measure_lzf(stream({0, 'a', 1U << 5U, 1}), 100, size),
-              is_bad_at(102, "refers 2 bytes back where only 1 are expanded"));
+              is_bad_at(102, "refers 2 bytes back (expected at most 1)"));
 }
 
-TEST(Lzf, RefusesALiteralThatIsCutOff) {
+TEST(Lzf, RejectsATruncatedLiteral) {
   std::size_t size = 0;
   EXPECT_THAT(measure_lzf(stream({0, 'a', 5, 'b'}), 100, size),
               is_bad_at(102, "ends within an item"));
 }
 
-TEST(Lzf, RefusesAReferenceThatIsCutOff) {
+TEST(Lzf, RejectsATruncatedReference) {
   std::size_t size = 0;
   EXPECT_THAT(measure_lzf(stream({0, 'a', 1U << 5U}), 0, size),
               is_bad_at(2, "ends within an item"));
@@ -60,7 +60,7 @@ TEST(Lzf, RefusesAReferenceThatIsCutOff) {
               is_bad_at(2, "ends within an item"));
 }
 
-RC_GTEST_PROP(Lzf, ExpandsWhatWasCompressed, ()) {
+RC_GTEST_PROP(Lzf, ExpandsCompressedBytes, ()) {
   const auto values =
       *rc::gen::container<std::vector<std::uint8_t>>(rc::gen::inRange<std::uint8_t>(0, 3));
   Bytes bytes;

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(RawPoints, AreReadByRows) {
+TEST(RawPoints, AreReadRowByRow) {
   Cloud cloud;
   const Bytes file = numbers({1.0F, 2.0F, 3.0F, 0.5F, 4.0F, 5.0F, 6.0F, 0.25F});
 
@@ -24,7 +24,7 @@ TEST(RawPoints, AreReadByRows) {
   EXPECT_EQ(cloud.value(1, *cloud.find("intensity")), 0.25);
 }
 
-TEST(RawPoints, AreAdoptedWhereTheyAre) {
+TEST(RawPoints, AreAdoptedWithoutCopying) {
   Cloud cloud;
   Bytes file = numbers({1.0F, 2.0F, 3.0F, 0.5F});
   const std::byte* const place = file.data();
@@ -35,21 +35,21 @@ TEST(RawPoints, AreAdoptedWhereTheyAre) {
   EXPECT_EQ(cloud.view()[0].z, 3.0F);
 }
 
-TEST(RawPoints, AreNotAdoptedInPart) {
+TEST(RawPoints, RejectAnIncompletePoint) {
   Cloud cloud;
   EXPECT_THAT(adopt_raw_points(Bytes(45), 4, cloud), is_bad_at(32, "45 bytes"));
   EXPECT_THAT(adopt_raw_points(Bytes(45), 2, cloud),
-              fails(StatusCode::invalid_argument, HasSubstr("allowed: 3 to 1024")));
+              fails(StatusCode::invalid_argument, HasSubstr("expected 3 to 1024")));
 }
 
-TEST(RawPoints, MayBeNone) {
+TEST(RawPoints, MayBeEmpty) {
   Cloud cloud;
   EXPECT_THAT(read_raw_points({}, 5, cloud), is_ok());
   EXPECT_TRUE(cloud.empty());
   EXPECT_EQ(cloud.fields().size(), 5U);
 }
 
-TEST(RawPoints, OfPartOfARowNameSizeRowAndOption) {
+TEST(RawPoints, ReportSizeRowAndOptionOfAnIncompletePoint) {
   Cloud cloud;
   const Status status = read_raw_points(Bytes(45), 4, cloud);
 
@@ -58,15 +58,15 @@ TEST(RawPoints, OfPartOfARowNameSizeRowAndOption) {
   EXPECT_THAT(status, is_bad_at(32, "--columns"));
 }
 
-TEST(RawPoints, NeedThreeToManyColumns) {
+TEST(RawPoints, Require3To1024Columns) {
   for (const std::size_t columns : {std::size_t{0}, std::size_t{2}, max_fields + 1, SIZE_MAX}) {
     Cloud cloud;
     EXPECT_THAT(read_raw_points(Bytes(16), columns, cloud),
-                fails(StatusCode::invalid_argument, HasSubstr("allowed: 3 to 1024")));
+                fails(StatusCode::invalid_argument, HasSubstr("expected 3 to 1024")));
   }
 }
 
-TEST(RawPoints, AreWrittenAsTheyWere) {
+TEST(RawPoints, AreWrittenUnchanged) {
   Cloud cloud;
   const Bytes file = numbers({1.0F, 2.0F, 3.0F, 0.5F});
   ASSERT_THAT(read_raw_points(file, 4, cloud), is_ok());
@@ -77,7 +77,7 @@ TEST(RawPoints, AreWrittenAsTheyWere) {
   EXPECT_EQ(again, file);
 }
 
-TEST(RawPoints, CannotHoldOtherTypes) {
+TEST(RawPoints, RejectOtherTypes) {
   Cloud cloud;
   ASSERT_THAT(Cloud::from_rows({{"x"}, {"y"}, {"z"}, {"label", FieldType::uint8}}, {}, cloud),
               is_ok());
@@ -86,12 +86,12 @@ TEST(RawPoints, CannotHoldOtherTypes) {
               fails(StatusCode::invalid_argument, HasSubstr("'label' is uint8")));
 }
 
-TEST(RawPoints, CannotHoldAnotherOrder) {
+TEST(RawPoints, RejectAnotherFieldOrder) {
   Cloud cloud;
   ASSERT_THAT(Cloud::from_rows({{"y"}, {"x"}, {"z"}}, {}, cloud), is_ok());
   Bytes file;
   EXPECT_THAT(write_raw_points(cloud, file),
-              fails(StatusCode::invalid_argument, HasSubstr("x, y and z as first fields")));
+              fails(StatusCode::invalid_argument, HasSubstr("expected x, y and z first")));
 }
 
 }  // namespace

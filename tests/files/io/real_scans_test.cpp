@@ -37,7 +37,7 @@ class RealScans : public ::testing::Test {
   const std::vector<RealScan> scans = tests::real_scans();
 };
 
-TEST_F(RealScans, HaveAsManyPointsAsTheIndexSays) {
+TEST_F(RealScans, HaveTheNumberOfPointsInTheIndex) {
   for (const RealScan& scan : scans) {
     Cloud cloud;
     ASSERT_THAT(read_cloud(scan.points, {}, cloud), is_ok());
@@ -46,7 +46,7 @@ TEST_F(RealScans, HaveAsManyPointsAsTheIndexSays) {
   }
 }
 
-TEST_F(RealScans, HaveALabelAPoint) {
+TEST_F(RealScans, HaveOneLabelPerPoint) {
   for (const RealScan& scan : scans) {
     if (scan.labels.empty()) continue;
     std::vector<std::uint32_t> classes;
@@ -55,7 +55,7 @@ TEST_F(RealScans, HaveALabelAPoint) {
   }
 }
 
-TEST_F(RealScans, SurviveEveryFormat) {
+TEST_F(RealScans, RoundTripInEveryFormat) {
   for (const RealScan& scan : scans) {
     Cloud cloud;
     ASSERT_THAT(read_cloud(scan.points, {}, cloud), is_ok());
@@ -74,7 +74,7 @@ TEST_F(RealScans, SurviveEveryFormat) {
   }
 }
 
-TEST_F(RealScans, OfTheOusterHaveMixedFieldsAndZeroReturns) {
+TEST_F(RealScans, OusterHasMixedFieldsAndZeroReturns) {
   using enum FieldType;
   Cloud cloud;
   ASSERT_THAT(read_cloud(tests::real_scan_folder() / "ouster/ouster128-a.pcd", {}, cloud), is_ok());
@@ -95,10 +95,10 @@ TEST_F(RealScans, OfTheOusterHaveMixedFieldsAndZeroReturns) {
   EXPECT_EQ(rings_beyond, 0U);
 }
 
-TEST_F(RealScans, CutOffAnywhereAreErrorsWithAnOffset) {
+TEST_F(RealScans, ReportTheOffsetIfTruncatedAnywhere) {
   Bytes file;
   ASSERT_THAT(load_bytes(tests::real_scan_folder() / "airborne/samp31.pcd", file), is_ok());
-  // The writer left room behind the compressed data, which says itself how long it is.
+  // The file has unused bytes after the compressed data, so take its end from its header.
   const std::string_view last_line = "DATA binary_compressed\n";
   const std::size_t data = as_text(file).find(last_line) + last_line.size();
   const std::size_t end = data + 8 + load<std::uint32_t>(file.data() + data);

@@ -38,7 +38,7 @@ RC_GTEST_PROP(RoundTrip, NpyKeepsFieldsAndBytes, ()) {
   RC_ASSERT(write_npy(cloud, file).ok());
   RC_ASSERT(read_npy(file, again).message().empty());
 
-  // Padding is bytes in NumPy, of whatever type it was.
+  // NumPy stores padding of any type as bytes.
   const auto is_kept = [](const Field& a, const Field& b) {
     return a == b || (a.is_padding() && b.is_padding() && a.size() == b.size());
   };
@@ -54,9 +54,9 @@ RC_GTEST_PROP(RoundTrip, PlyKeepsEveryNumber, ()) {
   Cloud again;
 
   const Status written = write_ply(cloud, file);
-  if (!written.ok()) {  // only 64-bit integers are beyond it
+  if (!written.ok()) {  // only 64-bit integers are not supported
     RC_ASSERT(written.message().find("64-bit") != std::string::npos);
-    RC_DISCARD("a number PLY cannot hold");
+    RC_DISCARD("a number that PLY cannot store");
   }
   RC_ASSERT(read_ply(file, again).message().empty());
 

@@ -35,7 +35,7 @@ std::string refusal_of(const std::string& text) {
   return parse_sensor(text, "robot.toml", sensor).message();
 }
 
-TEST(SensorFile, OfEveryKnownSensorHoldsWhatTheLibraryKnows) {
+TEST(SensorFile, MatchesTheLibraryForEveryKnownSensor) {
   for (const Sensor& known : Sensor::known()) {
     Sensor read;
     const Status status =
@@ -56,7 +56,7 @@ TEST(SensorFile, OfEveryKnownSensorHoldsWhatTheLibraryKnows) {
   }
 }
 
-TEST(SensorFile, ThereIsOneOfEachKnownSensorAndNoOther) {
+TEST(SensorFile, ExistsForEachKnownSensorAndNoOther) {
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(FLAGSTONE_SENSORS)) {
     ++files;
@@ -64,7 +64,7 @@ TEST(SensorFile, ThereIsOneOfEachKnownSensorAndNoOther) {
   EXPECT_EQ(files, Sensor::known().size());
 }
 
-TEST(SensorFile, OfFourLinesIsEnough) {
+TEST(SensorFile, MayHaveOnlyFourLines) {
   const Sensor sensor = parsed(robot);
 
   EXPECT_THAT(sensor.elevations, ElementsAre(3.0, -3.0, -9.0, -15.0));
@@ -78,12 +78,12 @@ TEST(SensorFile, OfFourLinesIsEnough) {
   EXPECT_EQ(sensor.range_sigma, 0.02);
 }
 
-TEST(SensorFile, FiringsOfANarrowViewFollowItsWidthUnlessTheyAreGiven) {
+TEST(SensorFile, FiringsDependOnTheWidthOfTheViewUnlessGiven) {
   EXPECT_EQ(parsed(robot + "azimuth_begin = -45\nazimuth_end = 45.0\n").firings, 450);
   EXPECT_EQ(parsed(robot + "firings = 99\n").firings, 99);
 }
 
-TEST(SensorFile, OfARosetteNeedsTheEdgesOfItsView) {
+TEST(SensorFile, RosetteRequiresTheEdgesOfItsView) {
   const Sensor sensor = parsed(
       "elevation_top = 30\nelevation_bottom = -30\nrosette = [60, -40]\nheight = 1\n"
       "azimuth_begin = -30\nazimuth_end = 30\n");
@@ -93,54 +93,54 @@ TEST(SensorFile, OfARosetteNeedsTheEdgesOfItsView) {
   EXPECT_EQ(sensor.firings, 24000);
 }
 
-TEST(SensorFile, OneBeamIsASensor) {
+TEST(SensorFile, AcceptsASingleBeam) {
   EXPECT_THAT(
       parsed("beams = 1\nelevation_top = -5\nelevation_bottom = -5\nheight = 1\n").elevations,
       ElementsAre(-5.0));
   EXPECT_THAT(parsed("elevations = [-5]\nheight = 1\n").elevations, ElementsAre(-5.0));
 }
 
-TEST(SensorFile, ErrorsSayWhereWhichFieldAndWhatIsAllowed) {
+TEST(SensorFile, ErrorsReportPositionKeyAndExpectedValue) {
   EXPECT_THAT(refusal_of(robot + "beems = 3\n"),
-              AllOf(StartsWith("robot.toml: line 5, column 9: 'beems' is no field of a sensor"),
+              AllOf(StartsWith("robot.toml: line 5, column 9: 'beems' is not a key of a sensor"),
                     HasSubstr("elevations")));
   EXPECT_THAT(refusal_of(robot + "max_range = \"far\"\n"),
-              StartsWith("robot.toml: line 5, column 13: max_range is not a number"));
+              StartsWith("robot.toml: line 5, column 13: max_range must be a number"));
   EXPECT_THAT(refusal_of(robot + "max_range = -1\n"),
               AllOf(StartsWith("robot.toml: line 5, column 13: "), HasSubstr("max_range = -1"),
                     HasSubstr("allowed: above 0.5, up to 1000 m")));
-  EXPECT_THAT(refusal_of(robot + "firings = 1.5\n"), HasSubstr("firings is not a whole number"));
+  EXPECT_THAT(refusal_of(robot + "firings = 1.5\n"), HasSubstr("firings must be an integer"));
   EXPECT_THAT(refusal_of(robot + "range_sigma = nan\n"), HasSubstr("range_sigma = nan"));
-  EXPECT_THAT(refusal_of(robot + "elevations = [1, 0]\n"), HasSubstr("one way or the other"));
+  EXPECT_THAT(refusal_of(robot + "elevations = [1, 0]\n"), HasSubstr("cannot be combined"));
   EXPECT_THAT(refusal_of("elevations = [-1, 0]\nheight = 1\n"),
               AllOf(StartsWith("robot.toml: line 1"), HasSubstr("list the highest first")));
   EXPECT_THAT(refusal_of("elevations = [95, 0]\nheight = 1\n"),
               HasSubstr("elevations[0] = 95 is out of range (expected -90 to 90 degrees"));
-  EXPECT_THAT(refusal_of("elevations = 3\nheight = 1\n"), HasSubstr("not an array of numbers"));
-  EXPECT_THAT(refusal_of("elevations = [\"a\"]\nheight = 1\n"), HasSubstr("is not a number"));
-  EXPECT_THAT(refusal_of("name = \"\"\n" + robot), HasSubstr("name is not a text"));
+  EXPECT_THAT(refusal_of("elevations = 3\nheight = 1\n"), HasSubstr("must be an array of numbers"));
+  EXPECT_THAT(refusal_of("elevations = [\"a\"]\nheight = 1\n"), HasSubstr("must be a number"));
+  EXPECT_THAT(refusal_of("name = \"\"\n" + robot), HasSubstr("name must be a string"));
   EXPECT_THAT(refusal_of("beams = \n"), StartsWith("robot.toml: line 1"));
 }
 
-TEST(SensorFile, WhatIsMissingIsNamed) {
+TEST(SensorFile, ReportsMissingKeys) {
   EXPECT_THAT(refusal_of("height = 1\n"), HasSubstr("elevation_top is missing"));
   EXPECT_THAT(refusal_of("elevation_top = 1\nheight = 1\n"),
               HasSubstr("elevation_bottom is missing"));
   EXPECT_THAT(refusal_of("elevation_top = 1\nelevation_bottom = 0\nheight = 1\n"),
-              HasSubstr("beams is missing or out of range; allowed: 1 to 1024"));
+              HasSubstr("beams is missing or out of range (expected 1 to 1024)"));
   EXPECT_THAT(refusal_of("elevations = [0]\n"), HasSubstr("height is missing"));
   EXPECT_THAT(refusal_of("beams = 4\nelevation_top = -5\nelevation_bottom = 5\nheight = 1\n"),
-              HasSubstr("elevation_top = -5; allowed: above elevation_bottom"));
+              HasSubstr("elevation_top = -5 (expected a value above elevation_bottom"));
 }
 
-TEST(SensorFile, ThatIsRefusedLeavesTheSensorAsItWas) {
+TEST(SensorFile, KeepsTheSensorOnFailure) {
   Sensor sensor = parsed(robot);
   EXPECT_FALSE(parse_sensor(robot + "height = 2\n", "twice.toml", sensor).ok());
   EXPECT_FALSE(read_sensor("/nowhere/robot.toml", sensor).ok());
   EXPECT_EQ(sensor.height, 0.6);
 }
 
-TEST(FindSensor, TakesNamesAndFiles) {
+TEST(FindSensor, AcceptsNamesAndFiles) {
   const TemporaryFolder folder;
   put_file(folder / "robot.toml", robot);
   Sensor sensor;

@@ -28,7 +28,7 @@ auto fails(StatusCode code, const MessageMatcher& message) {
                AllOf(Not(::testing::HasSubstr("\n")), ::testing::Matcher<std::string>(message))));
 }
 
-/// bad_file, "byte OFFSET: " and a reason that holds `reason`.
+/// bad_file with "byte OFFSET: " and a message that contains `reason`.
 inline auto is_bad_at(std::size_t offset, const std::string& reason) {
   return fails(StatusCode::bad_file,
                ::testing::AllOf(::testing::StartsWith("byte " + std::to_string(offset) + ": "),

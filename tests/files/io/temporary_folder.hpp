@@ -14,7 +14,7 @@
 
 namespace flagstone::io {
 
-/// An empty folder of its own for a test, gone at its end.
+/// An empty directory for one test, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -36,7 +36,7 @@ class TemporaryFolder {
     return path_ / name;
   }
 
-  /// How many files and folders are in it.
+  /// Number of files and directories in it.
   [[nodiscard]] std::ptrdiff_t entries() const {
     return std::distance(std::filesystem::directory_iterator(path_), {});
   }

@@ -6,7 +6,7 @@
 
 namespace flagstone::io {
 
-/// While it lives a test that runs as root, who may do anything, is somebody who may not.
+/// RAII guard that drops root privileges, so that file permissions apply to tests run as root.
 class WithoutRoot {
  public:
   WithoutRoot() : was_root_(::geteuid() == 0 && ::seteuid(nobody) == 0) {}

@@ -17,9 +17,9 @@ namespace {
 constexpr Color yellow{246, 201, 58};
 constexpr Color cyan{58, 196, 226};
 
-class BirdsEyePicture : public PictureTest {};
+class BirdsEyeImage : public PictureTest {};
 
-TEST_F(BirdsEyePicture, IsAValidPngOfTheAskedSize) {
+TEST_F(BirdsEyeImage, IsAValidPngOfTheRequestedSize) {
   options_.width = 700;
   options_.height = 640;
 
@@ -29,7 +29,7 @@ TEST_F(BirdsEyePicture, IsAValidPngOfTheAskedSize) {
   EXPECT_EQ(picture.height(), 640);
 }
 
-TEST_F(BirdsEyePicture, ShowsGroundAheadOfTheSensorYellowInTheUpperHalf) {
+TEST_F(BirdsEyeImage, ShowsGroundAheadOfTheSensorYellowInTheUpperHalf) {
   LabelledScan scan;
   scan.add(20, 0, -1.7f, Label::ground);
 
@@ -39,7 +39,7 @@ TEST_F(BirdsEyePicture, ShowsGroundAheadOfTheSensorYellowInTheUpperHalf) {
   EXPECT_NEAR(place.row, panel().y + panel().height / 4, 1);
 }
 
-TEST_F(BirdsEyePicture, ShowsNonGroundToTheLeftOfTheSensorCyanOnTheLeft) {
+TEST_F(BirdsEyeImage, ShowsNonGroundToTheLeftOfTheSensorCyanOnTheLeft) {
   LabelledScan scan;
   scan.add(0, 20, 0, Label::nonground);
 
@@ -49,7 +49,7 @@ TEST_F(BirdsEyePicture, ShowsNonGroundToTheLeftOfTheSensorCyanOnTheLeft) {
   EXPECT_NEAR(place.row, panel().center_y(), 1);
 }
 
-TEST_F(BirdsEyePicture, DoesNotHideWhatStandsOnTheGround) {
+TEST_F(BirdsEyeImage, DrawsObjectsOverTheGround) {
   LabelledScan scan;
   scan.add(10, 5, 0, Label::nonground);
   scan.add(10, 5, -1.7f, Label::ground);
@@ -60,7 +60,7 @@ TEST_F(BirdsEyePicture, DoesNotHideWhatStandsOnTheGround) {
   EXPECT_EQ(picture.count(panel(), yellow), 0);
 }
 
-TEST_F(BirdsEyePicture, GivesEachDrawnLabelAColourOfItsOwn) {
+TEST_F(BirdsEyeImage, UsesADifferentColourForEachDrawnLabel) {
   std::vector<std::vector<Color>> panels;
   for (const Label label : {Label::nonground, Label::ground, Label::noise, Label::out_of_range}) {
     LabelledScan scan;
@@ -72,7 +72,7 @@ TEST_F(BirdsEyePicture, GivesEachDrawnLabelAColourOfItsOwn) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(panels[i], panels[j]) << i << " and " << j;
 }
 
-TEST_F(BirdsEyePicture, DoesNotDrawInvalidPointsButCountsThem) {
+TEST_F(BirdsEyeImage, CountsButDoesNotDrawInvalidPoints) {
   LabelledScan scan;
   scan.add(10, 5, 0, Label::invalid);
 
@@ -84,7 +84,7 @@ TEST_F(BirdsEyePicture, DoesNotDrawInvalidPointsButCountsThem) {
   EXPECT_NE(with.cut(legend), without.cut(legend));
 }
 
-TEST_F(BirdsEyePicture, TellsThatPointsLieBeyondTheFrame) {
+TEST_F(BirdsEyeImage, NotesPointsOutsideTheView) {
   LabelledScan inside;
   LabelledScan outside;
   inside.add(10, 0, 0, Label::invalid);
@@ -93,7 +93,7 @@ TEST_F(BirdsEyePicture, TellsThatPointsLieBeyondTheFrame) {
   EXPECT_NE(draw(outside).cut(panel()), draw(inside).cut(panel()));
 }
 
-TEST_F(BirdsEyePicture, KeepsPointsOffTheMargins) {
+TEST_F(BirdsEyeImage, DrawsNoPointsInTheMargins) {
   LabelledScan scan;
   for (const float along : {-40.0f, -20.0f, 0.0f, 20.0f, 40.0f})
     for (const float edge : {-39.99f, 39.99f}) {
@@ -110,7 +110,7 @@ TEST_F(BirdsEyePicture, KeepsPointsOffTheMargins) {
   EXPECT_EQ(picture.count(right, page_color), right.width * right.height);
 }
 
-TEST_F(BirdsEyePicture, IsDrawnOfAnEmptyCloud) {
+TEST_F(BirdsEyeImage, AcceptsAnEmptyCloud) {
   options_.range = 0;
 
   const Picture picture = draw({});
@@ -119,7 +119,7 @@ TEST_F(BirdsEyePicture, IsDrawnOfAnEmptyCloud) {
   EXPECT_EQ(picture.count(panel(), yellow), 0);
 }
 
-TEST_F(BirdsEyePicture, IsDrawnWhateverTheCoordinates) {
+TEST_F(BirdsEyeImage, AcceptsAnyCoordinates) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   options_.range = 0;
@@ -134,7 +134,7 @@ TEST_F(BirdsEyePicture, IsDrawnWhateverTheCoordinates) {
   EXPECT_EQ(draw(scan).width(), options_.width);
 }
 
-RC_GTEST_FIXTURE_PROP(BirdsEyePicture, IsDrawnOfAnyBitsInTheCoordinates, ()) {
+RC_GTEST_FIXTURE_PROP(BirdsEyeImage, AcceptsAnyBitPatternAsCoordinates, ()) {
   options_.width = options_.height = 320;
   options_.range = 0;
   LabelledScan scan;
@@ -148,7 +148,7 @@ RC_GTEST_FIXTURE_PROP(BirdsEyePicture, IsDrawnOfAnyBitsInTheCoordinates, ()) {
   RC_ASSERT(Picture(png_).width() == 320);
 }
 
-TEST_F(BirdsEyePicture, HasTheSameBytesForTheSameInput) {
+TEST_F(BirdsEyeImage, IsDeterministic) {
   LabelledScan scan;
   scan.add(10, 5, 0, Label::ground);
   options_.title = "scan.bin";
@@ -160,7 +160,7 @@ TEST_F(BirdsEyePicture, HasTheSameBytesForTheSameInput) {
   EXPECT_EQ(bytes_of(png_), first);
 }
 
-TEST_F(BirdsEyePicture, HasTheSameBytesFromAnyThread) {
+TEST_F(BirdsEyeImage, IsBitIdenticalOnEveryThread) {
   LabelledScan scan;
   scan.add(10, 5, 0, Label::ground);
   options_.title = "scan.bin";
@@ -177,7 +177,7 @@ TEST_F(BirdsEyePicture, HasTheSameBytesFromAnyThread) {
   for (int i = 0; i < 4; ++i) EXPECT_EQ(bytes_of(path(i)), bytes_of(png_));
 }
 
-TEST_F(BirdsEyePicture, LeavesNoFileBesidesThePicture) {
+TEST_F(BirdsEyeImage, LeavesNoOtherFile) {
   draw({});
 
   std::vector<std::filesystem::path> files;

@@ -45,19 +45,19 @@ ContourLine from_the_left(ContourLine line) {
   return line;
 }
 
-TEST(ContourLines, AreNoneWhereTheLevelIsNotPassed) {
+TEST(ContourLines, AreEmptyIfNoHeightCrossesTheLevel) {
   EXPECT_TRUE(contour_lines(std::vector<float>{1, 2, 3, 4}, 2, 5).empty());
   EXPECT_TRUE(contour_lines(std::vector<float>{1, 2, 3, 4}, 2, 0).empty());
   EXPECT_TRUE(contour_lines(std::vector<float>{1, 1, 1, 1}, 2, 1).empty());
 }
 
-TEST(ContourLines, AreNoneOfLessThanASquare) {
+TEST(ContourLines, AreEmptyForFewerThanFourSamples) {
   EXPECT_TRUE(contour_lines({}, 0, 0).empty());
   EXPECT_TRUE(contour_lines(std::vector<float>{0, 1, 2}, 3, 0.5f).empty());
   EXPECT_TRUE(contour_lines(std::vector<float>{0, 1, 2}, 1, 0.5f).empty());
 }
 
-TEST(ContourLines, PassASideWhereHeightsInterpolatedAlongItDo) {
+TEST(ContourLines, CrossEachSideAtTheInterpolatedPosition) {
   // 0 1
   // 0 2
   const auto lines = contour_lines(std::vector<float>{0, 1, 0, 2}, 2, 0.5f);
@@ -66,7 +66,7 @@ TEST(ContourLines, PassASideWhereHeightsInterpolatedAlongItDo) {
   EXPECT_THAT(lines[0], UnorderedElementsAre(GridPlace{0.5, 0}, GridPlace{0.25, 1}));
 }
 
-TEST(ContourLines, OfASlopeAreOneStraightLineFromEdgeToEdge) {
+TEST(ContourLines, SlopeHasOneStraightLineFromEdgeToEdge) {
   const auto heights = sampled(9, 5, [](double column, double row) { return column + 2 * row; });
 
   const auto lines = contour_lines(heights, 9, 5.5f);
@@ -91,7 +91,7 @@ TEST(ContourLines, AroundASummitAreClosed) {
     EXPECT_NEAR(std::hypot(column - 20, row - 20), 12.5, 0.02);
 }
 
-TEST(ContourLines, PassASaddleOnTheSideWhereTheSurfaceDoes) {
+TEST(ContourLines, PassASaddleOnTheSameSideAsTheSurface) {
   // Bilinear between these four, the saddle is at height 1.
   const std::vector<float> heights = {2, 0, 0, 2};
 
@@ -106,7 +106,7 @@ TEST(ContourLines, PassASaddleOnTheSideWhereTheSurfaceDoes) {
   EXPECT_THAT(above[1], UnorderedElementsAre(GridPlace{1, 0.75}, GridPlace{0.75, 1}));
 }
 
-TEST(ContourLines, EndWhereHeightsAreNotKnown) {
+TEST(ContourLines, EndAtUnknownHeights) {
   auto heights = sampled(9, 3, [](double, double row) { return row; });
   heights[4] = nan;
 
@@ -117,7 +117,7 @@ TEST(ContourLines, EndWhereHeightsAreNotKnown) {
   EXPECT_DOUBLE_EQ(length_of(lines[1]), 3);
 }
 
-TEST(ContourLines, EndWhereHeightsAreInfinite) {
+TEST(ContourLines, EndAtInfiniteHeights) {
   auto heights = sampled(3, 2, [](double, double row) { return row; });
   heights[0] = -std::numeric_limits<float>::infinity();
 
@@ -152,7 +152,7 @@ std::size_t passed_sides(const std::vector<float>& heights, std::size_t width, f
   return count;
 }
 
-RC_GTEST_PROP(ContourLines, PassEverySideThatTheLevelPassesOnce, ()) {
+RC_GTEST_PROP(ContourLines, CrossEachSideAtMostOnce, ()) {
   const auto width = *rc::gen::inRange<std::size_t>(2, 12);
   const auto rows = *rc::gen::inRange<std::size_t>(2, 12);
   const auto heights = *rc::gen::container<std::vector<float>>(
@@ -173,7 +173,7 @@ RC_GTEST_PROP(ContourLines, PassEverySideThatTheLevelPassesOnce, ()) {
   RC_ASSERT(places == passed_sides(heights, width, level));
 }
 
-RC_GTEST_PROP(ContourLines, EndOnlyAtTheEdgeWhereAllHeightsAreKnown, ()) {
+RC_GTEST_PROP(ContourLines, EndOnlyAtTheEdgeIfAllHeightsAreKnown, ()) {
   const auto width = *rc::gen::inRange<std::size_t>(2, 12);
   const auto rows = *rc::gen::inRange<std::size_t>(2, 12);
   const auto heights = *rc::gen::container<std::vector<float>>(

@@ -14,9 +14,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-class RefusedPicture : public PictureTest {
+class BirdsEyeErrors : public PictureTest {
  protected:
-  RefusedPicture() { scan_.add(10, 0, 0, Label::ground); }
+  BirdsEyeErrors() { scan_.add(10, 0, 0, Label::ground); }
 
   // Draws, expects invalid_argument and no file, and returns the message.
   std::string refusal() {
@@ -30,7 +30,7 @@ class RefusedPicture : public PictureTest {
   LabelledScan scan_;
 };
 
-TEST_F(RefusedPicture, ByAFolderThatIsNotThereSaysSoOnOneLineAndLeavesNothing) {
+TEST_F(BirdsEyeErrors, ReportsAMissingDirectoryOnOneLineAndLeavesNothing) {
   const std::filesystem::path png = folder_ / "absent" / "scan.png";
 
   const Status status = draw_birds_eye(png, scan_.cloud(), scan_.result, options_);
@@ -40,27 +40,27 @@ TEST_F(RefusedPicture, ByAFolderThatIsNotThereSaysSoOnOneLineAndLeavesNothing) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
-TEST_F(RefusedPicture, OfAnotherCloudsLabels) {
+TEST_F(BirdsEyeErrors, RejectsLabelsOfAnotherCloud) {
   scan_.points.push_back(scan_.points.front());
 
   EXPECT_THAT(refusal(), HasSubstr("1 labels for 2 points"));
 }
 
-TEST_F(RefusedPicture, OfACloudWithoutMemory) {
+TEST_F(BirdsEyeErrors, RejectsACloudWithoutMemory) {
   const Status status = draw_birds_eye(png_, CloudView(nullptr, 1), scan_.result, options_);
 
   EXPECT_EQ(status.code(), StatusCode::invalid_argument);
   EXPECT_THAT(status.message(), HasSubstr("has no memory"));
 }
 
-TEST_F(RefusedPicture, WithAReferenceOfAnotherLength) {
+TEST_F(BirdsEyeErrors, RejectsAReferenceOfAnotherLength) {
   const std::vector<Truth> reference(3, Truth::ground);
   options_.reference = reference;
 
   EXPECT_THAT(refusal(), HasSubstr("3 entries for 1 points"));
 }
 
-TEST_F(RefusedPicture, OfASizeOutOfRangeNamesTheRange) {
+TEST_F(BirdsEyeErrors, ReportsTheLimitsOfTheSize) {
   options_.width = 319;
   EXPECT_THAT(refusal(), HasSubstr("319 x 890 pixels; each may be 320 to 8192"));
   options_.width = 800;
@@ -68,7 +68,7 @@ TEST_F(RefusedPicture, OfASizeOutOfRangeNamesTheRange) {
   EXPECT_THAT(refusal(), HasSubstr("800 x 8193 pixels"));
 }
 
-TEST_F(RefusedPicture, OfARangeOutOfRangeNamesTheRange) {
+TEST_F(BirdsEyeErrors, ReportsTheLimitsOfTheRange) {
   for (const float range : {-10.0f, 0.5f, 1001.0f, std::numeric_limits<float>::infinity(),
                             std::numeric_limits<float>::quiet_NaN()}) {
     options_.range = range;
@@ -76,13 +76,13 @@ TEST_F(RefusedPicture, OfARangeOutOfRangeNamesTheRange) {
   }
 }
 
-TEST_F(RefusedPicture, WithTintedPatchesNeedsZones) {
+TEST_F(BirdsEyeErrors, RejectsTintedPatchesWithoutZones) {
   options_.tint_patches = true;
 
   EXPECT_THAT(refusal(), HasSubstr("needs the zones"));
 }
 
-TEST_F(RefusedPicture, WithZonesThatAreNoConfigurationSaysWhatIsWrong) {
+TEST_F(BirdsEyeErrors, ReportsAnInvalidConfiguration) {
   PatchworkConfig config;
   config.zones.clear();
   options_.zones = &config;
@@ -90,7 +90,7 @@ TEST_F(RefusedPicture, WithZonesThatAreNoConfigurationSaysWhatIsWrong) {
   EXPECT_THAT(refusal(), HasSubstr("zones"));
 }
 
-TEST_F(RefusedPicture, WithAPatchTheZonesDoNotHaveNamesIt) {
+TEST_F(BirdsEyeErrors, ReportsAPatchThatIsNotInTheZones) {
   const PatchworkConfig config;
   options_.zones = &config;
   options_.tint_patches = true;

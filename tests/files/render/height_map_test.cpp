@@ -15,7 +15,7 @@ using tests::random_surface;
 
 float slanted(float x, float y) { return -1.7f + 0.1f * x - 0.2f * y; }
 
-TEST(HeightMap, BeginsAtTheSmallestXAndTheLargestY) {
+TEST(HeightMap, StartsAtTheSmallestXAndTheLargestY) {
   const HeightMap map = map_of(random_surface(slanted), 32, 0.5);
 
   ASSERT_EQ(map.width, 128U);
@@ -26,7 +26,7 @@ TEST(HeightMap, BeginsAtTheSmallestXAndTheLargestY) {
   EXPECT_EQ(map.y(127), -31.75);
 }
 
-TEST(HeightMap, HasTheSurfacesHeightAtTheCentreOfEachCell) {
+TEST(HeightMap, ContainsTheHeightOfTheSurfaceAtEachCellCentre) {
   const GroundSurface surface = random_surface(slanted);
 
   const HeightMap map = map_of(surface, 32, 0.5);
@@ -40,7 +40,7 @@ TEST(HeightMap, HasTheSurfacesHeightAtTheCentreOfEachCell) {
   }
 }
 
-TEST(HeightMap, CoversAnExtentThatIsNoWholeNumberOfCells) {
+TEST(HeightMap, CoversAnExtentThatIsNotAWholeNumberOfCells) {
   const HeightMap map = map_of(random_surface(slanted), 32, 5);
 
   EXPECT_EQ(map.width, 14U);
@@ -49,11 +49,11 @@ TEST(HeightMap, CoversAnExtentThatIsNoWholeNumberOfCells) {
   EXPECT_FALSE(std::isnan(map.heights[14 + 1]));
 }
 
-TEST(HeightMap, HasNoFurtherCellBecauseOfRounding) {
+TEST(HeightMap, DoesNotAddACellBecauseOfRounding) {
   EXPECT_EQ(map_of(random_surface(slanted), 32, 0.1).width, 640U);
 }
 
-TEST(SmoothedHeightMap, IsTheSameOnAPlane) {
+TEST(SmoothedHeightMap, IsUnchangedOnAPlane) {
   const GroundSurface surface = random_surface(slanted, std::vector<tests::GridSize>{{1, 64}});
 
   const HeightMap map = map_of(surface, 30, 0.5);
@@ -63,7 +63,7 @@ TEST(SmoothedHeightMap, IsTheSameOnAPlane) {
     ASSERT_NEAR(smoothed.heights[i], map.heights[i], 1e-5);
 }
 
-TEST(SmoothedHeightMap, RoundsWhatBendsAtACell) {
+TEST(SmoothedHeightMap, RoundsABendBetweenCells) {
   const GroundSurface ridge = random_surface([](float x, float) { return x == 0.5f ? 1.0f : 0.0f; },
                                              std::vector<tests::GridSize>{{1, 64}});
 

@@ -19,14 +19,14 @@
 namespace flagstone::render {
 namespace {
 
-TEST(WithoutCairo, CanDrawSaysWhatToInstall) {
+TEST(WithoutCairo, ReportsWhatToInstall) {
   const Status rendering_available = render::rendering_available();
 
   EXPECT_FALSE(rendering_available.ok());
   EXPECT_THAT(rendering_available.message(), testing::HasSubstr("libcairo2-dev"));
 }
 
-TEST(WithoutCairo, WhateverDrawsSaysTheSameAndWritesNothing) {
+TEST(WithoutCairo, EveryDrawingFunctionReportsTheSameAndWritesNothing) {
   const io::TemporaryFolder folder;
   std::vector<std::byte> png;
 

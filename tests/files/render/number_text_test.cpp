@@ -7,7 +7,7 @@
 namespace flagstone::render {
 namespace {
 
-TEST(NumberText, SetsThousandsApart) {
+TEST(NumberText, SeparatesThousands) {
   EXPECT_EQ(grouped(0), "0");
   EXPECT_EQ(grouped(999), "999");
   EXPECT_EQ(grouped(1000), "1,000");
@@ -15,17 +15,17 @@ TEST(NumberText, SetsThousandsApart) {
   EXPECT_EQ(grouped(10000000), "10,000,000");
 }
 
-TEST(NumberText, GivesSharesWithOneDecimal) {
+TEST(NumberText, FormatsPercentagesWithOneDecimal) {
   EXPECT_EQ(percent(1, 3), "33.3 %");
   EXPECT_EQ(percent(7, 7), "100.0 %");
 }
 
-TEST(NumberText, TellsLittleFromNothing) {
+TEST(NumberText, DistinguishesSmallValuesFromZero) {
   EXPECT_EQ(percent(0, 1000000), "0.0 %");
   EXPECT_EQ(percent(1, 1000000), "<0.1 %");
 }
 
-TEST(NumberText, HasNoShareOfNothing) { EXPECT_EQ(percent(0, 0), "0.0 %"); }
+TEST(NumberText, FormatsAFractionOfNothingAsZero) { EXPECT_EQ(percent(0, 0), "0.0 %"); }
 
 }  // namespace
 }  // namespace flagstone::render

@@ -28,7 +28,7 @@ TEST(SuitableRange, IsRoundedUpToTenMetres) {
   EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), nullptr), 60);
 }
 
-TEST(SuitableRange, IsNotSetByAFewFarPoints) {
+TEST(SuitableRange, IgnoresAFewDistantPoints) {
   LabelledScan scan;
   for (int i = 0; i < 99; ++i) scan.add(15, 0, 0, Label::ground);
   scan.add(1e30f, 0, 0, Label::nonground);
@@ -36,7 +36,7 @@ TEST(SuitableRange, IsNotSetByAFewFarPoints) {
   EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), nullptr), 20);
 }
 
-TEST(SuitableRange, PassesOverInvalidPoints) {
+TEST(SuitableRange, IgnoresInvalidPoints) {
   LabelledScan scan;
   scan.add(15, 0, 0, Label::ground);
   for (int i = 0; i < 50; ++i) scan.add(900, 0, 0, Label::invalid);
@@ -46,7 +46,7 @@ TEST(SuitableRange, PassesOverInvalidPoints) {
   EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), nullptr), 20);
 }
 
-TEST(SuitableRange, EndsAtTheLastRing) {
+TEST(SuitableRange, IsAtMostTheLastRing) {
   const PatchworkConfig config = config_to(80);
   LabelledScan scan;
   scan.add(500, 0, 0, Label::out_of_range);
@@ -54,20 +54,20 @@ TEST(SuitableRange, EndsAtTheLastRing) {
   EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), &config), 80);
 }
 
-TEST(SuitableRange, EndsAtAKilometreWithoutZones) {
+TEST(SuitableRange, IsAtMostOneKilometreWithoutZones) {
   LabelledScan scan;
   scan.add(1e38f, 1e38f, 0, Label::out_of_range);
 
   EXPECT_EQ(suitable_range(scan.cloud(), scan.result.labels(), nullptr), 1000);
 }
 
-TEST(SuitableRange, WithoutPointsIsThatOfTheZones) {
+TEST(SuitableRange, CoversTheZonesWithoutPoints) {
   const PatchworkConfig config = config_to(120);
   EXPECT_EQ(suitable_range({}, {}, &config), 120);
   EXPECT_EQ(suitable_range({}, {}, nullptr), 50);
 }
 
-TEST(RingStep, IsRoundAndLeavesRoomForThreeRings) {
+TEST(RingStep, IsRoundWithRoomForThreeRings) {
   EXPECT_EQ(ring_step(30), 10);
   EXPECT_EQ(ring_step(50), 10);
   EXPECT_EQ(ring_step(60), 20);
@@ -75,7 +75,7 @@ TEST(RingStep, IsRoundAndLeavesRoomForThreeRings) {
   EXPECT_EQ(ring_step(1000), 200);
 }
 
-RC_GTEST_PROP(RingStep, LeavesRoomForThreeToSevenRingsAtAnyRange, ()) {
+RC_GTEST_PROP(RingStep, HasRoomForThreeToSevenRingsAtAnyRange, ()) {
   const double range = *rc::gen::inRange(10, 10001) / 10.0;
 
   const double rings = range / ring_step(range);
@@ -88,7 +88,7 @@ TEST(CircleRadii, AreRoundDistancesWithoutZones) {
   EXPECT_THAT(circle_radii(30, nullptr), ElementsAre(10, 20, 30, 40, 50));
 }
 
-TEST(CircleRadii, AreTheEndsOfTheZonesWhereThereAreSome) {
+TEST(CircleRadii, AreTheOuterRadiiOfTheZonesIfGiven) {
   PatchworkConfig config = config_to(10);
   config.min_range = 2;
   config.zones.push_back({.ring_radii = {15, 20}});

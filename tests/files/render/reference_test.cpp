@@ -11,7 +11,7 @@ namespace {
 constexpr Color neutral{140, 148, 158};
 constexpr Color faint{70, 77, 87};
 
-class ComparedPicture : public PictureTest {
+class BirdsEyeComparison : public PictureTest {
  protected:
   // A picture of one point with this label and truth.
   Picture draw_one(Label label, Truth truth) {
@@ -25,35 +25,35 @@ class ComparedPicture : public PictureTest {
   std::vector<Truth> reference_;
 };
 
-TEST_F(ComparedPicture, ShowsTruePositivesGreen) {
+TEST_F(BirdsEyeComparison, ShowsTruePositivesInGreen) {
   EXPECT_GT(draw_one(Label::ground, Truth::ground).count(panel(), green), 0);
 }
 
-TEST_F(ComparedPicture, ShowsFalsePositivesRed) {
+TEST_F(BirdsEyeComparison, ShowsFalsePositivesInRed) {
   EXPECT_GT(draw_one(Label::ground, Truth::not_ground).count(panel(), red), 0);
 }
 
-TEST_F(ComparedPicture, ShowsTrueNegativesInANeutralGrey) {
+TEST_F(BirdsEyeComparison, ShowsTrueNegativesInGrey) {
   EXPECT_GT(draw_one(Label::nonground, Truth::not_ground).count(panel(), neutral), 0);
 }
 
-TEST_F(ComparedPicture, ShowsGroundOfAnyOtherLabelAsFalseNegativeBlue) {
+TEST_F(BirdsEyeComparison, ShowsGroundWithAnyOtherLabelInBlue) {
   for (const Label label : {Label::nonground, Label::noise, Label::out_of_range})
     EXPECT_GT(draw_one(label, Truth::ground).count(panel(), blue), 0) << to_string(label);
 }
 
-TEST_F(ComparedPicture, ShowsWhatIsNotScoredFaintlyWhateverItsLabel) {
+TEST_F(BirdsEyeComparison, ShowsIgnoredPointsFaintlyWithAnyLabel) {
   for (const Label label : {Label::nonground, Label::ground, Label::noise})
     EXPECT_GT(draw_one(label, Truth::ignored).count(panel(), faint), 0) << to_string(label);
 }
 
-TEST_F(ComparedPicture, DoesNotDrawInvalidPoints) {
+TEST_F(BirdsEyeComparison, DoesNotDrawInvalidPoints) {
   const Picture picture = draw_one(Label::invalid, Truth::ground);
 
   EXPECT_EQ(picture.count(panel(), blue), 0);
 }
 
-TEST_F(ComparedPicture, DoesNotHideErrorsUnderWhatIsRight) {
+TEST_F(BirdsEyeComparison, DrawsErrorsOverCorrectPoints) {
   LabelledScan scan;
   scan.add(20, 10, 0, Label::ground);
   scan.add(20, 10, 0, Label::ground);

@@ -18,9 +18,9 @@ namespace {
 using testing::HasSubstr;
 
 // Pictures of one point, which is ground, at x = 20 m, y = 10 m.
-class SideBySidePicture : public PictureTest {
+class SideBySideImage : public PictureTest {
  protected:
-  SideBySidePicture() {
+  SideBySideImage() {
     scan_.add(20, 10, 0, Label::ground);
     side_by_side_.range = 40;
     side_by_side_.width = 900;
@@ -65,7 +65,7 @@ class SideBySidePicture : public PictureTest {
   std::vector<std::byte> bytes_;
 };
 
-TEST_F(SideBySidePicture, ShowsEachMethodsOwnErrors) {
+TEST_F(SideBySideImage, ShowsTheErrorsOfEachMethod) {
   add_panel(found_);
   add_panel(missed_);
 
@@ -77,14 +77,14 @@ TEST_F(SideBySidePicture, ShowsEachMethodsOwnErrors) {
   EXPECT_EQ(picture.count(grid().panels[1], green), 0);
 }
 
-TEST_F(SideBySidePicture, ShowsFalsePositivesRed) {
+TEST_F(SideBySideImage, ShowsFalsePositivesInRed) {
   truth_ = {Truth::not_ground};
   add_panel(found_);
 
   EXPECT_GT(draw_panels().count(grid().panels[0], red), 0);
 }
 
-TEST_F(SideBySidePicture, PutsAPointAtTheSamePlaceOfEveryPanel) {
+TEST_F(SideBySideImage, DrawsAPointAtTheSamePositionInEveryPanel) {
   for (int panel = 0; panel < 5; ++panel) add_panel(found_);
 
   const Picture picture = draw_panels();
@@ -97,7 +97,7 @@ TEST_F(SideBySidePicture, PutsAPointAtTheSamePlaceOfEveryPanel) {
   }
 }
 
-TEST_F(SideBySidePicture, HasTheWidthAskedForAndRoomForAllRows) {
+TEST_F(SideBySideImage, HasTheRequestedWidthAndRoomForAllRows) {
   for (int panel = 0; panel < 9; ++panel) add_panel(found_);
 
   const Picture picture = draw_panels();
@@ -108,7 +108,7 @@ TEST_F(SideBySidePicture, HasTheWidthAskedForAndRoomForAllRows) {
   EXPECT_LE(grid().legend.bottom(), picture.height());
 }
 
-TEST_F(SideBySidePicture, IsTheSameEveryTime) {
+TEST_F(SideBySideImage, IsDeterministic) {
   add_panel(found_);
   ASSERT_TRUE(render().ok());
   const std::vector<std::byte> first = bytes_;
@@ -118,7 +118,7 @@ TEST_F(SideBySidePicture, IsTheSameEveryTime) {
   EXPECT_EQ(bytes_, first);
 }
 
-TEST_F(SideBySidePicture, TakesTextThatIsNotUtf8) {
+TEST_F(SideBySideImage, AcceptsTextThatIsNotUtf8) {
   add_panel(found_);
   panels_[0].title = "\xFF\n";
   side_by_side_.title = "\xC0\x80";
@@ -126,7 +126,7 @@ TEST_F(SideBySidePicture, TakesTextThatIsNotUtf8) {
   EXPECT_TRUE(render().ok());
 }
 
-TEST_F(SideBySidePicture, TakesAScanWithoutPoints) {
+TEST_F(SideBySideImage, AcceptsAScanWithoutPoints) {
   scan_ = {};
   truth_.clear();
   side_by_side_.range = 0;
@@ -135,27 +135,27 @@ TEST_F(SideBySidePicture, TakesAScanWithoutPoints) {
   EXPECT_TRUE(render().ok());
 }
 
-TEST_F(SideBySidePicture, WithoutPanelsOrWithTooManyIsRefused) {
+TEST_F(SideBySideImage, RejectsNoPanelsAndTooManyPanels) {
   EXPECT_THAT(refusal(), HasSubstr("0 panels; there may be 1 to 30"));
   for (int panel = 0; panel < 31; ++panel) add_panel(found_);
   EXPECT_THAT(refusal(), HasSubstr("31 panels"));
 }
 
-TEST_F(SideBySidePicture, WithLabelsOfAnotherCloudNamesTheMethod) {
+TEST_F(SideBySideImage, ReportsTheMethodWithLabelsOfAnotherCloud) {
   const std::array<Label, 2> too_many = {};
   add_panel(too_many);
 
   EXPECT_THAT(refusal(), HasSubstr("RANSAC: 2 labels for 1 points"));
 }
 
-TEST_F(SideBySidePicture, WithATruthOfAnotherLengthIsRefused) {
+TEST_F(SideBySideImage, RejectsGroundTruthOfAnotherLength) {
   add_panel(found_);
   truth_.clear();
 
   EXPECT_THAT(refusal(), HasSubstr("0 entries for 1 points"));
 }
 
-TEST_F(SideBySidePicture, OfAWidthOutOfRangeIsRefused) {
+TEST_F(SideBySideImage, RejectsAWidthOutOfLimits) {
   add_panel(found_);
   for (const int width : {639, 8193}) {
     side_by_side_.width = width;
@@ -163,7 +163,7 @@ TEST_F(SideBySidePicture, OfAWidthOutOfRangeIsRefused) {
   }
 }
 
-TEST_F(SideBySidePicture, OfARangeOutOfRangeIsRefused) {
+TEST_F(SideBySideImage, RejectsARangeOutOfLimits) {
   add_panel(found_);
   for (const float range : {-1.0f, 0.5f, 1001.0f, std::numeric_limits<float>::quiet_NaN()}) {
     side_by_side_.range = range;
@@ -171,7 +171,7 @@ TEST_F(SideBySidePicture, OfARangeOutOfRangeIsRefused) {
   }
 }
 
-TEST(PanelGrid, IsNeverHigherThanAPictureCanBe) {
+TEST(PanelGrid, StaysWithinTheMaximumImageHeight) {
   for (std::size_t count = 1; count <= 30; ++count)
     EXPECT_LE(arrange_panels(8192, count).height, 32767) << count << " panels";
 }

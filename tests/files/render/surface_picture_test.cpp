@@ -18,9 +18,9 @@ namespace {
 
 double lightness(Color color) { return 0.3 * color.red + 0.59 * color.green + 0.11 * color.blue; }
 
-class SurfacePictureTest : public testing::Test {
+class SurfaceImage : public testing::Test {
  protected:
-  SurfacePictureTest() {
+  SurfaceImage() {
     options_.width = 800;
     options_.height = 890;
     options_.range = 20;
@@ -56,14 +56,14 @@ class SurfacePictureTest : public testing::Test {
   SurfacePicture options_;
 };
 
-TEST_F(SurfacePictureTest, HasTheSizeAskedFor) {
+TEST_F(SurfaceImage, HasTheRequestedSize) {
   const Picture picture = draw(tests::random_surface([](float, float) { return -1.7f; }));
 
   EXPECT_EQ(picture.width(), 800);
   EXPECT_EQ(picture.height(), 890);
 }
 
-TEST_F(SurfacePictureTest, LeavesUnknownGroundBlank) {
+TEST_F(SurfaceImage, LeavesUnknownGroundBlank) {
   const Picture picture =
       draw(tests::random_surface([](float x, float) { return x > 10 ? nan : -1.7f; }));
 
@@ -71,7 +71,7 @@ TEST_F(SurfacePictureTest, LeavesUnknownGroundBlank) {
   EXPECT_NE(color(picture, 5, 3), page_color);
 }
 
-TEST_F(SurfacePictureTest, GivesHeightsDifferentColours) {
+TEST_F(SurfaceImage, UsesDifferentColoursForHeights) {
   const Picture picture =
       draw(tests::random_surface([](float, float y) { return y > 0 ? -1.0f : -3.0f; }));
 
@@ -81,7 +81,7 @@ TEST_F(SurfacePictureTest, GivesHeightsDifferentColours) {
   EXPECT_GT(high.red, high.green);  // browns
 }
 
-TEST_F(SurfacePictureTest, LightsSlopesThatFallToTheUpperLeft) {
+TEST_F(SurfaceImage, BrightensSlopesThatDescendToTheUpperLeft) {
   const auto ridge = [](float x, float y) { return -0.2f * std::abs(x + y); };
 
   const Picture picture = draw(tests::random_surface(ridge));
@@ -90,7 +90,7 @@ TEST_F(SurfacePictureTest, LightsSlopesThatFallToTheUpperLeft) {
   EXPECT_GT(lightness(color(picture, 3.1, 3.2)), lightness(color(picture, -3.1, -3.2)) + 30);
 }
 
-TEST_F(SurfacePictureTest, IsPalerWhereTheSurfaceIsLessSure) {
+TEST_F(SurfaceImage, IsPalerWhereConfidenceIsLower) {
   GroundSurface surface = tests::random_surface([](float, float) { return -1.7f; });
   for (GroundSurface::Grid& grid : surface.start()) std::ranges::fill(grid.confidences, 0.2f);
   const Picture unsure = draw(surface);
@@ -100,7 +100,7 @@ TEST_F(SurfacePictureTest, IsPalerWhereTheSurfaceIsLessSure) {
   EXPECT_GT(lightness(color(unsure, 5.2, 5.3)), lightness(color(sure, 5.2, 5.3)) + 10);
 }
 
-TEST_F(SurfacePictureTest, DrawsALineAtEveryStepOfHeight) {
+TEST_F(SurfaceImage, DrawsALineAtEachContourHeight) {
   // From -4 m behind to 0 m ahead: lines half a metre, that is 5 m, apart.
   const Picture picture = draw(tests::random_surface([](float x, float) { return -2 + 0.1f * x; }));
 
@@ -110,7 +110,7 @@ TEST_F(SurfacePictureTest, DrawsALineAtEveryStepOfHeight) {
     EXPECT_FALSE(has_line(picture, x, 12.3)) << x;
 }
 
-TEST_F(SurfacePictureTest, ShowsWhereTheSurfaceIsSureUnlessARangeIsAsked) {
+TEST_F(SurfaceImage, ShowsTheConfidentAreaUnlessARangeIsGiven) {
   GroundSurface surface = tests::random_surface([](float, float) { return -1.7f; },
                                                 std::vector<tests::GridSize>{{1, 128}});
   GroundSurface::Grid& grid = surface.start()[0];
@@ -128,7 +128,7 @@ TEST_F(SurfacePictureTest, ShowsWhereTheSurfaceIsSureUnlessARangeIsAsked) {
   EXPECT_EQ(suited.cut({0, 0, 800, 890}), draw(surface).cut({0, 0, 800, 890}));
 }
 
-TEST_F(SurfacePictureTest, OfTheSameGroundIsTheSameFile) {
+TEST_F(SurfaceImage, IsDeterministic) {
   const GroundSurface surface =
       tests::random_surface([](float x, float y) { return std::sin(x / 5) * std::cos(y / 4); });
   draw(surface);
@@ -138,17 +138,17 @@ TEST_F(SurfacePictureTest, OfTheSameGroundIsTheSameFile) {
   EXPECT_EQ(bytes_of(png_), first);
 }
 
-TEST_F(SurfacePictureTest, DrawsGroundOfWhichNothingIsKnown) {
+TEST_F(SurfaceImage, DrawsASurfaceWithoutKnownGround) {
   const Picture picture = draw(tests::random_surface([](float, float) { return nan; }));
 
   EXPECT_EQ(color(picture, 10, 10), page_color);
 }
 
-TEST_F(SurfacePictureTest, DrawsGroundOfAnyHeight) {
+TEST_F(SurfaceImage, DrawsGroundOfAnyHeight) {
   draw(tests::random_surface([](float x, float) { return x > 0 ? 1e4f : -1e4f; }));
 }
 
-TEST_F(SurfacePictureTest, RefusesAnEmptySurface) {
+TEST_F(SurfaceImage, RejectsAnEmptySurface) {
   const Status status = draw_surface(png_, GroundSurface(), options_);
 
   EXPECT_EQ(status.code(), StatusCode::invalid_argument);
@@ -156,7 +156,7 @@ TEST_F(SurfacePictureTest, RefusesAnEmptySurface) {
   EXPECT_FALSE(std::filesystem::exists(png_));
 }
 
-TEST_F(SurfacePictureTest, RefusesSizesAndRangesThatAreNotAllowed) {
+TEST_F(SurfaceImage, RejectsSizesAndRangesOutOfLimits) {
   const GroundSurface surface = tests::random_surface([](float, float) { return 0.0f; });
   options_.width = 100;
   EXPECT_EQ(draw_surface(png_, surface, options_).message(),
@@ -166,7 +166,7 @@ TEST_F(SurfacePictureTest, RefusesSizesAndRangesThatAreNotAllowed) {
   EXPECT_EQ(draw_surface(png_, surface, options_).code(), StatusCode::invalid_argument);
 }
 
-TEST_F(SurfacePictureTest, SaysWhereAFileCannotBeWritten) {
+TEST_F(SurfaceImage, ReportsThePathThatCannotBeWritten) {
   const GroundSurface surface = tests::random_surface([](float, float) { return 0.0f; });
 
   EXPECT_EQ(draw_surface(folder_ / "missing/ground.png", surface, options_).code(),

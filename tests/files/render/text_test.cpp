@@ -37,7 +37,7 @@ TEST(PrintableText, ReplacesEveryByteThatIsNotUtf8) {
   EXPECT_EQ(printable("\xff"), "?");
 }
 
-TEST(Text, OfASystemWithoutFontsKeepsToAscii) {
+TEST(Text, UsesOnlyAsciiWithoutFonts) {
   const auto is_ascii_without_fonts = [] {
     const io::TemporaryFolder folder;
     io::put_file(folder / "no-fonts.conf", "<fontconfig/>");
@@ -63,9 +63,9 @@ class FittedText : public testing::Test {
   }
 };
 
-TEST_F(FittedText, IsLeftAloneWhereItFits) { EXPECT_EQ(fit("scan.bin", 500), "scan.bin"); }
+TEST_F(FittedText, IsUnchangedIfItFits) { EXPECT_EQ(fit("scan.bin", 500), "scan.bin"); }
 
-TEST_F(FittedText, KeepsBeginningAndEnd) {
+TEST_F(FittedText, KeepsStartAndEnd) {
   const std::string text = fit("a_very_long_name_of_a_folder/and_of_a_scan_000123.bin", 200);
 
   EXPECT_THAT(text, StartsWith("a_very"));
@@ -82,7 +82,7 @@ TEST_F(FittedText, IsNotCutWithinACharacter) {
   }
 }
 
-class HeadedPicture : public PictureTest {
+class BirdsEyeHeading : public PictureTest {
  protected:
   // Pixels above the panel that are not blank, and of them those in the right margin.
   std::pair<std::size_t, std::size_t> ink(const std::string& title) {
@@ -98,19 +98,19 @@ class HeadedPicture : public PictureTest {
   }
 };
 
-TEST_F(HeadedPicture, ShowsItsTitle) {
+TEST_F(BirdsEyeHeading, ShowsItsTitle) {
   EXPECT_EQ(ink("").first, 0);
   EXPECT_GT(ink("scan.bin").first, 200);
 }
 
-TEST_F(HeadedPicture, KeepsALongTitleOffTheMargin) {
+TEST_F(BirdsEyeHeading, KeepsALongTitleOutOfTheMargin) {
   const auto [all, in_margin] = ink(std::string(10000, 'W'));
 
   EXPECT_GT(all, 200);
   EXPECT_EQ(in_margin, 0);
 }
 
-TEST_F(HeadedPicture, TakesAnyBytesForATitle) {
+TEST_F(BirdsEyeHeading, AcceptsAnyBytesAsTitle) {
   EXPECT_GT(ink(std::string("\xff\xfe\n\0 name", 9)).first, 50);
 }
 

@@ -18,9 +18,9 @@ namespace {
 
 constexpr Color teal{9, 77, 62};  // that of ground patches on the panel
 
-class ZonedPicture : public PictureTest {
+class BirdsEyeZones : public PictureTest {
  protected:
-  ZonedPicture() {
+  BirdsEyeZones() {
     config_.min_range = 4;
     config_.zones = {{.ring_radii = {10, 20}, .sectors = 8}, {.ring_radii = {40}, .sectors = 16}};
     options_.zones = &config_;
@@ -39,7 +39,7 @@ class ZonedPicture : public PictureTest {
   PatchworkConfig config_;
 };
 
-TEST_F(ZonedPicture, HasALineAtEachRing) {
+TEST_F(BirdsEyeZones, HasALineAtEachRing) {
   const Picture picture = draw({});
 
   for (const double radius : {4.0, 10.0, 20.0})
@@ -48,7 +48,7 @@ TEST_F(ZonedPicture, HasALineAtEachRing) {
     EXPECT_EQ(at(picture, radius, 70), panel_color);
 }
 
-TEST_F(ZonedPicture, HasALineAtEachSectorOfItsZone) {
+TEST_F(BirdsEyeZones, HasALineAtEachSectorOfAZone) {
   const Picture picture = draw({});
 
   for (int line = 0; line < 8; ++line) EXPECT_GT(at(picture, 15, 45 * line).red, 30) << line;
@@ -56,7 +56,7 @@ TEST_F(ZonedPicture, HasALineAtEachSectorOfItsZone) {
   EXPECT_EQ(at(picture, 15, 22.5), panel_color);
 }
 
-TEST_F(ZonedPicture, FillsABinByItsVerdict) {
+TEST_F(BirdsEyeZones, FillsABinByItsStatus) {
   options_.tint_patches = true;
   LabelledScan scan;
   scan.result.mutable_patches() = {
@@ -74,7 +74,7 @@ TEST_F(ZonedPicture, FillsABinByItsVerdict) {
   EXPECT_EQ(at(picture, 30, 78.75), panel_color);
 }
 
-TEST_F(ZonedPicture, OfANarrowFieldOfViewHasLinesAndBinsWithinItAlone) {
+TEST_F(BirdsEyeZones, HasLinesAndBinsOnlyWithinANarrowFieldOfView) {
   config_.field_of_view = {.begin = -60, .width = 120};
   options_.tint_patches = true;
   LabelledScan scan;
@@ -97,14 +97,14 @@ TEST_F(ZonedPicture, OfANarrowFieldOfViewHasLinesAndBinsWithinItAlone) {
   }
 }
 
-TEST_F(ZonedPicture, FillsBinsOnlyOnRequest) {
+TEST_F(BirdsEyeZones, FillsBinsOnlyOnRequest) {
   LabelledScan scan;
   scan.result.mutable_patches() = {{.zone = 0, .ring = 1, .sector = 0, .verdict = Verdict::ground}};
 
   EXPECT_EQ(at(draw(scan), 15, -157.5), panel_color);
 }
 
-TEST_F(ZonedPicture, GivesEachVerdictOnABinAColourOfItsOwn) {
+TEST_F(BirdsEyeZones, UsesADifferentColourForEachStatusOfABin) {
   options_.tint_patches = true;
   std::vector<Color> colors = {panel_color};
   for (const Verdict verdict : {Verdict::ground, Verdict::ground_flat, Verdict::too_few_points,
@@ -118,7 +118,7 @@ TEST_F(ZonedPicture, GivesEachVerdictOnABinAColourOfItsOwn) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(colors[i] == colors[j]) << i << " and " << j;
 }
 
-TEST_F(ZonedPicture, KnowsEveryVerdictButThoseOfSurface) {
+TEST_F(BirdsEyeZones, SupportsEveryStatusExceptThoseOfSurface) {
   for (std::uint16_t code = 0; std::string_view("unknown") != to_string(Verdict{code}); ++code) {
     const Verdict verdict{code};
     const bool is_of_surface = verdict == Verdict::mixed || verdict == Verdict::off_surface;

@@ -33,7 +33,7 @@ Vector3 level(int degrees) {
   return {std::cos(angle), std::sin(angle), 0};
 }
 
-TEST(Air, DustSendsBackWhatItDoesNotLetThrough) {
+TEST(Air, DustReturnsTheLightThatItDoesNotTransmit) {
   const Place place;
   const Noise noise = dusty(0.15);
   const Air air(noise, place.sensor, place.surroundings, place.pose, 1);
@@ -57,7 +57,7 @@ TEST(Air, DustSendsBackWhatItDoesNotLetThrough) {
   EXPECT_GT(through_dust, 10);
 }
 
-TEST(Air, ACloudLiesBehindTheVehicle) {
+TEST(Air, DustCloudIsBehindTheVehicle) {
   const Place place;
   Noise noise = dusty(0.5);
   noise.dust_clouds = 1;
@@ -69,7 +69,7 @@ TEST(Air, ACloudLiesBehindTheVehicle) {
   }
 }
 
-TEST(Air, OfAClearDayIsNotThere) {
+TEST(Air, ClearAirHasNoEffect) {
   const Place place;
   const Noise noise{};
   const Air air(noise, place.sensor, place.surroundings, place.pose, 1);
@@ -80,7 +80,7 @@ TEST(Air, OfAClearDayIsNotThere) {
   }
 }
 
-TEST(Air, NothingInItIsFartherThanTheBeamGoes) {
+TEST(Air, ReturnsAreNoFartherThanTheEndOfTheBeam) {
   const Place place;
   Noise noise = dusty(2);
   noise.rain_rate = 0.5;

@@ -32,7 +32,7 @@ Sensor small_grid() {
           .max_range = 100};
 }
 
-TEST(Beams, HaveLengthOneForEverySensor) {
+TEST(Beams, HaveUnitLengthForEverySensor) {
   for (const Sensor& sensor : Sensor::known()) {
     const Beams beams(sensor);
     const std::size_t rows = sensor.draws_rosette() ? 1 : sensor.elevations.size();
@@ -41,7 +41,7 @@ TEST(Beams, HaveLengthOneForEverySensor) {
   }
 }
 
-TEST(Beams, OfATurnAreEvenlySpacedAndMeetNoneTwice) {
+TEST(Beams, RevolutionIsEvenlySpacedWithoutDuplicates) {
   const Sensor& sensor = Sensor::named("vlp-16");
   const Beams beams(sensor);
 
@@ -52,7 +52,7 @@ TEST(Beams, OfATurnAreEvenlySpacedAndMeetNoneTwice) {
   EXPECT_NEAR(elevation_of(beams[beams.size() - 1]), -15, 1e-9);
 }
 
-TEST(Beams, OfAGridReachBothEdgesOfItsFieldOfView) {
+TEST(Beams, GridReachesBothEdgesOfTheFieldOfView) {
   const Beams beams(small_grid());
 
   ASSERT_EQ(beams.size(), 15U);
@@ -67,7 +67,7 @@ TEST(Beams, OfAGridReachBothEdgesOfItsFieldOfView) {
   }
 }
 
-TEST(Beams, OfASingleFiringPointWhereTheFieldOfViewBegins) {
+TEST(Beams, SingleFiringPointsToTheStartOfTheFieldOfView) {
   Sensor sensor = small_grid();
   sensor.firings = 1;
 
@@ -77,7 +77,7 @@ TEST(Beams, OfASingleFiringPointWhereTheFieldOfViewBegins) {
   EXPECT_NEAR(azimuth_of(beams[0]), -30, 1e-9);
 }
 
-TEST(Beams, OfARosetteFillItsFieldOfViewAndDoNotLeaveIt) {
+TEST(Beams, RosetteFillsTheFieldOfViewAndStaysInside) {
   const Sensor& sensor = Sensor::named("livox-avia");
   constexpr std::size_t cells = 12;
   std::array<std::array<int, cells>, cells> hits{};
@@ -108,7 +108,7 @@ TEST(Beams, OfARosetteFillItsFieldOfViewAndDoNotLeaveIt) {
   }
 }
 
-TEST(Beams, OfARosetteBeginWhereTheScanBeforeEnded) {
+TEST(Beams, RosetteContinuesWhereThePreviousScanEnded) {
   const Sensor& sensor = Sensor::named("livox-avia");
   const Beams first(sensor, 0);
   const Beams second(sensor, 1);
@@ -118,7 +118,7 @@ TEST(Beams, OfARosetteBeginWhereTheScanBeforeEnded) {
   EXPECT_GT(length(second[0] - first[0]), 10 * step);
 }
 
-TEST(Beams, OfRingsAreTheSameInEveryScan) {
+TEST(Beams, RingsAreTheSameInEveryScan) {
   const Sensor& sensor = Sensor::named("hdl-32e");
   const Beams first(sensor, 0);
   const Beams third(sensor, 2);

@@ -46,7 +46,7 @@ TEST(Mounting, AxesStayAtRightAngles) {
   EXPECT_NEAR(pose.up.z, std::cos(25 * radians) * std::cos(15 * radians), 1e-12);
 }
 
-TEST(Mounting, HeightsAreMeasuredAlongTheVehicleHoweverTheSensorLeans) {
+TEST(Mounting, HeightsAreMeasuredInTheVehicleFrameForAnyTilt) {
   const Sensor& sensor = Sensor::named("os0-128");
   const Drive drive(*find_scene_kind("flat_street"), sensor,
                     {.height = 1.2, .pitch = 20, .roll = -10}, 1);
@@ -100,7 +100,7 @@ SimulatedScan scan_at(int stop, const Noise& noise = no_noise()) {
   return drive.scan(scene, noise, stop);
 }
 
-TEST(Moving, ThingsAreHitWhereTheyAreAtTheStop) {
+TEST(Moving, ObjectsAreHitAtTheirPositionAtTheStop) {
   for (const int stop : {0, 1, 4}) {
     const SimulatedScan scan = scan_at(stop);
     ASSERT_EQ(scan.size(), 500U);
@@ -111,7 +111,7 @@ TEST(Moving, ThingsAreHitWhereTheyAreAtTheStop) {
   }
 }
 
-TEST(Moving, ThingsAreHiddenBehindWhatStands) {
+TEST(Moving, ObjectsAreHiddenBehindStaticOnes) {
   const SimulatedScan scan = scan_at(8);
 
   ASSERT_EQ(scan.size(), 500U);
@@ -121,7 +121,7 @@ TEST(Moving, ThingsAreHiddenBehindWhatStands) {
   }
 }
 
-TEST(Moving, ThingsAreSeenInMirrors) {
+TEST(Moving, ObjectsAppearInMirrors) {
   Mesh pane;
   add_wall(pane, 10, {.semantic = SemanticClass::building, .mirror = 1});
   const Scene scene = flat_scene(pane);
@@ -142,7 +142,7 @@ TEST(Moving, ThingsAreSeenInMirrors) {
   }
 }
 
-TEST(Moving, NothingIsTheSameAsNoMoving) {
+TEST(Moving, WithoutObjectsEqualsTheStaticScene) {
   const Scene scene = flat_scene();
   const RayCaster nothing{Mesh{}};
   const Sensor& sensor = Sensor::named("vlp-16");

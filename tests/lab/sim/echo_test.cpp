@@ -35,7 +35,7 @@ Noise with(Noise noise, std::string_view weather) {
   return noise;
 }
 
-TEST(Echoes, GroundOfALevelRoadLiesOnItWithinTheNoiseForEverySensor) {
+TEST(Returns, GroundPointsAreOnALevelRoadWithinTheNoiseForEverySensor) {
   const Scene scene = flat_scene();
   for (const Sensor& sensor : Sensor::known()) {
     const SimulatedScan scan = simulate(scene, sensor, Noise{}, above_origin(sensor.height), 3);
@@ -95,7 +95,7 @@ class EveryCondition : public testing::TestWithParam<Condition> {
   }
 };
 
-TEST_P(EveryCondition, WhatIsNoSurfaceIsAnOutlierAndStandsOffTheGround) {
+TEST_P(EveryCondition, NonSurfaceReturnsAreOutliersAwayFromTheGround) {
   const SimulatedScan scan = EveryCondition::scan();
 
   ASSERT_EQ(scan.echoes.size(), scan.size());
@@ -114,7 +114,7 @@ TEST_P(EveryCondition, WhatIsNoSurfaceIsAnOutlierAndStandsOffTheGround) {
   }
 }
 
-TEST_P(EveryCondition, HasItsKindsOfEchoesAndNoOthers) {
+TEST_P(EveryCondition, HasItsKindsOfReturnsAndNoOthers) {
   const SimulatedScan scan = EveryCondition::scan();
   const Noise set = noise();
 
@@ -126,7 +126,7 @@ TEST_P(EveryCondition, HasItsKindsOfEchoesAndNoOthers) {
   EXPECT_EQ(count(scan, EchoKind::none), 0);
 }
 
-TEST_P(EveryCondition, IsTheSameForAnyNumberOfThreads) {
+TEST_P(EveryCondition, IsBitIdenticalForAnyNumberOfThreads) {
   const SimulatedScan one = EveryCondition::scan(1);
   const SimulatedScan three = EveryCondition::scan(3);
 
@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Conditions, EveryCondition,
                            return condition.param.noise + "_" + condition.param.weather;
                          });
 
-TEST(Echoes, GlassAtRightAnglesMirrorsATenthOfTheBeamsToBehindIt) {
+TEST(Returns, GlassAtRightAnglesMirrorsATenthOfTheBeams) {
   Mesh objects;
   add_wall(objects, 10, glass);
   add_wall(objects, -8, wall);
@@ -161,7 +161,7 @@ TEST(Echoes, GlassAtRightAnglesMirrorsATenthOfTheBeamsToBehindIt) {
   }
 }
 
-TEST(Echoes, GrazedGlassMirrorsMore) {
+TEST(Returns, GlassMirrorsMoreAtGrazingIncidence) {
   const auto share_mirrored = [](double along) {
     Mesh objects;  // a pane that is 2 m ahead at y = 0
     objects.add_quad({2 - 30 * along, -30, -1}, {2 + 30 * along, 30, -1}, {2 + 30 * along, 30, 20},
@@ -175,7 +175,7 @@ TEST(Echoes, GrazedGlassMirrorsMore) {
   EXPECT_GT(share_mirrored(6), 2 * share_mirrored(0));
 }
 
-TEST(Echoes, AWetRoadShowsWhatStandsOnItBelowItself) {
+TEST(Returns, WetRoadShowsObjectsMirroredBelowIt) {
   Mesh objects;
   add_wall(objects, 20, wall);
   const Scene scene = flat_scene(objects);
@@ -194,7 +194,7 @@ TEST(Echoes, AWetRoadShowsWhatStandsOnItBelowItself) {
   }
 }
 
-TEST(Echoes, MixedPixelsLieBetweenTheSurfacesOfAnEdgeAtTheirRate) {
+TEST(Returns, MixedPixelsAreBetweenTheSurfacesOfAnEdgeAtTheirRate) {
   Mesh objects;
   add_wall(objects, 11, wall);
   for (double y = -1; y < 1; y += 0.1) {  // a fence of pales, 5 cm wide, 5 cm apart
@@ -217,7 +217,7 @@ TEST(Echoes, MixedPixelsLieBetweenTheSurfacesOfAnEdgeAtTheirRate) {
   }
 }
 
-TEST(Echoes, OneSurfaceHasNoMixedPixelsHoweverItIsGrazed) {
+TEST(Returns, SingleSurfaceHasNoMixedPixelsAtAnyIncidence) {
   Noise noise = no_noise();
   noise.mixed_rate = 1;
   const Sensor& sensor = Sensor::named("hdl-64e");
@@ -228,7 +228,7 @@ TEST(Echoes, OneSurfaceHasNoMixedPixelsHoweverItIsGrazed) {
   EXPECT_EQ(count(scan, EchoKind::mixed), 0);
 }
 
-TEST(Echoes, RainSendsItsShareOfOpenBeamsBackAndHidesBehindWalls) {
+TEST(Returns, RainReturnsItsFractionOfOpenBeamsAndNoneBehindWalls) {
   Noise noise = no_noise();
   noise.rain_rate = 0.1;
   Mesh objects;
@@ -243,7 +243,7 @@ TEST(Echoes, RainSendsItsShareOfOpenBeamsBackAndHidesBehindWalls) {
   for (std::size_t i = 0; i < enclosed.size(); ++i) ASSERT_LT(point_of(enclosed, i).x, 3 + 1e-4);
 }
 
-TEST(Echoes, RainTakesLightFromWhatIsFar) {
+TEST(Returns, RainAttenuatesDistantReturns) {
   Mesh objects;
   add_wall(objects, 60, {.semantic = SemanticClass::building, .reflectivity = 0.02F});
   Noise rain{};
@@ -252,7 +252,7 @@ TEST(Echoes, RainTakesLightFromWhatIsFar) {
   EXPECT_LT(look_ahead(objects, rain).size(), look_ahead(objects, Noise{}).size() * 9 / 10);
 }
 
-TEST(Echoes, CrosstalkComesInStreaksAtItsRate) {
+TEST(Returns, CrosstalkFormsStreaksAtItsRate) {
   Noise noise = no_noise();
   noise.crosstalk_rate = 0.1;
   double hits = 0;
@@ -275,7 +275,7 @@ TEST(Echoes, CrosstalkComesInStreaksAtItsRate) {
   EXPECT_GT(steps, 0.9 * (hits - bursts));
 }
 
-TEST(Echoes, BlocksAreLostAtTheirRateAndWhole) {
+TEST(Returns, LostBlocksAreCompleteAndMatchTheirRate) {
   Mesh objects;
   add_wall(objects, 10, wall);
   Noise noise = no_noise();
@@ -296,7 +296,7 @@ TEST(Echoes, BlocksAreLostAtTheirRateAndWhole) {
   EXPECT_GT(lost, 15 * beginnings);
 }
 
-TEST(Echoes, BeamsWithoutEchoAreKeptAtTheOriginIfAskedFor) {
+TEST(Returns, MissingReturnsAreKeptAtTheOriginOnRequest) {
   Mesh objects;
   add_wall(objects, 50, wall);
   const Scene scene = flat_scene(objects);

@@ -30,7 +30,7 @@ HeightAt ramp(double rise, double width) {
   };
 }
 
-TEST(StepView, OfARampHasItsRiseAndFourFifthsOfItsWidth) {
+TEST(StepView, RampHasItsRiseAndFourFifthsOfItsWidth) {
   for (const double rise : {0.1, -1.0}) {
     for (const double width : {0.05, 0.5, 1.0}) {
       const StepView view = view_step(place, ramp(rise, width));
@@ -41,21 +41,21 @@ TEST(StepView, OfARampHasItsRiseAndFourFifthsOfItsWidth) {
   }
 }
 
-TEST(StepView, OfARampThatReachesFurtherHasOnlyThePartBesideTheStep) {
+TEST(StepView, LongRampCountsOnlyThePartNextToTheStep) {
   const StepView view = view_step(place, ramp(0.2, 2.04));
 
   EXPECT_NEAR(view.rise, 0.1, 1e-9);
   EXPECT_NEAR(view.width.value(), 0.8 * 1.02, 1e-9);
 }
 
-TEST(StepView, OfLevelGroundHasNoWidth) {
+TEST(StepView, LevelGroundHasNoWidth) {
   const StepView view = view_step(place, [](double, double) { return -1.7; });
 
   EXPECT_EQ(view.rise, 0);
   EXPECT_FALSE(view.width);
 }
 
-TEST(StepView, IsNotKnownWhereOneSideIsNot) {
+TEST(StepView, IsUnknownIfOneSideIsUnknown) {
   const auto half = [](double, double y) {
     return y > place.y + 0.3 ? std::numeric_limits<double>::quiet_NaN() : -1.7;
   };
@@ -79,7 +79,7 @@ TEST(StepView, HasNoWidthAcrossAGap) {
 }
 
 // Cells of 0.25 m: a kerb between two rows of cell centres is spread between these.
-TEST(StepView, OfAKerbInAGridOfQuarterMetresIsSpreadBetweenItsCells) {
+TEST(StepView, KerbIsSpreadOverTheCellsOfAQuarterMetreGrid) {
   flagstone::GroundSurface surface;
   std::vector<flagstone::GroundSurface::Grid>& grids = surface.start();
   grids.resize(1);
@@ -100,7 +100,7 @@ TEST(StepView, OfAKerbInAGridOfQuarterMetresIsSpreadBetweenItsCells) {
   EXPECT_NEAR(view.width.value(), 0.2, 1e-3);
 }
 
-TEST(SeenSides, AreThoseWithAPointOfTheGroundNearTheStep) {
+TEST(SeenSides, HaveAGroundPointNearTheStep) {
   const auto sides = [](const std::vector<float>& points) {
     const SeenSides seen = seen_sides(place, points);
     return std::pair(seen.before, seen.behind);
@@ -115,7 +115,7 @@ TEST(SeenSides, AreThoseWithAPointOfTheGroundNearTheStep) {
   EXPECT_EQ(sides({5, 3.01F}), std::pair(false, false)) << "on the face";
 }
 
-TEST(StepPlaces, ShowTheirStepInTheTrueHeightsOfAnySensor) {
+TEST(StepPlaces, ShowTheStepInTheTrueHeightsOfEverySensor) {
   const Drive drive(*find_scene_kind("steps"), Sensor::named("hdl-64e"), 4);
   const Scene scene = drive.scene();
   for (const std::size_t frame : {2U, 7U}) {
@@ -136,7 +136,7 @@ TEST(StepPlaces, ShowTheirStepInTheTrueHeightsOfAnySensor) {
   }
 }
 
-TEST(StepPlaces, OfAKerbAreAsSharpAsTheKerb) {
+TEST(StepPlaces, KerbIsAsSharpAsDefined) {
   const Drive drive(*find_scene_kind("steps"), Sensor::named("hdl-64e"), 4);
   const Scene scene = drive.scene();
   const Frame& pose = drive.poses()[3];

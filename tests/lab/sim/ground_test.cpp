@@ -36,14 +36,14 @@ TEST(Ground, InterpolatesBetweenItsLines) {
   EXPECT_DOUBLE_EQ(ground.height(1.5, 1), 2.5);
 }
 
-TEST(Ground, KnowsWhatLiesWhere) {
+TEST(Ground, ReportsTheClassAtAPosition) {
   const Ground ground = bent_ground();
 
   EXPECT_EQ(ground.surface(0.5, 1).semantic, SemanticClass::road);
   EXPECT_EQ(ground.surface(1.5, 1).semantic, SemanticClass::terrain);
 }
 
-TEST(Ground, CoversItsBentOutlineOnly) {
+TEST(Ground, CoversOnlyItsBentOutline) {
   const Ground ground = bent_ground();
 
   EXPECT_TRUE(ground.covers(2, 2.9));
@@ -51,12 +51,12 @@ TEST(Ground, CoversItsBentOutlineOnly) {
   EXPECT_FALSE(ground.covers(2.1, 2));
 }
 
-TEST(Ground, RefusesLinesThatDoNotAscend) {
+TEST(Ground, RejectsLinesThatDoNotAscend) {
   EXPECT_THROW(Ground({.x = {0, 0}, .offset = {0, 0}, .t = {0, 1}}, {0, 0, 0, 0}, {road}),
                std::invalid_argument);
 }
 
-TEST(Ground, RefusesAMissingHeight) {
+TEST(Ground, RejectsAMissingHeight) {
   EXPECT_THROW(Ground({.x = {0, 1}, .offset = {0, 0}, .t = {0, 1}}, {0, 0, 0}, {road}),
                std::invalid_argument);
 }
@@ -76,7 +76,7 @@ StreetShape hilly_street() {
   return shape;
 }
 
-TEST(Ground, ItsMeshHasTheHeightsItTells) {
+TEST(Ground, MeshHasTheSameHeights) {
   const Ground ground = make_ground(hilly_street());
   Mesh mesh;
   ground.add_to(mesh);
@@ -134,7 +134,7 @@ TEST(Street, GradeChangesSmoothlyAhead) {
   for (int x = -38; x < 38; ++x) EXPECT_LT(std::abs(grade(x + 1) - grade(x)), 0.003);
 }
 
-TEST(Street, GradesFollowOneAnotherInAnyNumber) {
+TEST(Street, AcceptsAnyNumberOfGrades) {
   StreetShape shape;
   shape.grade = 0.2;
   shape.grade_changes = {{.change = -0.35, .x = -50, .length = 6}, {.change = 0.3, .x = 40}};
@@ -163,7 +163,7 @@ Ground slope_ground() {
   return {{.x = {-10, 10}, .offset = {0, 0}, .t = {-10, 10}}, {-1, -1, 1, 1}, {soil}};
 }
 
-TEST(FirstCrossing, OfAVerticalRayIsTheGroundBelow) {
+TEST(FirstCrossing, VerticalRayHitsTheGroundBelow) {
   const Ground ground = step_ground();
 
   EXPECT_EQ(ground.first_crossing({1, -3, 5}, {0, 0, -1}), 5);
@@ -177,7 +177,7 @@ TEST(FirstCrossing, IsZeroOnTheGroundItself) {
   EXPECT_EQ(step_ground().first_crossing({1, 3, 1}, {0, 0, 1}), 0);
 }
 
-TEST(FirstCrossing, IsTheFirstOfSeveral) {
+TEST(FirstCrossing, IsTheNearestOfSeveral) {
   // Leans by 0.1 m a metre, the face by 0.02: it leaves the upper level through the face again.
   const Ground ground = step_ground();
   const Vector3 leaning{0, -0.1, -1};
@@ -188,7 +188,7 @@ TEST(FirstCrossing, IsTheFirstOfSeveral) {
       << "the face itself";
 }
 
-TEST(FirstCrossing, IsNothingOffTheGridOrForARayThatLeavesIt) {
+TEST(FirstCrossing, IsEmptyOffTheGridAndForRaysThatLeaveIt) {
   const Ground ground = step_ground();
 
   EXPECT_EQ(ground.first_crossing({11, 0, 5}, {0, 0, -1}), std::nullopt);
@@ -205,7 +205,7 @@ Ground steeper_street() {
   return make_ground(shape);
 }
 
-TEST(FirstCrossing, LiesOnTheGroundAndNothingOfTheGroundBefore) {
+TEST(FirstCrossing, IsOnTheGroundWithNoGroundInFront) {
   const Ground ground = steeper_street();
   Random random(7);
   for (int ray = 0; ray < 5'000; ++ray) {
@@ -241,7 +241,7 @@ TEST(TrueGround, IsMeasuredAlongTheZAxisOfATiltedSensor) {
   EXPECT_NEAR(std::acos(pose.up.z), slope, 1e-12);
 }
 
-TEST(TrueGround, OfAPointBelowTheGroundIsTheGroundAboveIt) {
+TEST(TrueGround, PointBelowTheGroundGetsTheGroundAboveIt) {
   const Frame level{.origin = {0, 0, 2}};
 
   const std::vector<float> heights =
@@ -250,7 +250,7 @@ TEST(TrueGround, OfAPointBelowTheGroundIsTheGroundAboveIt) {
   EXPECT_EQ(heights, (std::vector<float>{-1, -2}));
 }
 
-TEST(TrueGround, IsNotKnownWhereTheGroundDoesNotReach) {
+TEST(TrueGround, IsUnknownBeyondTheGround) {
   const Frame level{.origin = {0, 0, 2}};
 
   const std::vector<float> heights =
@@ -260,7 +260,7 @@ TEST(TrueGround, IsNotKnownWhereTheGroundDoesNotReach) {
   EXPECT_TRUE(std::isnan(heights[0]));
 }
 
-TEST(TrueGround, IsNotKnownForABeamWithoutEcho) {
+TEST(TrueGround, IsUnknownForAMissingReturn) {
   const Frame level{.origin = {0, 0, 2}};
 
   const std::vector<float> heights =
@@ -272,7 +272,7 @@ TEST(TrueGround, IsNotKnownForABeamWithoutEcho) {
 
 class TrueGroundOfScene : public testing::TestWithParam<std::string_view> {};
 
-TEST_P(TrueGroundOfScene, IsWhereGroundPointsWithoutNoiseAre) {
+TEST_P(TrueGroundOfScene, MatchesGroundPointsWithoutNoise) {
   Sensor sensor = Sensor::named("hdl-64e");
   sensor.firings = 360;
   const Drive drive(*find_scene_kind(GetParam()), sensor, 3);
@@ -295,7 +295,7 @@ TEST_P(TrueGroundOfScene, IsWhereGroundPointsWithoutNoiseAre) {
   }
 }
 
-TEST(StreetGround, IsWhereTheGroundPointsOfThatStreetsScanAre) {
+TEST(StreetGround, MatchesTheGroundPointsOfAScan) {
   const SimulatedScan scan = simulate_street(3, 2);
 
   const std::vector<float> heights = street_ground(3, scan.xyzi);

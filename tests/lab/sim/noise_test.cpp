@@ -22,7 +22,7 @@ double share(Draw draw) {
   return hits / draws;
 }
 
-TEST(Noise, NoneLeavesRangeAndIntensityAlone) {
+TEST(Noise, NoneKeepsRangeAndIntensity) {
   Random random(1);
 
   EXPECT_EQ(measured_range(no_noise(), Sensor::named("hdl-64e"), 12.5, random), 12.5);
@@ -31,7 +31,7 @@ TEST(Noise, NoneLeavesRangeAndIntensityAlone) {
   EXPECT_FALSE(is_mirrored(no_noise(), 5, random));
 }
 
-TEST(Noise, RangeScattersByTheSensorsSigma) {
+TEST(Noise, RangeHasTheStandardDeviationOfTheSensor) {
   double squares = 0;
   for (std::uint64_t i = 0; i < draws; ++i) {
     Random random = Random::stream(9, i);
@@ -42,14 +42,14 @@ TEST(Noise, RangeScattersByTheSensorsSigma) {
   EXPECT_NEAR(std::sqrt(squares / draws), 0.02, 0.001);
 }
 
-TEST(Noise, NearEchoesAreLostAtTheDropRateOnly) {
+TEST(Noise, NearReturnsAreLostOnlyAtTheDropRate) {
   const double detected =
       share([](Random& random) { return is_detected(Noise{}, 3, 0.5, 1, random); });
 
   EXPECT_NEAR(detected, 1 - Noise{}.drop_rate, 0.01);
 }
 
-TEST(Noise, HalfOfTheEchoesOfHalfDetectionStrengthAreLost) {
+TEST(Noise, HalfOfTheReturnsAtHalfDetectionStrengthAreLost) {
   const Noise noise{.drop_rate = 0};
   const double range = std::sqrt(0.5 / noise.half_detection);
 
@@ -77,7 +77,7 @@ TEST(Noise, IntensityStaysWithinZeroAndOne) {
   }
 }
 
-TEST(Noise, MirroringGetsRarerWithRange) {
+TEST(Noise, MirroringDecreasesWithRange) {
   const auto mirrored = [](double range) {
     return share(
         [&](Random& random) { return is_mirrored(Noise{.ghost_rate = 1}, range, random); });

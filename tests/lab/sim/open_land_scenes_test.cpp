@@ -42,7 +42,7 @@ double distance_to_route(const std::vector<Stop>& route, double x, double y) {
 
 class OpenLand : public testing::TestWithParam<std::string> {};
 
-TEST_P(OpenLand, WhatMovesGoesOnBetweenStopsAndKeepsClearOfThePath) {
+TEST_P(OpenLand, MovingObjectsMoveBetweenStopsAndStayClearOfThePath) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const Landscape land = land_of(GetParam(), seed);
     for (const int stop : {0, 4, 9}) {
@@ -103,7 +103,7 @@ TEST(PloughedField, FurrowsAreFifteenToTwentyFiveCentimetresDeepWhereTheVehicleC
   }
 }
 
-TEST(Embankment, ListsRisesThatTheGroundHasFromEndToEnd) {
+TEST(Embankment, ListedStepsMatchTheGroundAlongTheirLength) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Landscape land = land_of("embankment", seed);
     for (const GroundStep& step : land.steps) {
@@ -116,7 +116,7 @@ TEST(Embankment, ListsRisesThatTheGroundHasFromEndToEnd) {
   }
 }
 
-TEST(Embankment, HasDropDamDitchAndCuttingBesideEveryRoute) {
+TEST(Embankment, HasDropDamDitchAndCuttingNextToEveryRoute) {
   struct Expected {
     std::string_view kind;
     double lowest, highest;
@@ -137,7 +137,7 @@ TEST(Embankment, HasDropDamDitchAndCuttingBesideEveryRoute) {
   }
 }
 
-TEST(ConstructionSite, HasAPitOfOneToThreeMetresBesideEveryRoute) {
+TEST(ConstructionSite, HasAPitOneToThreeMetresDeepNextToEveryRoute) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Landscape land = land_of("construction_site", seed);
     double deepest = 0;
@@ -152,7 +152,7 @@ TEST(ConstructionSite, HasAPitOfOneToThreeMetresBesideEveryRoute) {
   }
 }
 
-TEST(Park, HasAPondThatMirrorsBesideEveryRoute) {
+TEST(Park, HasAReflectivePondNextToEveryRoute) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Landscape land = land_of("park", seed);
     int water = 0;
@@ -170,7 +170,7 @@ Ground lawn() {
           {{.semantic = SemanticClass::terrain}}};
 }
 
-TEST(HighGrass, HidesTheGroundInPartAndLetsSomeBeamsReachIt) {
+TEST(HighGrass, HidesPartOfTheGround) {
   const Ground ground = lawn();
   for (const double height : {0.3, 0.8}) {
     Mesh mesh;
@@ -193,7 +193,7 @@ TEST(HighGrass, HidesTheGroundInPartAndLetsSomeBeamsReachIt) {
   }
 }
 
-TEST(ForestTrack, TrunksStandInTheWayOfManyLevelBeams) {
+TEST(ForestTrack, TrunksBlockManyLevelBeams) {
   const Drive drive(*find_scene_kind("forest_track"), Sensor::named("hdl-64e"), 1);
   const Scene scene = drive.scene();
   int trunks = 0;

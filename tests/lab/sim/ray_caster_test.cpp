@@ -47,13 +47,13 @@ TEST(RayCaster, HitsBothSidesOfATriangle) {
   EXPECT_TRUE(caster.cast({20, 0, 0}, {-1, 0, 0}, 0, far));
 }
 
-TEST(RayCaster, MissesWhatLiesBesideTheBeam) {
+TEST(RayCaster, MissesATriangleNextToTheBeam) {
   const RayCaster caster(triangle_ahead());
 
   EXPECT_FALSE(caster.cast({0, 1.1, 0}, {1, 0, 0}, 0, far));
 }
 
-TEST(RayCaster, SeesOnlyBetweenNearAndFar) {
+TEST(RayCaster, HitsOnlyBetweenNearAndFar) {
   const RayCaster caster(triangle_ahead());
 
   EXPECT_FALSE(caster.cast({0, 0, 0}, {1, 0, 0}, 0, 9.9));
@@ -76,7 +76,7 @@ TEST(RayCaster, HitsNothingInAnEmptyMesh) {
   EXPECT_FALSE(caster.cast({0, 0, 0}, {1, 0, 0}, 0, far));
 }
 
-TEST(RayCaster, RefusesATriangleWithoutItsVertex) {
+TEST(RayCaster, RejectsATriangleWithAMissingVertex) {
   Mesh mesh = triangle_ahead();
   mesh.add_triangle(Mesh::Triangle{0, 1, 3}, wall);
 

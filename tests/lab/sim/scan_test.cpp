@@ -65,7 +65,7 @@ double azimuth_of(Vector3 point) {
   return azimuth < -1e-4 ? azimuth + 360 : azimuth;
 }
 
-TEST(Scan, GroundPointsWithoutNoiseLieOnTheGround) {
+TEST(Scan, GroundPointsWithoutNoiseAreOnTheGround) {
   const Drive drive(3);
   const SimulatedScan scan = drive.scan(no_noise());
   std::size_t ground_points = 0;
@@ -77,7 +77,7 @@ TEST(Scan, GroundPointsWithoutNoiseLieOnTheGround) {
   EXPECT_GT(ground_points, 30'000U);
 }
 
-TEST(Scan, GroundPointsHaveTheClassOfTheGroundThere) {
+TEST(Scan, GroundPointsHaveTheClassOfTheGroundAtTheirPosition) {
   const Drive drive(1);
   const SimulatedScan scan = drive.scan(no_noise());
   std::size_t ground_points = 0;
@@ -93,7 +93,7 @@ TEST(Scan, GroundPointsHaveTheClassOfTheGroundThere) {
   EXPECT_LT(different, ground_points / 1'000);
 }
 
-TEST(Scan, OtherPointsWithoutNoiseDoNotLieBelowTheGround) {
+TEST(Scan, OtherPointsWithoutNoiseAreNotBelowTheGround) {
   const Drive drive(2);
   const SimulatedScan scan = drive.scan(no_noise());
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -101,7 +101,7 @@ TEST(Scan, OtherPointsWithoutNoiseDoNotLieBelowTheGround) {
   }
 }
 
-TEST(Scan, GhostsLieBelowTheGround) {
+TEST(Scan, GhostPointsAreBelowTheGround) {
   const Drive drive(3);
   const SimulatedScan scan = drive.scan(Noise{}, 3);
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -110,7 +110,7 @@ TEST(Scan, GhostsLieBelowTheGround) {
   }
 }
 
-TEST(Scan, HasAFewDozenGhostsMostlyWithinTenMetres) {
+TEST(Scan, HasAFewDozenGhostPointsMostlyWithinTenMetres) {
   constexpr double near = 10;
   std::size_t all = 0;
   std::size_t within = 0;
@@ -129,7 +129,7 @@ TEST(Scan, HasAFewDozenGhostsMostlyWithinTenMetres) {
   EXPECT_GT(2 * within, all);
 }
 
-TEST(Scan, HasNoGhostsWithoutNoise) {
+TEST(Scan, HasNoGhostPointsWithoutNoise) {
   const SimulatedScan scan = Drive(1).scan(no_noise());
 
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -137,7 +137,7 @@ TEST(Scan, HasNoGhostsWithoutNoise) {
   }
 }
 
-TEST(Scan, PointsLieOnTheSensorsBeamsInFiringOrder) {
+TEST(Scan, PointsAreOnTheBeamsOfTheSensorInFiringOrder) {
   const Drive drive(1);
   const SimulatedScan scan = drive.scan(Noise{});
   const double step = 360.0 / drive.sensor.firings;
@@ -157,7 +157,7 @@ TEST(Scan, PointsLieOnTheSensorsBeamsInFiringOrder) {
   EXPECT_EQ(beam_before, drive.sensor.elevations.size() - 1);
 }
 
-TEST(Scan, PointsLieWithinTheSensorsRange) {
+TEST(Scan, PointsAreWithinTheRangeOfTheSensor) {
   constexpr double rounding = 1e-4;
   const SimulatedScan scan = simulate_street(2);
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -167,7 +167,7 @@ TEST(Scan, PointsLieWithinTheSensorsRange) {
   }
 }
 
-TEST(Scan, ReportsNothingBeyondAShorterRange) {
+TEST(Scan, HasNoPointsBeyondAShorterRange) {
   Drive drive(1);
   drive.sensor.max_range = 10;
   const SimulatedScan scan = drive.scan(Noise{});
@@ -176,7 +176,7 @@ TEST(Scan, ReportsNothingBeyondAShorterRange) {
   for (std::size_t i = 0; i < scan.size(); ++i) ASSERT_LE(length(point_of(scan, i)), 10 + 1e-4);
 }
 
-TEST(Scan, IntensitiesLieBetweenZeroAndOne) {
+TEST(Scan, IntensitiesAreBetweenZeroAndOne) {
   const SimulatedScan scan = simulate_street(1);
 
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -201,7 +201,7 @@ TEST(Scan, MarkingsAreBrighterThanTheRoad) {
   EXPECT_GT(mean_intensity(SemanticClass::lane_marking), 1.5 * mean_intensity(SemanticClass::road));
 }
 
-TEST(Scan, IsTheSameOnEveryRunAndForAnyNumberOfThreads) {
+TEST(Scan, IsBitIdenticalOnEveryRunAndNumberOfThreads) {
   const Drive drive(4);
   const SimulatedScan one = drive.scan(Noise{}, 7, 1);
   for (const unsigned threads : {0U, 1U, 2U, 3U, 7U}) {
@@ -225,7 +225,7 @@ TEST(Scan, DiffersFromSeedToSeed) {
   EXPECT_NE(drive.scan(Noise{}, 1).xyzi, drive.scan(Noise{}, 2).xyzi) << "noise on one street";
 }
 
-TEST(Scan, HoldsEveryClassOfAStreet) {
+TEST(Scan, ContainsEveryClassOfAStreet) {
   std::set<SemanticClass> seen;
   for (const std::uint64_t seed : seeds) {
     const SimulatedScan scan = simulate_street(seed);
@@ -239,7 +239,7 @@ TEST(Scan, HoldsEveryClassOfAStreet) {
   EXPECT_EQ(seen, all);
 }
 
-TEST(Scan, LooksLikeOneOfAStreet) {
+TEST(Scan, ResemblesARealStreet) {
   for (const std::uint64_t seed : seeds) {
     const SimulatedScan scan = simulate_street(seed);
     std::size_t ground = 0;
@@ -260,7 +260,7 @@ TEST(Scan, LooksLikeOneOfAStreet) {
   }
 }
 
-TEST(Scan, SensorStandsAtItsHeightAboveTheRoad) {
+TEST(Scan, SensorIsAtItsHeightAboveTheRoad) {
   for (const std::uint64_t seed : seeds) {
     Random random = Random::stream(seed, 0);
     const Ground ground = make_ground(plan_street(random).shape);

@@ -61,7 +61,7 @@ double grade_of(const Frame& pose) {
 
 class EveryScene : public testing::TestWithParam<std::string> {};
 
-TEST_P(EveryScene, TruthIsExact) {
+TEST_P(EveryScene, GroundTruthIsExact) {
   const World world(GetParam());
   for (const int frame : {0, 5, 9}) {
     const Frame& pose = world.drive.poses()[static_cast<std::size_t>(frame)];
@@ -98,7 +98,7 @@ bool stands_clear(const RayCaster& world, const Frame& pose, double aside, doubl
   return true;
 }
 
-TEST_P(EveryScene, SensorStandsClearOfEverythingAndSeesGroundAheadAndBehind) {
+TEST_P(EveryScene, SensorIsClearOfObjectsAndSeesGroundAheadAndBehind) {
   const World world(GetParam(), 2);
   for (int frame = 0; frame < frames_per_drive; ++frame) {
     const Frame& pose = world.drive.poses()[static_cast<std::size_t>(frame)];
@@ -120,7 +120,7 @@ TEST_P(EveryScene, SensorStandsClearOfEverythingAndSeesGroundAheadAndBehind) {
   }
 }
 
-TEST_P(EveryScene, StopsLieFrameSpacingApartAtTheSensorsHeight) {
+TEST_P(EveryScene, StopsAreOneFrameSpacingApartAtTheSensorHeight) {
   for (const std::uint64_t seed : {1U, 2U}) {
     const Landscape landscape = kind_named(GetParam()).make(seed);
     const Drive drive = plan(GetParam(), seed);
@@ -135,7 +135,7 @@ TEST_P(EveryScene, StopsLieFrameSpacingApartAtTheSensorsHeight) {
   }
 }
 
-TEST_P(EveryScene, OtherSeedsDrawOtherWorlds) {
+TEST_P(EveryScene, DiffersBetweenSeeds) {
   const auto things = [](std::uint64_t seed) {
     const Landscape land = kind_named(GetParam()).make(seed);
     return land.furnish(land.ground).vertices();
@@ -155,7 +155,7 @@ std::vector<std::string> scene_names() {
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scene_names()),
                          [](const auto& scene) { return scene.param; });
 
-TEST(SceneKinds, AreFoundByTheirNames) {
+TEST(SceneKinds, AreFoundByName) {
   for (const SceneKind& kind : scene_kinds()) EXPECT_EQ(find_scene_kind(kind.name), &kind);
   EXPECT_EQ(find_scene_kind("moon"), nullptr);
   EXPECT_EQ(find_scene_kind(""), nullptr);
@@ -164,7 +164,7 @@ TEST(SceneKinds, AreFoundByTheirNames) {
 // Those with traffic.
 class MovingScene : public testing::TestWithParam<const char*> {};
 
-TEST_P(MovingScene, TrafficGoesOnBetweenStopsClearOfTheSensor) {
+TEST_P(MovingScene, TrafficMovesBetweenStopsClearOfTheSensor) {
   const Landscape land = kind_named(GetParam()).make(3);
   ASSERT_TRUE(land.moving);
   const Drive drive = plan(GetParam(), 3);
@@ -184,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, MovingScene,
                                          "indoor_hall"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-TEST(SteepStreet, MostDrivesHaveGradesAboveTenPercentUnderTheWheelsUpAndDown) {
+TEST(SteepStreet, MostSequencesHaveUphillAndDownhillGradesAboveTenPercent) {
   constexpr int drives = 20;
   int steep = 0;
   int up = 0;
@@ -235,7 +235,7 @@ std::array<double, 2> cars_beside_the_path(const World& world, double reach) {
   return share;
 }
 
-TEST(ParkedCars, StandWithinThreeMetresOfThePathOnBothSides) {
+TEST(ParkedCars, AreWithinThreeMetresOfThePathOnBothSides) {
   for (const std::uint64_t seed : {1U, 2U}) {
     const auto [right, left] = cars_beside_the_path(World("parked_cars", seed), 3);
     EXPECT_GT(right, 0.4) << "seed " << seed;
@@ -243,7 +243,7 @@ TEST(ParkedCars, StandWithinThreeMetresOfThePathOnBothSides) {
   }
 }
 
-TEST(BushesAndLawn, LowGrowthStandsBesideThePathAndBushesFurtherOut) {
+TEST(BushesAndLawn, LowVegetationIsNextToThePathAndBushesAreFurtherOut) {
   const World world("bushes_and_lawn");
   std::size_t low = 0;
   std::size_t bushes = 0;
@@ -316,7 +316,7 @@ TEST(BumpyField, MakesTheVehiclePitchAndRoll) {
   EXPECT_GT(std::sqrt(roll / stops) * degrees, 3);
 }
 
-TEST(Ramp, ClimbsOrFallsAStoreyAtTwelveToFifteenPercent) {
+TEST(Ramp, RisesOrDescendsOneStoreyAtTwelveToFifteenPercent) {
   int up = 0;
   constexpr int drives = 12;
   for (std::uint64_t seed = 0; seed < drives; ++seed) {
@@ -350,7 +350,7 @@ TEST(Ramp, HasACeilingOverEveryStop) {
   EXPECT_LT(ceiling_over(world, world.drive.poses().front()), 2.85);
 }
 
-TEST(Tunnel, BeginsOrEndsDuringTheDrive) {
+TEST(Tunnel, StartsOrEndsDuringTheSequence) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
     const World world("tunnel", seed);
     const bool first = ceiling_over(world, world.drive.poses().front()) < 7;
@@ -359,7 +359,7 @@ TEST(Tunnel, BeginsOrEndsDuringTheDrive) {
   }
 }
 
-TEST(Tunnel, HasWetRoadThatMirrors) {
+TEST(Tunnel, HasAReflectiveWetRoad) {
   const Landscape land = kind_named("tunnel").make(1);
   int wet = 0;
   for (const Stop& stop : land.route) {
@@ -372,7 +372,7 @@ TEST(Tunnel, HasWetRoadThatMirrors) {
   EXPECT_GT(wet, 50);
 }
 
-TEST(Steps, ListsRisesThatTheGroundHasFromEndToEnd) {
+TEST(Steps, ListedStepsMatchTheGroundAlongTheirLength) {
   for (const char* const scene : {"steps", "drops"}) {
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
       const Landscape land = kind_named(scene).make(seed);
@@ -388,7 +388,7 @@ TEST(Steps, ListsRisesThatTheGroundHasFromEndToEnd) {
   }
 }
 
-TEST(Drops, LeadAtLeastAMetreDownBesideTheRouteWhateverTheSeed) {
+TEST(Drops, AreAtLeastOneMetreDeepNextToTheRouteForEverySeed) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Landscape land = kind_named("drops").make(seed);
     const auto depths_beside_route = [&](double depth) {
@@ -402,7 +402,7 @@ TEST(Drops, LeadAtLeastAMetreDownBesideTheRouteWhateverTheSeed) {
   }
 }
 
-TEST(Steps, HasEveryKindBesideTheRouteWhateverTheSeed) {
+TEST(Steps, HasEveryKindNextToTheRouteForEverySeed) {
   const std::vector<std::pair<std::string_view, double>> kinds{
       {"kerb, 5 cm up", 0.05},        {"kerb, 10 cm up", 0.1},
       {"kerb, 15 cm up", 0.15},       {"ditch, 60 cm down", -0.6},
@@ -423,7 +423,7 @@ TEST(Steps, HasEveryKindBesideTheRouteWhateverTheSeed) {
   }
 }
 
-TEST(Drive, ScansAreTheSameWhenTheWorldIsBuiltAgain) {
+TEST(Drive, ScansAreTheSameWhenTheSceneIsBuiltAgain) {
   const World one("bumpy_field", 3);
   const World again("bumpy_field", 3);
   for (const int frame : {0, 9}) {
@@ -434,7 +434,7 @@ TEST(Drive, ScansAreTheSameWhenTheWorldIsBuiltAgain) {
   }
 }
 
-TEST(Drive, WorldsOfASequenceDiffer) {
+TEST(Drive, ScenesOfASequenceDiffer) {
   EXPECT_NE(drive_seed(1, 0), drive_seed(1, 1));
   EXPECT_NE(drive_seed(1, 0), drive_seed(2, 0));
   for (const SceneKind& kind : scene_kinds()) {

@@ -39,7 +39,7 @@ double mean_x(const Mesh& mesh) {
   return sum / static_cast<double>(mesh.vertices().size());
 }
 
-TEST(Traffic, LeavesOutWhoWouldMeetTheSensorBetweenTwoStops) {
+TEST(Traffic, OmitsVehiclesThatWouldPassThroughTheSensor) {
   Traffic traffic(straight_route());
   // Across the road, where the sensor is half a second after its fifth stop.
   const double x = -half_drive + 4.5 * frame_spacing;
@@ -49,7 +49,7 @@ TEST(Traffic, LeavesOutWhoWouldMeetTheSensorBetweenTwoStops) {
   EXPECT_TRUE(traffic.join({.kind = RoadUser::cyclist, .at = straight(begin, 6, 90)}));
 }
 
-TEST(Traffic, TrucksMayPassNearerThanCars) {
+TEST(Traffic, TrucksMayPassCloserThanCars) {
   for (const auto& [kind, half_width] :
        {std::pair{RoadUser::car, 0.985}, std::pair{RoadUser::truck, 1.25}}) {
     Traffic traffic(straight_route());
@@ -63,7 +63,7 @@ TEST(Traffic, TrucksMayPassNearerThanCars) {
   }
 }
 
-TEST(Traffic, LeavesOutWhoWouldRunIntoAnother) {
+TEST(Traffic, OmitsVehiclesThatWouldCollide) {
   Traffic traffic(straight_route());
   ASSERT_TRUE(traffic.join({.kind = RoadUser::car, .at = along(x_axis, 6, 0, 5)}));
 
@@ -73,7 +73,7 @@ TEST(Traffic, LeavesOutWhoWouldRunIntoAnother) {
   EXPECT_TRUE(traffic.join({.kind = RoadUser::car, .at = along(x_axis, 9, 50, -5)}));
 }
 
-TEST(Traffic, ComesAsFarAsItDrivesFromStopToStop) {
+TEST(Traffic, MovesAtItsSpeedBetweenStops) {
   const Ground ground = level_ground();
   Traffic traffic(straight_route());
   ASSERT_TRUE(traffic.join({.kind = RoadUser::bus, .at = along(x_axis, 8, 10, -4)}));
@@ -82,7 +82,7 @@ TEST(Traffic, ComesAsFarAsItDrivesFromStopToStop) {
               1e-9);
 }
 
-TEST(Traffic, ALaneIsFilledFromEndToEndAtEveryStop) {
+TEST(Traffic, LaneIsFilledFromEndToEndAtEveryStop) {
   const Ground ground = level_ground();
   for (const double speed : {-25.0, 15.0}) {
     Traffic traffic(straight_route());
@@ -104,7 +104,7 @@ TEST(Traffic, ALaneIsFilledFromEndToEndAtEveryStop) {
   }
 }
 
-TEST(Traffic, WhoHasLeftTheGroundIsNotThere) {
+TEST(Traffic, OmitsVehiclesThatLeftTheGround) {
   Traffic traffic(straight_route());
   ASSERT_TRUE(traffic.join({.kind = RoadUser::car, .at = along(x_axis, 10, 60, 10)}));
 
