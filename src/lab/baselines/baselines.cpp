@@ -11,8 +11,8 @@
 namespace flagstone {
 namespace {
 
-/// A configuration with the terms of the ground likelihood that come after the first plus sign of
-/// `name`, "czm+u+e", and no others.
+/// Returns `config` with exactly the terms of the ground likelihood that `name` lists after its
+/// first plus sign, such as "czm+u+e".
 PatchworkConfig with_terms_of(std::string_view name, PatchworkConfig config) {
   const std::string_view terms = name.substr(std::min(name.find('+'), name.size()));
   config.uprightness.enabled = terms.find("+u") != std::string_view::npos;
@@ -21,7 +21,7 @@ PatchworkConfig with_terms_of(std::string_view name, PatchworkConfig config) {
   return config;
 }
 
-/// R-GPF with the terms that its name lists.
+/// R-GPF with the likelihood terms that its name lists.
 Method r_gpf_row(std::string_view name, std::string_view title) {
   const auto config = [name] { return with_terms_of(name, r_gpf_config()); };
   return {.name = name,
@@ -33,7 +33,7 @@ Method r_gpf_row(std::string_view name, std::string_view title) {
           }};
 }
 
-/// Patchwork with the terms that its name lists.
+/// Patchwork with the likelihood terms that its name lists.
 Method patchwork_row(std::string_view name, std::string_view title) {
   return {.name = name,
           .title = title,

@@ -44,7 +44,7 @@ void check_beams(const std::vector<float>& elevations) {
 }  // namespace
 
 // Velodyne, "HDL-64E S2 and S2.1 User's Manual and Programming Guide": 32 lasers 1/2 degree apart
-// up to -8.83 degrees, above them 32 lasers 1/3 degree apart up to 2.
+// up to -8.83 degrees, and above them 32 lasers 1/3 degree apart up to 2 degrees.
 std::vector<float> CascadedConfig::hdl_64e_elevations() {
   std::vector<float> elevations;
   for (int i = 31; i >= 0; --i) elevations.push_back(static_cast<float>(-53.0 / 6 - i / 2.0));
@@ -103,7 +103,7 @@ std::vector<Setting> settings_of(CascadedConfig& c) {
 }
 
 void CascadedConfig::check() const {
-  CascadedConfig copy = *this;  // settings point into something that may be written to
+  CascadedConfig copy = *this;  // settings refer to members that are not const
   check_settings(method, settings_of(copy));
   check_beams(beam_elevations);
 }
@@ -147,7 +147,7 @@ struct Cascaded::Pipeline {
     result.mutable_patches().reserve(regions.count());
   }
 
-  /// `ring_of(k)` is the ring of usable point k, at this range.
+  /// `ring_of(k, range)` returns the ring of usable point k at this range, metres.
   template <class RingOf>
   void segment(CloudView cloud, Segmentation& result, std::span<Label> labels,
                const RingOf& ring_of) noexcept {
@@ -158,7 +158,7 @@ struct Cascaded::Pipeline {
     for (std::size_t direction = 0; direction < Regions::directions; ++direction) {
       fit_outward(direction, labels);
     }
-    for (const Patch& patch : patches) {  // within what was reserved
+    for (const Patch& patch : patches) {  // within the reserved capacity
       if (patch.point_count > 0) result.mutable_patches().push_back(patch);
     }
   }
@@ -185,7 +185,8 @@ struct Cascaded::Pipeline {
     }
   }
 
-  /// Starts the patches; returns the region of every point that is in range and not upright.
+  /// Initialises the patches. Returns the region of each point, or no_region for points out of
+  /// range or on upright objects.
   [[nodiscard]] std::span<const std::uint32_t> find_regions() noexcept {
     start_patches();
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -210,9 +211,9 @@ struct Cascaded::Pipeline {
     }
   }
 
-  /// The regions of one direction, from the sensor outward.
+  /// Fits the regions of one direction, from the sensor outward.
   void fit_outward(std::size_t direction, std::span<Label> labels) noexcept {
-    // Unit vectors along the middle of each direction.
+    // Unit vectors along the centre of each direction.
     constexpr std::array<std::array<double, 2>, Regions::directions> middle = {
         {{-1, 0}, {0, -1}, {1, 0}, {0, 1}}};
     Plane plane = planes.below_sensor();
@@ -247,9 +248,9 @@ struct Cascaded::Pipeline {
   RangeImage image;
   Regions regions;
   ContinuousPlanes planes;
-  Buffer<std::size_t> cells;              // of the image, for each usable point
-  Buffer<std::uint32_t> region_of_point;  // for each usable point
-  std::vector<Patch> patches;             // of all regions
+  Buffer<std::size_t> cells;              // cell of the range image of each usable point
+  Buffer<std::uint32_t> region_of_point;  // region of each usable point
+  std::vector<Patch> patches;             // one per region
 };
 
 Cascaded::Cascaded(CascadedConfig config)
@@ -286,15 +287,15 @@ Status Cascaded::segment(CloudView cloud, std::span<const std::uint16_t> rings,
 
 namespace {
 
-/// Do mean heights above the horizon, as seen from the sensor, rise from ring to ring? Some sensors
-/// number their rings from the top.
+/// Returns whether the mean elevation increases from ring to ring. Some sensors number their rings
+/// from the top.
 bool lowest_come_first(CloudView cloud, std::span<const std::uint16_t> rings, std::size_t count) {
   std::vector<double> sums(count);
   std::vector<double> points(count);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point p = cloud[i];
     const double squared = static_cast<double>(p.x) * p.x + static_cast<double>(p.y) * p.y;
-    if (!(squared > 0) || !(squared < 1e12)) continue;  // nor NaN
+    if (!(squared > 0) || !(squared < 1e12)) continue;  // false for NaN too
     sums[rings[i]] += p.z / std::sqrt(squared);
     points[rings[i]] += 1;
   }
@@ -308,8 +309,8 @@ bool lowest_come_first(CloudView cloud, std::span<const std::uint16_t> rings, st
   return true;
 }
 
-/// Cascaded on scans that may say which ring each point is of. It uses the rings if they are whole
-/// numbers, one for each of its beams, the lowest first; else it infers them.
+/// Cascaded on scans that can have a `ring` field. It uses the rings if they are integers and
+/// number all beams from the lowest up. Otherwise it infers the rings.
 class CascadedOnRings final : public Segmenter, public UsesField {
  public:
   explicit CascadedOnRings(const CascadedConfig& config) : cascaded_(config) {}
@@ -332,7 +333,7 @@ class CascadedOnRings final : public Segmenter, public UsesField {
     rings_.clear();
     std::size_t count = 0;
     for (const double ring : values) {
-      const bool is_one = ring >= 0 && ring < static_cast<double>(beams);  // not if NaN
+      const bool is_one = ring >= 0 && ring < static_cast<double>(beams);  // false for NaN
       if (!is_one || std::floor(ring) != ring) return false;
       rings_.push_back(static_cast<std::uint16_t>(ring));
       count = std::max<std::size_t>(count, rings_.back() + std::size_t{1});
@@ -341,10 +342,11 @@ class CascadedOnRings final : public Segmenter, public UsesField {
   }
 
   Cascaded cascaded_;
-  std::vector<std::uint16_t> rings_;  // of the points segmented next; empty if not known
+  std::vector<std::uint16_t> rings_;  // of the points to segment next; empty if unknown
 };
 
-/// The beams of the sensor; a rosette has none.
+/// Uses the beams of the sensor. A sensor with a rosette pattern has no beams and keeps the
+/// defaults.
 MethodConfig with_beams_of(const Sensor& sensor) {
   CascadedConfig config;
   if (sensor.draws_rosette()) return config;

@@ -12,12 +12,12 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// What is made of it is rounded to single precision, so that the last bit, in which mathematical
-/// libraries differ, all but never shows.
+/// Results are rounded to single precision, which almost always hides differences between
+/// mathematical libraries in the last bit.
 double tangent(double degrees) { return std::tan(degrees * std::numbers::pi / 180); }
 
-/// Where a beam meets ground that lies `height` below the sensor and rises outward by `rise` metres
-/// a metre.
+/// Distance at which a beam hits ground that is `height` below the sensor and rises outward with
+/// slope `rise`, m/m.
 float ring_radius(double elevation, double rise, double height) {
   const double closing = rise - tangent(elevation);
   return closing > 0 ? static_cast<float>(height / closing) : infinity;

@@ -14,11 +14,11 @@ RansacConfig search_of(const CascadedConfig& config) {
   RansacConfig search;
   search.distance_threshold = config.max_distance;
   search.max_trials = config.max_trials;
-  search.min_consensus = 4;  // more than the three that every sample agrees with
+  search.min_consensus = 4;  // more than the three points of the sample
   return search;
 }
 
-/// Needs a plane that is not vertical.
+/// `plane` must not be vertical.
 double height_at(const Plane& plane, double x, double y) noexcept {
   return -(plane.normal[0] * x + plane.normal[1] * y + plane.d) / plane.normal[2];
 }

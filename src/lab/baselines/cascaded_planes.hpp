@@ -10,21 +10,21 @@
 
 namespace flagstone::baselines {
 
-/// Planes of the second stage: one for each region of a direction, outward.
+/// Fits the planes of the second stage: one per region of a direction, from the sensor outward.
 class ContinuousPlanes {
  public:
   explicit ContinuousPlanes(const CascadedConfig& config);
 
-  /// The ground below the sensor, with which every direction begins.
+  /// The ground below the sensor, which is the first plane of every direction.
   [[nodiscard]] Plane below_sensor() const noexcept;
 
-  /// The plane of a region: by RANSAC from its points, or `previous`, that of the region before it,
-  /// where there is none or it is not continuous with `previous`. The two regions meet at (x, y),
-  /// metres. `region` numbers the draws, so that no region depends on another's.
+  /// Returns the RANSAC plane of a region, or `previous`, the plane of the previous region, if
+  /// there is no plane or it is not continuous with `previous`. The two regions meet at (x, y),
+  /// metres. `region` selects the random numbers, so that regions are independent of each other.
   [[nodiscard]] Plane fit(const Coordinates& points, const Plane& previous, double x, double y,
                           std::size_t region) const noexcept;
 
-  /// Whether a point lies on `plane`.
+  /// Whether a point is within max_distance of `plane`.
   [[nodiscard]] bool is_ground(const SinglePrecisionPlane& plane, float x, float y,
                                float z) const noexcept;
 

@@ -10,28 +10,28 @@
 
 namespace flagstone::baselines {
 
-/// The first stage: a scan as rings by columns, in which what stands upright shows by consecutive
-/// rings of a column falling together.
+/// The first stage: a range image of rings by columns. Upright objects bring consecutive rings of a
+/// column close together.
 class RangeImage {
  public:
   RangeImage(const Beams& beams, const CascadedConfig& config);
 
-  /// An image without points.
+  /// Removes all points.
   void clear() noexcept;
 
-  /// Which cell a point belongs in.
+  /// The cell of a point.
   [[nodiscard]] std::size_t cell(std::uint32_t column, std::uint16_t ring) const noexcept {
     return column * rings_ + ring;
   }
 
-  /// Puts a point at this range and height, metres, into a cell. The first point of a cell stands
-  /// for all of them.
+  /// Adds a point with this range and height, metres, to a cell. Only the first point of each cell
+  /// is used.
   void add(std::size_t cell, float range, float height) noexcept;
 
-  /// Finds what stands upright, column by column.
+  /// Finds upright objects, column by column.
   void find_upright(const Beams& beams) noexcept;
 
-  /// Did find_upright find it in this cell?
+  /// Whether find_upright() found an upright object in this cell.
   [[nodiscard]] bool is_upright(std::size_t cell) const noexcept { return cells_[cell].upright; }
 
  private:
@@ -41,7 +41,7 @@ class RangeImage {
     bool occupied;
     bool upright;
   };
-  /// Rings first to last, one after the other, that are closer together than on any ground.
+  /// Consecutive rings, `first` to `last`, that are closer together than on ground.
   struct Group {
     std::size_t first, last;
     float lowest, highest;

@@ -9,12 +9,12 @@
 namespace flagstone::baselines {
 namespace {
 
-/// Sections of equally many rings, the last one of what is left, each as wide as its rings on flat
-/// ground: the denser the points, the smaller the region.
+/// Outer radii of sections with the same number of rings each; the last section has the remaining
+/// rings. A section is as wide as its rings on flat ground, so denser points give smaller regions.
 std::vector<float> section_radii(const Beams& beams, std::size_t sections) {
-  const std::size_t rings_a_section = (beams.count() + sections - 1) / sections;
+  const std::size_t rings_per_section = (beams.count() + sections - 1) / sections;
   std::vector<float> radii;
-  for (std::size_t end = rings_a_section; end < beams.count(); end += rings_a_section) {
+  for (std::size_t end = rings_per_section; end < beams.count(); end += rings_per_section) {
     radii.push_back(beams.flat_radius(end - 1));
   }
   radii.push_back(std::numeric_limits<float>::infinity());

@@ -14,13 +14,13 @@
 
 namespace flagstone::baselines {
 
-/// The regions of the second stage, and the points of a scan region by region. A region is a
-/// section of the distance from the sensor within one of four directions, 90 degrees wide.
+/// The regions of the second stage, and the points of a scan sorted by region. A region is a range
+/// interval (section) within one of four directions, each 90 degrees wide.
 class Regions {
  public:
   static constexpr std::size_t directions = 4;
 
-  /// What stands in place of a region for points of none.
+  /// Value for points that belong to no region.
   static constexpr std::uint32_t no_region = ~0U;
 
   Regions(const Beams& beams, const CascadedConfig& config);
@@ -31,24 +31,24 @@ class Regions {
     return static_cast<std::uint32_t>(section * directions + direction);
   }
 
-  /// Region of a point at horizontal distance `range`, metres; directions are counted as azimuth
+  /// Region of a point at horizontal distance `range`, metres. Directions are numbered by azimuth
   /// from -x: 0 backward, 1 right, 2 forward, 3 left.
   [[nodiscard]] std::uint32_t region_of(float x, float y, float range) const noexcept;
 
-  /// Where a section begins, metres.
+  /// Inner radius of a section, metres.
   [[nodiscard]] float inner_radius(std::size_t section) const noexcept {
     return section == 0 ? 0 : outer_radii_[section - 1];
   }
 
-  /// Makes room for `points` points; may throw std::bad_alloc.
+  /// Reserves memory for `points` points; may throw std::bad_alloc.
   void reserve(std::size_t points);
 
-  /// Takes the points in; `regions` holds the region of each, or no_region.
+  /// Sorts the points by region. `regions` contains the region of each point, or no_region.
   void sort(const UsablePoints& points, std::span<const std::uint32_t> regions) noexcept;
 
   /// The points of a region, in input order.
   [[nodiscard]] Coordinates points(std::uint32_t region) const noexcept;
-  /// Index in the cloud of each of them.
+  /// Index in the cloud of each point of a region.
   [[nodiscard]] std::span<const std::uint32_t> index(std::uint32_t region) const noexcept;
 
  private:
@@ -57,8 +57,8 @@ class Regions {
   }
 
   std::vector<float> outer_radii_;   ///< of each section, ascending; the last is infinite
-  std::vector<std::size_t> begins_;  ///< where the points of each region begin, and the end
-  std::vector<std::size_t> next_;    ///< where the next point of each region goes
+  std::vector<std::size_t> begins_;  ///< index of the first point of each region, and the end
+  std::vector<std::size_t> next_;    ///< index for the next point of each region
   Buffer<float> x_, y_, z_;
   Buffer<std::uint32_t> index_;
 };

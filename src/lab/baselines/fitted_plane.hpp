@@ -11,7 +11,7 @@
 
 namespace flagstone::baselines {
 
-/// normal . p + d = 0, in single precision, as points are: loops over points stay in float.
+/// The plane normal . p + d = 0 in single precision, so that loops over points use floats only.
 struct SinglePrecisionPlane {
   float normal_x = 0;
   float normal_y = 0;
@@ -24,10 +24,10 @@ struct SinglePrecisionPlane {
   }
 };
 
-/// The same plane in single precision.
+/// Converts a plane to single precision.
 SinglePrecisionPlane single_precision(const Plane& plane) noexcept;
 
-/// Fits a plane to those points that `in_set(x, y, z)` picks.
+/// Fits a plane to the points for which `in_set(x, y, z)` is true.
 template <class InSet>
 Plane fit_plane(const Coordinates& points, const InSet& in_set) noexcept {
   if (points.size() == 0) return {};
@@ -40,7 +40,7 @@ Plane fit_plane(const Coordinates& points, const InSet& in_set) noexcept {
   return plane_of(moments).moved_by(origin);
 }
 
-/// Writes the plane into `patch`: a patch of ground.
+/// Writes the plane to `patch` and sets its `verdict` to `ground`.
 void set_ground_plane(const Plane& fit, Patch& patch) noexcept;
 
 }  // namespace flagstone::baselines

@@ -51,7 +51,7 @@ std::vector<Setting> settings_of(GpfConfig& c) {
 }
 
 void GpfConfig::check() const {
-  GpfConfig copy = *this;  // settings point into something that may be written to
+  GpfConfig copy = *this;  // settings refer to members that are not const
   check_settings("gpf", settings_of(copy));
 }
 
@@ -70,7 +70,7 @@ GpfConfig checked(const GpfConfig& config) {
 
 }  // namespace
 
-/// Reflections out, then algorithm 1 segment by segment.
+/// Removes reflections, then runs algorithm 1 for each segment.
 struct Gpf::Pipeline {
   explicit Pipeline(const GpfConfig& settings)
       : config(checked(settings)), segments(config.segments, config.segment_length) {}
@@ -96,19 +96,18 @@ struct Gpf::Pipeline {
         set_ground_plane(fit, patch);
         label_ground(in_segment, segments.index(s), single_precision(fit), patch, labels);
       }
-      result.mutable_patches().push_back(patch);  // within what was reserved
+      result.mutable_patches().push_back(patch);  // within the reserved capacity
     }
   }
 
-  /// Whether a point is ground by `plane`, algorithm 1.
+  /// Predicate: whether a point is ground for `plane`, algorithm 1.
   [[nodiscard]] auto ground_of(const SinglePrecisionPlane& plane) const noexcept {
     return [plane, margin = config.distance_margin](float x, float y, float z) {
       return plane.distance(x, y, z) < margin;
     };
   }
 
-  /// The plane of the seeds, then N_iter - 1 times that of the points which lie on the plane before
-  /// or below it.
+  /// Fits a plane to the seeds, then N_iter - 1 times to the points on or below the previous plane.
   [[nodiscard]] Plane fit_ground(const Coordinates& in_segment) noexcept {
     const double seed_limit = lowest_point_representative(in_segment.z) + config.seed_height;
     Plane fit = fit_plane(in_segment, [=](float, float, float z) { return z < seed_limit; });
@@ -118,7 +117,7 @@ struct Gpf::Pipeline {
     return fit;
   }
 
-  /// LPR: mean height of the N_LPR lowest points, or of all if there are fewer.
+  /// LPR: mean height of the N_LPR lowest points, or of all points if there are fewer.
   [[nodiscard]] double lowest_point_representative(std::span<const float> z) noexcept {
     float* begin = heights.data();
     float* end = std::ranges::copy(z, begin).out;

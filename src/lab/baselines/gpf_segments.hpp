@@ -13,26 +13,27 @@
 
 namespace flagstone::baselines {
 
-/// The points of a scan, segment by segment along x, rearmost segment first; within a segment in
-/// input order.
+/// The points of a scan sorted into segments along x, rearmost segment first, in input order within
+/// each segment.
 class GpfSegments {
  public:
-  /// Segments of `length` metres, half of `count` on either side of x = 0; the first and the last
-  /// are open to the outside.
+  /// `count` segments of `length` metres, half of them on either side of x = 0. The first and the
+  /// last segment are open-ended.
   GpfSegments(int count, float length);
 
-  /// Makes room for `points` points; may throw std::bad_alloc.
+  /// Reserves memory for `points` points; may throw std::bad_alloc.
   void reserve(std::size_t points);
 
-  /// Takes the points in.
+  /// Sorts the points into the segments.
   void sort(const UsablePoints& points) noexcept;
 
   [[nodiscard]] int count() const noexcept { return count_; }
-  /// Which segment a point belongs to, 0 to count() - 1. A point on a boundary is of the front one.
+  /// Segment of a point, 0 to count() - 1. Points on a boundary belong to the segment in front of
+  /// it.
   [[nodiscard]] int segment_of(float x) const noexcept;
   /// The points of a segment.
   [[nodiscard]] Coordinates points(int segment) const noexcept;
-  /// Index in the cloud of each of them.
+  /// Index in the cloud of each point of a segment.
   [[nodiscard]] std::span<const std::uint32_t> index(int segment) const noexcept;
 
  private:
@@ -45,8 +46,8 @@ class GpfSegments {
 
   int count_;
   float length_;
-  std::vector<std::size_t> ends_;  // of the segment before: where each segment begins, and the end
-  std::vector<std::size_t> next_;  // where the next point of each segment goes
+  std::vector<std::size_t> ends_;  // index of the first point of each segment, and the end
+  std::vector<std::size_t> next_;  // index for the next point of each segment
   Buffer<float> x_, y_, z_;
   Buffer<std::uint32_t> index_;
 };

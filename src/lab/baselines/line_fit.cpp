@@ -76,7 +76,7 @@ std::vector<Setting> settings_of(LineFitConfig& c) {
 }
 
 void LineFitConfig::check() const {
-  LineFitConfig copy = *this;  // settings point into something that may be written to
+  LineFitConfig copy = *this;  // settings refer to members that are not const
   check_settings(method, settings_of(copy));
   check_number(method, "max_range", max_range,
                {.low = min_range,

@@ -8,8 +8,8 @@
 namespace flagstone::baselines {
 namespace {
 
-/// The least squares line through the points added so far. Ranges and heights are taken from the
-/// first point, so that nothing is lost when squares are subtracted.
+/// The least-squares line through the points added so far. Ranges and heights are relative to the
+/// first point, to avoid cancellation when squares are subtracted.
 class LineSums {
  public:
   explicit LineSums(Prototype first) noexcept : origin_(first) { add(first); }
@@ -24,7 +24,7 @@ class LineSums {
     rz_ += r * z;
   }
 
-  /// Needs two points of different ranges.
+  /// Needs at least two points with different ranges.
   [[nodiscard]] GroundLine line(float end) const noexcept {
     const double slope = (count_ * rz_ - r_ * z_) / (count_ * rr_ - r_ * r_);
     const double height = (z_ - slope * r_) / count_;
@@ -47,21 +47,21 @@ float largest_residual(std::span<const Prototype> prototypes, const GroundLine& 
   return largest;
 }
 
-/// One call of extract_lines.
+/// State of one call of extract_lines().
 class Extraction {
  public:
   Extraction(std::span<const Prototype> prototypes, const LineFitConfig& config) noexcept
       : prototypes_(prototypes), config_(config) {}
 
-  /// Can a line begin with prototypes `first` and `first` + 1, when the ground known so far is
-  /// `ground` high?
+  /// Whether a line can begin with prototypes `first` and `first` + 1 if the ground found so far
+  /// ends at height `ground`, metres.
   [[nodiscard]] bool may_begin(std::size_t first, float ground) const noexcept {
     return gap_before(first + 1) < config_.long_gap &&
            std::abs(prototypes_[first].height - ground) < config_.max_start_height;
   }
 
-  /// Grows a line from prototypes `first` and `first` + 1 as far as it goes; sets `line` to it and
-  /// returns one past its last point. With two points `line` stays as it was.
+  /// Extends a line from prototypes `first` and `first` + 1 as far as possible. Sets `line` and
+  /// returns the index after its last point. If no third point fits, `line` is unchanged.
   [[nodiscard]] std::size_t grow(std::size_t first, GroundLine& line) const noexcept {
     LineSums sums(prototypes_[first]);
     sums.add(prototypes_[first + 1]);
@@ -84,7 +84,7 @@ class Extraction {
     return prototypes_[i].range - prototypes_[i - 1].range;
   }
 
-  /// Is `next`, beyond a gap, where a line of `points` points leads?
+  /// Whether `next`, after a gap, lies on the extension of a line of `points` points.
   [[nodiscard]] bool continues(const GroundLine& line, std::size_t points,
                                Prototype next) const noexcept {
     return points >= 3 &&
@@ -124,7 +124,7 @@ std::size_t extract_lines(std::span<const Prototype> prototypes, const LineFitCo
       lines[count++] = line;
       ground = line.height_at(line.end);
     }
-    first = end - 1;  // where one line ends the next may begin
+    first = end - 1;  // the next line can begin at the end of this one
   }
   return count;
 }

@@ -15,21 +15,22 @@ struct Prototype {
   float height;  ///< z, metres
 };
 
-/// A piece of ground in one segment: z = height + slope * (range - begin), for ranges begin to end.
+/// A line of ground points in one segment: z = height + slope * (range - begin), from range `begin`
+/// to `end`.
 struct GroundLine {
   float begin, end;  ///< ranges of its first and last prototype, metres
   float height;      ///< at `begin`, metres
-  float slope;       ///< metres a metre
+  float slope;       ///< m/m
 
   [[nodiscard]] float height_at(float range) const noexcept {
     return height + slope * (range - begin);
   }
 };
 
-/// Algorithm 1: grows lines through the prototypes of one segment, nearest first, each as long as
-/// all thresholds of `config` hold. Prototypes ascend in range. Lines of fewer than three points
-/// are none. Writes the lines, nearest first, to `lines`, which has room for prototypes.size() / 2;
-/// returns how many there are.
+/// Algorithm 1: fits lines to the prototypes of one segment, from the nearest outward. Each line is
+/// extended while it satisfies all thresholds of `config`, and has at least three points.
+/// `prototypes` must be sorted by range. Writes the lines, nearest first, to `lines`, which must
+/// have room for prototypes.size() / 2 lines. Returns the number of lines.
 std::size_t extract_lines(std::span<const Prototype> prototypes, const LineFitConfig& config,
                           GroundLine* lines) noexcept;
 

@@ -10,13 +10,13 @@
 namespace flagstone::baselines {
 namespace {
 
-/// Lines hold a little beyond their ends, metres: the implementation's constant.
+/// Lines extend this far beyond their ends, metres; a constant of the public implementation.
 constexpr float end_margin = 0.1f;
 
 constexpr Prototype no_point = {-1, std::numeric_limits<float>::infinity()};
 constexpr float no_line = -1;
 
-/// How many segments begin within the search angle, on one side.
+/// Number of segments that begin within the search angle, on one side.
 std::uint32_t steps_within(const LineFitConfig& config) {
   const double width = 360.0 / config.segments;
   const double steps = std::ceil(static_cast<double>(config.search_angle) / width) - 1;
@@ -27,7 +27,7 @@ std::uint32_t steps_within(const LineFitConfig& config) {
 
 LowestPoints::LowestPoints(const PolarGrid& grid)
     : segments_(grid.sectors()),
-      bins_a_segment_(grid.rings()),
+      bins_per_segment_(grid.rings()),
       lowest_(grid.bin_count()),
       segment_(grid.rings()) {}
 
@@ -44,7 +44,7 @@ void LowestPoints::collect(const UsablePoints& points, const float* ranges,
 
 std::span<const Prototype> LowestPoints::of_segment(std::uint32_t segment) noexcept {
   std::size_t count = 0;
-  for (std::uint32_t bin = 0; bin < bins_a_segment_; ++bin) {
+  for (std::uint32_t bin = 0; bin < bins_per_segment_; ++bin) {
     const Prototype& lowest = lowest_[bin * segments_ + segment];
     if (lowest.range >= 0) segment_[count++] = lowest;
   }
@@ -70,7 +70,7 @@ void GroundLines::extract(LowestPoints& lowest) noexcept {
 
 float GroundLines::distance_within(std::uint32_t segment, float range,
                                    float height) const noexcept {
-  // From the far end: where two lines meet, the farther one counts.
+  // From the far end, so that the farther line is used if two lines meet.
   for (std::uint32_t i = first_line_[segment + 1]; i-- > first_line_[segment];) {
     const GroundLine& line = lines_[i];
     if (line.begin - end_margin < range && range < line.end + end_margin) {

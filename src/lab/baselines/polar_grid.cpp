@@ -12,7 +12,7 @@ PatchworkConfig one_zone(float min_range, float max_range, int rings, int sector
   PatchworkConfig config;
   config.min_range = min_range;
   config.zones = {{equal_rings(min_range, max_range, rings), sectors, -infinity}};
-  config.noise_depth = infinity;  // nothing is noise here
+  config.noise_depth = infinity;  // disables the noise limit
   config.noise_slope = 0;
   return config;
 }

@@ -12,12 +12,12 @@
 
 namespace flagstone::baselines {
 
-/// Rings of one width cut into equal sectors, around the sensor: one zone of the Concentric Zone
-/// Model, whose location of points, fast and exact, does the work.
+/// Rings of equal width around the sensor, divided into equal sectors. Implemented as one zone of
+/// the Concentric Zone Model, which locates points quickly and exactly.
 class PolarGrid {
  public:
-  /// Rings from `min_range` to `max_range` metres; sectors 1 to 3,600, the first beginning at
-  /// azimuth -pi.
+  /// `rings` rings from `min_range` to `max_range`, metres, and `sectors` sectors, 1 to 3,600; the
+  /// first sector begins at azimuth -pi.
   PolarGrid(float min_range, float max_range, int rings, int sectors);
 
   [[nodiscard]] std::uint32_t rings() const noexcept { return rings_; }
@@ -25,10 +25,11 @@ class PolarGrid {
   /// rings() * sectors().
   [[nodiscard]] std::uint32_t bin_count() const noexcept { return rings_ * sectors_; }
 
-  /// Makes room for `points` points; may throw std::bad_alloc.
+  /// Reserves memory for `points` points; may throw std::bad_alloc.
   void reserve(std::size_t points) { bins_.reserve(points); }
 
-  /// Finds the bin, ring * sectors() + sector, of each point; outside the grid bin_count() or more.
+  /// Returns the bin of each point, ring * sectors() + sector, or at least bin_count() for points
+  /// outside the grid.
   std::span<const std::uint32_t> locate(const UsablePoints& points) noexcept;
 
  private:

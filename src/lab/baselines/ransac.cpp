@@ -35,7 +35,7 @@ std::vector<Setting> settings_of(RansacConfig& c) {
 }
 
 void RansacConfig::check() const {
-  RansacConfig copy = *this;  // settings point into something that may be written to
+  RansacConfig copy = *this;  // settings refer to members that are not const
   check_settings("ransac", settings_of(copy));
 }
 
@@ -45,7 +45,7 @@ using baselines::set_ground_plane;
 using baselines::single_precision;
 using baselines::SinglePrecisionPlane;
 
-/// A plane that most points agree on, fitted to those that do.
+/// Finds the plane with the most inliers and fits it to them.
 struct Ransac::Pipeline {
   explicit Pipeline(const RansacConfig& settings) : config(settings) { config.check(); }
 
@@ -64,18 +64,18 @@ struct Ransac::Pipeline {
       set_ground_plane(fit, patch);
       label_consensus(single_precision(fit), patch, labels);
     }
-    result.mutable_patches().push_back(patch);  // within what was reserved
+    result.mutable_patches().push_back(patch);  // within the reserved capacity
   }
 
-  /// Whether a point is of the consensus set of `plane`.
+  /// Predicate: whether a point belongs to the consensus set of `plane`.
   [[nodiscard]] auto agreeing_with(const SinglePrecisionPlane& plane) const noexcept {
     return [plane, limit = config.distance_threshold](float x, float y, float z) {
       return std::abs(plane.distance(x, y, z)) <= limit;
     };
   }
 
-  /// Section II: the best sample's plane, replaced by the fit to its consensus set, and that by the
-  /// fit to the set with the points added that agree with the first fit.
+  /// Section II: fits a plane to the consensus set of the best sample, then fits again to the
+  /// consensus set of that plane.
   [[nodiscard]] Plane find_plane(const Coordinates& all) const noexcept {
     const baselines::RansacSearch search = search_plane(all, config);
     if (search.consensus < static_cast<std::size_t>(config.min_consensus)) return {};

@@ -15,7 +15,7 @@ std::size_t draw_index(Random& random, std::size_t count) {
   return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
 }
 
-/// Three different indices below `count`, which is at least 3.
+/// Draws three different indices below `count`, which must be at least 3.
 std::array<std::size_t, 3> draw_sample(Random& random, std::size_t count) {
   const std::size_t i = draw_index(random, count);
   std::size_t j = i;
@@ -27,8 +27,8 @@ std::array<std::size_t, 3> draw_sample(Random& random, std::size_t count) {
 
 }  // namespace
 
-// By multiplication: the logarithm's last bit differs between mathematical libraries, and with it
-// the number of trials and the labels.
+// Multiplies instead of taking logarithms, whose last bit differs between mathematical libraries
+// and would change the number of trials and the labels.
 int trials_needed(double inlier_share, double confidence, int max_trials) noexcept {
   const double sample_missed = 1 - inlier_share * inlier_share * inlier_share;
   double all_missed = 1;
@@ -55,7 +55,8 @@ std::optional<SinglePrecisionPlane> plane_through(const Coordinates& points, std
       static_cast<float>(-(n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) / length)};
 }
 
-// Nearly all of the time goes here. Packed floats and a 32-bit count, so that it becomes vectors.
+// This loop takes nearly all of the time. It uses packed floats and a 32-bit count so that the
+// compiler can vectorise it.
 std::size_t consensus_size(const Coordinates& points, const SinglePrecisionPlane& plane,
                            float distance) noexcept {
   const float* x = points.x.data();

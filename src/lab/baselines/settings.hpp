@@ -11,7 +11,8 @@
 
 namespace flagstone {
 
-/// All settings of a baseline, in the order they are printed; they point into `config`.
+/// All settings of a baseline, in the order in which they are printed. They refer to members of
+/// `config`.
 std::vector<Setting> settings_of(RansacConfig& config);
 std::vector<Setting> settings_of(GpfConfig& config);
 std::vector<Setting> settings_of(LineFitConfig& config);
@@ -19,14 +20,14 @@ std::vector<Setting> settings_of(CascadedConfig& config);
 
 namespace baselines {
 
-/// `config` with the sensor's height, where it has one.
+/// `config` with the height of the sensor, if it has that setting.
 inline MethodConfig at_height_of(const Sensor& sensor, MethodConfig config) {
   sensor.check();
   set_sensor_height(static_cast<float>(sensor.height), config);
   return config;
 }
 
-/// A method whose only setting that depends on the sensor is its height.
+/// A method for which only the sensor height depends on the sensor.
 template <class Config, class Segmenter>
 Method baseline(std::string_view name, std::string_view title) {
   return {.name = name,

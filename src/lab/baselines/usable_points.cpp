@@ -8,7 +8,7 @@ namespace flagstone::baselines {
 
 void UsablePoints::reserve(std::size_t points) {
   if (points <= capacity_) return;
-  capacity_ = 0;  // what holds if one of the next two throws
+  capacity_ = 0;  // correct if one of the next two lines throws
   coordinates_.reserve(3 * points);
   index_.reserve(points);
   capacity_ = points;

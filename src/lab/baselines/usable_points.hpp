@@ -13,21 +13,21 @@
 
 namespace flagstone::baselines {
 
-/// Farther from the sensor a coordinate is no measurement: the point is out of range, metres.
+/// Maximum absolute coordinate, metres. Points with a larger coordinate are out of range.
 inline constexpr float max_coordinate = 10000;
 
-/// The points of a scan that a plane or line can be fitted to, packed and in input order:
-/// x[0..n), y[0..n), z[0..n), and where each came from.
+/// The points of a scan that can be fitted, packed and in input order: x[0..n), y[0..n), z[0..n)
+/// and their indices in the cloud.
 class UsablePoints {
  public:
-  /// Makes room for `points` points; may throw std::bad_alloc.
+  /// Reserves memory for `points` points; may throw std::bad_alloc.
   void reserve(std::size_t points);
 
-  /// Takes the points of `cloud` that are finite, not all zero and within max_coordinate; labels
-  /// the others invalid or out_of_range and leaves the labels of those it took alone.
+  /// Copies the points of `cloud` that are finite, not all zero and within max_coordinate. Labels
+  /// all other points invalid or out_of_range; other labels are unchanged.
   void gather(CloudView cloud, std::span<Label> labels) noexcept;
 
-  /// Gives the points lower than `height` this label and forgets them.
+  /// Labels the points below `height`, metres, with `label` and removes them.
   void remove_below(float height, Label label, std::span<Label> labels) noexcept;
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
