@@ -94,7 +94,7 @@ Json checkpoint_json(const std::string& scan, const ScanOutcome& outcome) {
   return json;
 }
 
-/// The scan of one line; nothing where the line is cut short.
+/// The scan of one line; nullopt if the line is truncated.
 std::optional<std::pair<std::string, ScanOutcome>> scan_of(const std::string& line) {
   try {
     const Json json = Json::parse(line);
@@ -116,8 +116,8 @@ std::string heading_of(const std::string& evaluation) {
   return Json{{"flagstone-checkpoint", evaluation}}.dump(-1, ' ', false, replace) + "\n";
 }
 
-/// Does the file hold a scan of an evaluation?
-bool holds_scans(const std::filesystem::path& path) {
+/// Whether the file contains at least one scan of an evaluation.
+bool contains_scans(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string heading;
   std::string scan;
@@ -142,7 +142,7 @@ Status Checkpoint::open(const std::filesystem::path& path) {
 }
 
 Status Checkpoint::start(const std::filesystem::path& path, const std::string& evaluation) {
-  if (holds_scans(path)) {
+  if (contains_scans(path)) {
     return io::refuse(
         path,
         "contains the finished scans of an interrupted run (continue it with --resume, or "
@@ -167,7 +167,7 @@ Status Checkpoint::resume(const std::filesystem::path& path, const std::string& 
                       "belongs to an evaluation with other datasets, methods, settings or protocol "
                       "(delete the file to start again)");
   }
-  // Written anew and whole, so that a line cut short does not spoil the next.
+  // Rewrite the file without truncated lines, which would corrupt the next line.
   std::string kept = heading_of(evaluation);
   while (std::getline(old, line)) {
     std::optional<std::pair<std::string, ScanOutcome>> scan = scan_of(line);

@@ -14,23 +14,25 @@
 
 namespace flagstone::eval {
 
-/// Finished scans of an evaluation on disk, so that an interrupted one can go on: a line of JSON
-/// that says which evaluation it is, then one per scan. A line cut short by a crash is passed over.
+/// A checkpoint file with the finished scans of an evaluation, so that an interrupted run can be
+/// resumed. The first line of JSON identifies the evaluation; then there is one line per scan.
+/// Lines truncated by a crash are skipped. Not thread-safe.
 class Checkpoint {
  public:
-  /// Begins a checkpoint. `evaluation` is one line that two evaluations share only if their
-  /// outcomes can be mixed. An older checkpoint that holds scans is what an interrupted run left
-  /// and is not written over: invalid_argument. unwritable.
+  /// Starts a checkpoint. `evaluation` is one line that identifies evaluations whose outcomes can
+  /// be combined. Errors: invalid_argument if `path` is a checkpoint with scans, which is not
+  /// overwritten; unwritable.
   Status start(const std::filesystem::path& path, const std::string& evaluation);
 
-  /// Goes on with a checkpoint: gives what it holds, by scan; outcomes of other than `methods`
-  /// methods are none of this evaluation's. Begins one where there is none. invalid_argument for
-  /// one of another evaluation, bad_file for what is no checkpoint, unwritable.
+  /// Resumes a checkpoint and adds its outcomes to `finished`, by scan. Scans with a number of
+  /// methods other than `methods` are skipped. Starts a checkpoint if the file does not exist.
+  /// Errors: invalid_argument for a checkpoint of another evaluation, bad_file for any other file,
+  /// unwritable.
   Status resume(const std::filesystem::path& path, const std::string& evaluation,
                 std::size_t methods, std::map<std::string, ScanOutcome>& finished);
 
-  /// Adds a scan on which nothing failed, so that the others are tried again. Lost if the disk is
-  /// full, which costs no more than doing it again.
+  /// Adds a scan if all methods succeeded, so that failed scans are tried again. Write errors are
+  /// ignored: the scan is then evaluated again.
   void add(const std::string& scan, const ScanOutcome& outcome);
 
  private:

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view lidarseg_ending = ".pcd.bin";
 
-/// What lies in a folder, by name; an error leaves it empty.
+/// Lists the entries of a directory, sorted by name. `entries` is empty after an error.
 Status entries_of(const fs::path& folder, std::vector<fs::path>& entries) {
   std::error_code error;
   entries.clear();
@@ -44,8 +44,8 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-/// Scans of a folder with velodyne/ and labels/. Those without labels are left out, unless none
-/// has any.
+/// Adds the scans of a directory with velodyne/ and labels/. Scans without labels are skipped; it
+/// is an error if no scan has labels.
 Status add_velodyne(const fs::path& folder, const std::string& prefix, std::size_t every,
                     std::vector<LabelledScan>& scans) {
   std::vector<fs::path> files;
@@ -70,7 +70,8 @@ Status add_velodyne(const fs::path& folder, const std::string& prefix, std::size
   return {};
 }
 
-/// The folder whose subfolders are sequences: `folder` itself or its sequences/; empty if neither.
+/// The directory that contains the sequences: `folder` itself or its sequences/; empty if neither
+/// does.
 fs::path folder_of_sequences(const fs::path& folder) {
   if (is_folder(folder / "sequences")) return folder / "sequences";
   std::vector<fs::path> entries;

@@ -11,7 +11,7 @@
 
 namespace flagstone::eval {
 
-/// A scan and its true classes.
+/// A scan and its ground-truth classes.
 struct LabelledScan {
   std::string name;  ///< "05/000120" in a SemanticKITTI tree, "000120" elsewhere
   std::filesystem::path points;
@@ -19,23 +19,23 @@ struct LabelledScan {
   std::filesystem::path ground{};  ///< true height of the ground at each point; empty if unknown
 };
 
-/// Which scans of a dataset are taken.
+/// Which scans of a dataset are used.
 struct Selection {
   std::vector<std::string> sequences;  ///< "05"; empty for all that have labels
-  std::size_t every = 1;               ///< of each sequence, one scan in this many, from the first
+  std::size_t every = 1;  ///< use every N-th scan of each sequence, starting with the first
 };
 
-/// Lists the labelled scans of a folder, sequence by sequence, each in the order of its names:
-/// - a SemanticKITTI tree, `sequences/NN/velodyne/*.bin` with `sequences/NN/labels/*.label`, which
-///   is what the simulator writes too, or its folder `sequences` itself; sequences without labels
-///   are skipped unless they are selected by name;
-/// - a folder with `velodyne/` and `labels/`;
-/// - nuScenes-lidarseg files beside each other, `NAME.pcd.bin` and `NAME_lidarseg.bin`.
-/// `ground/NAME.ground.npy` beside `velodyne/` tells where the ground is, as the simulator knows
-/// it.
+/// Lists the labelled scans of a dataset directory, sequence by sequence, sorted by name:
+/// - a SemanticKITTI tree, `sequences/NN/velodyne/*.bin` with `sequences/NN/labels/*.label`, or its
+/// directory `sequences`; the simulator writes this layout too. Sequences without labels are
+/// skipped unless they are selected by name;
+/// - a directory with `velodyne/` and `labels/`;
+/// - nuScenes-lidarseg files in one directory, `NAME.pcd.bin` and `NAME_lidarseg.bin`.
+/// `ground/NAME.ground.npy` next to `velodyne/` contains the true ground heights of simulated
+/// scans.
 ///
-/// invalid_argument for a folder that is none of these or has no labelled scan, and for sequences
-/// asked for where there are none; unreadable. One line that says what was looked for.
+/// Errors, each with a one-line message: invalid_argument if the directory has none of these
+/// layouts or no labelled scan, or if selected sequences do not exist; unreadable.
 Status list_dataset(const std::filesystem::path& folder, const Selection& selection,
                     std::vector<LabelledScan>& scans);
 

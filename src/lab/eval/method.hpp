@@ -13,16 +13,16 @@
 
 namespace flagstone::eval {
 
-/// What is evaluated: a segmenter, or labels that any other program made.
+/// A method to evaluate: a segmenter, or labels written by another program.
 struct Method {
-  std::string name;                    ///< as make_segmenter() knows it, or as the user calls it
-  std::string title;                   ///< as the paper's Table I has it
-  std::optional<MethodConfig> config;  ///< none for labels made elsewhere
-  MountSettings mount{};               ///< `estimate` and `track`: from each scan for itself
+  std::string name;   ///< its name for make_segmenter(), or a name given by the user
+  std::string title;  ///< its name in Table I of the paper
+  std::optional<MethodConfig> config;  ///< unset for labels of another program
+  MountSettings mount{};               ///< `estimate` and `track` use each scan separately
 
-  /// Labels made elsewhere: NAME.label or NAME.npy of each scan, or SemanticKITTI's
-  /// sequences/NN/predictions/NNNNNN.label, or what `flagstone segment` makes of the dataset's
-  /// folder, sequences/NN/velodyne/NNNNNN.label.
+  /// Directory with labels of another program: NAME.label or NAME.npy per scan, SemanticKITTI's
+  /// sequences/NN/predictions/NNNNNN.label, or sequences/NN/velodyne/NNNNNN.label as written by
+  /// `flagstone segment` for the dataset directory.
   std::filesystem::path labels;
   io::LabelMap label_map = io::LabelMap::flagstone;
 };

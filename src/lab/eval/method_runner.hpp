@@ -15,28 +15,29 @@
 
 namespace flagstone::eval {
 
-/// A method on clouds as files hold them, of sensors that stand as the mount says. One per thread.
+/// Runs a method on clouds read from files, with the mounting pose given by `mount`. Not
+/// thread-safe: use one instance per thread.
 class MethodRunner {
  public:
-  /// Throws as MethodConfig::make() and GravityAlignedSegmenter.
+  /// Throws the exceptions of MethodConfig::make() and GravityAlignedSegmenter.
   explicit MethodRunner(const MethodConfig& config, const MountSettings& mount = {});
 
-  /// Hands the cloud that is segmented next to a method that uses more of it than x, y and z. May
-  /// throw std::bad_alloc.
+  /// Passes the next cloud to a method that uses more fields than x, y and z. May throw
+  /// std::bad_alloc.
   void prepare(const io::Cloud& cloud);
 
-  /// As Segmenter::segment() on the cloud it is prepared for, with a message where it fails.
+  /// As Segmenter::segment(), on the cloud passed to prepare(), with a message for every error.
   Status segment(const io::Cloud& cloud, Segmentation& result);
 
-  /// What was found out of the sensor's mount, by this scan and those before.
+  /// The estimated height and tilt of the sensor, from this scan and the previous ones.
   [[nodiscard]] const GravityAlignedSegmenter& levelled() const noexcept { return *levelled_; }
 
-  /// Forgets the scans before.
+  /// Clears the state from previous scans.
   void reset() noexcept { levelled_->reset(); }
 
  private:
-  UsesField* field_user_ = nullptr;  // the method, if it is one
-  std::vector<double> values_;       // of its field
+  UsesField* field_user_ = nullptr;  // the method if it uses a field, otherwise null
+  std::vector<double> values_;       // values of that field
   std::unique_ptr<GravityAlignedSegmenter> levelled_;
 };
 

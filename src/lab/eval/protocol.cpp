@@ -27,7 +27,7 @@ namespace {
 /// SemanticKITTI: road, parking, sidewalk, other ground, lane marking, terrain.
 const std::vector<std::uint32_t> semantic_kitti_ground = {40, 44, 48, 49, 60, 72};
 
-/// What a class is, by its id: a table up to the largest id that the protocol names.
+/// Maps class ids to ground truth: a table up to the largest id in the protocol.
 class ClassTable {
  public:
   explicit ClassTable(const Protocol& protocol) {
@@ -105,7 +105,7 @@ constexpr std::uint32_t last_id = 65535;
 
 [[noreturn]] void refuse(const std::string& reason) { throw std::invalid_argument(reason); }
 
-/// TOML as JSON, so that there is one way to read either.
+/// Converts TOML to JSON, so that both formats share one reader.
 Json to_json(const toml::node& node) {
   if (const auto* table = node.as_table()) {
     Json object = Json::object();
@@ -139,7 +139,8 @@ Json parse(std::string_view text, bool is_toml) {
   }
 }
 
-/// What a value is, briefly: lists and tables may be of any depth.
+/// A short description of a value. Lists and tables can have any depth, so only their type is
+/// named.
 std::string text_of(const Json& value) {
   return value.is_primitive() ? value.dump() : std::string("an ") + value.type_name();
 }
@@ -186,7 +187,7 @@ std::vector<Protocol::LowGround> low_ground_of(const Json& root) {
   return all;
 }
 
-/// Refuses an id that is listed twice.
+/// Throws if an id is listed twice.
 void check_lists(const Protocol& protocol, const std::vector<std::uint32_t>& not_ground) {
   std::vector<std::uint32_t> all = protocol.ground;
   all.insert(all.end(), protocol.ignored.begin(), protocol.ignored.end());
@@ -202,7 +203,7 @@ void check_lists(const Protocol& protocol, const std::vector<std::uint32_t>& not
   }
 }
 
-/// A key that is written a little wrong must not be passed over.
+/// Rejects unknown keys, so that a misspelt key is not ignored.
 void check_keys(const Json& root) {
   constexpr std::array known = {"name",       "ground", "ignored", "not_ground",
                                 "low_ground", "labels", "names",   "note"};
@@ -214,7 +215,7 @@ void check_keys(const Json& root) {
   }
 }
 
-/// Figures go by the protocol's name: it is one line, and no other protocol's.
+/// Results are listed under the name of the protocol, so it must be one line and unique.
 void check_name(const std::string& name) {
   if (name.empty() || io::printable(name) != name) {
     refuse("name is empty or contains unprintable characters");

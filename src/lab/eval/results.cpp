@@ -28,7 +28,7 @@ void summarize_speed(MethodResult& result) {
   result.hz_slowest_1_percent = second / mean_of_slowest_percent(times);
 }
 
-/// `errors_of` picks a band of a HeightScore.
+/// `errors_of` selects a range band of a HeightScore.
 template <class ErrorsOf>
 HeightFigures height_figures(const std::vector<ScanScore>& scans, ErrorsOf errors_of) {
   HeightErrors pooled;
@@ -89,14 +89,14 @@ void summarize(MethodResult& result) {
   summarize_speed(result);
 }
 
-/// Is there a point that counts? All methods are scored on the same.
+/// Whether a point is scored. All methods are scored on the same points.
 bool is_scored(const ScanOutcome& outcome) {
   return std::ranges::any_of(outcome.methods, [](const MethodOutcome& made) {
     return made.error || made.score.points.total() > 0;
   });
 }
 
-/// Is there a score, and no ground in the ground truth?
+/// Whether the scan has a score but no ground in the ground truth.
 bool has_no_ground(const ScanOutcome& outcome) {
   const auto scored = std::ranges::find_if_not(
       outcome.methods, [](const MethodOutcome& made) { return made.error.has_value(); });

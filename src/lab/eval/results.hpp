@@ -15,7 +15,7 @@
 
 namespace flagstone::eval {
 
-/// One method's scan.
+/// Results of one method on one scan.
 struct ScanScore {
   std::string scan;
   Score score;
@@ -23,11 +23,11 @@ struct ScanScore {
   std::optional<HeightScore> heights{};
 };
 
-/// Errors of one method's heights over scans; see HeightErrors.
+/// Height errors of one method over scans; see HeightErrors.
 struct HeightFigures {
-  std::size_t points = 0;             ///< of all scans
-  std::optional<double> share;        ///< of them, those with a height; none of no points
-  Spread median, percentile95, bias;  ///< over the scans that have a height there, metres
+  std::size_t points = 0;             ///< number of points in all scans
+  std::optional<double> share;        ///< fraction of them with a height; unset without points
+  Spread median, percentile95, bias;  ///< over the scans with a height in the band, metres
 };
 
 struct HeightFiguresByRange {
@@ -35,46 +35,47 @@ struct HeightFiguresByRange {
   std::array<HeightFigures, height_bands.size()> by_range{};
 };
 
-/// As HeightScore.
+/// Height errors over the point sets of HeightScore.
 struct HeightResult {
   HeightFiguresByRange ground, everywhere;
 };
 
-/// One method over all scans that could be read, and what that comes to.
+/// Results of one method on each scan that could be read, and their averages.
 struct MethodResult {
   std::string name;
   std::string title;
   std::vector<ScanScore> scans;
 
-  Spread precision, recall, f1, accuracy, iou;  ///< over scans
-  Confusion pooled;                             ///< over points
+  Spread precision, recall, f1, accuracy, iou;  ///< macro-averages over scans
+  Confusion pooled;                             ///< micro-average over the points of all scans
   std::array<Confusion, range_bands.size()> by_range{};
   Confusion by_area;
-  std::optional<HeightResult> heights;  ///< of methods that give heights where the truth is known
-  std::optional<double> hz;             ///< scans a second: 1 / mean time
-  std::optional<double> hz_slowest_1_percent;  ///< 1 / mean of the slowest 1 % of times
+  std::optional<HeightResult>
+      heights;               ///< set if the method provides heights and the true heights are known
+  std::optional<double> hz;  ///< scans per second: 1 / mean time
+  std::optional<double> hz_slowest_1_percent;  ///< 1 / mean of the slowest 1 % of the times
 };
 
-/// A scan, or a method on a scan, that came to nothing.
+/// A scan that could not be read, or a method that failed on a scan.
 struct Failure {
   std::string scan;
   std::string error;
 };
 
-/// Where the time went, summed over scans and threads, milliseconds.
+/// Time spent, summed over scans and threads, milliseconds.
 struct TimeSpent {
   double read = 0;
   double segment = 0;
   double score = 0;
 };
 
-/// The outcome of an evaluation.
+/// Results of an evaluation.
 struct Results {
   std::string protocol;
   std::vector<std::string> datasets;
-  std::size_t scans = 0;              ///< that could be read and have a point to score
-  std::vector<std::string> unscored;  ///< scans without one, which no figure counts
-  /// Of `scans`, those without ground in the ground truth: they count in accuracies alone.
+  std::size_t scans = 0;              ///< scans that could be read and have a scored point
+  std::vector<std::string> unscored;  ///< scans without a scored point; excluded from all results
+  /// Number of scans without ground in the ground truth; only accuracies include them.
   std::size_t without_ground = 0;
   unsigned threads = 1;
   std::vector<MethodResult> methods;
@@ -82,16 +83,16 @@ struct Results {
   TimeSpent time;
 };
 
-/// Gathers outcomes, one per scan and each with the methods in their order; none for scans that
-/// were not reached.
+/// Combines outcomes into results: one outcome per scan, with the methods in the given order;
+/// nullopt for scans that were not processed.
 Results gather(std::span<const Method> methods, std::span<const LabelledScan> scans,
                std::span<const std::optional<ScanOutcome>> outcomes);
 
-/// Does a method have heights that could be scored?
+/// Whether at least one method has scored heights.
 bool has_heights(const Results& results);
 
-/// Indices into `result.scans` of the `count` scans with the lowest F1, lowest first; scans without
-/// an F1 are left out.
+/// Indices into `result.scans` of the `count` scans with the lowest F1, lowest first. Scans without
+/// an F1 are omitted.
 std::vector<std::size_t> worst_scans(const MethodResult& result, std::size_t count);
 
 }  // namespace flagstone::eval

@@ -56,7 +56,7 @@ std::string heading(bool with_heights) {
   return text + "\r\n";
 }
 
-/// Metres, over points of the ground; empty where there are none.
+/// Cells of the height errors over ground points, metres; empty without heights.
 std::string height_cells(const HeightErrors& errors) {
   const std::optional<double> share = errors.share();
   const std::string share_cell = share ? fmt::format(",{:.6f}", *share) : ",";
@@ -65,7 +65,7 @@ std::string height_cells(const HeightErrors& errors) {
          share_cell;
 }
 
-/// A ratio; empty where it is undefined.
+/// A ratio; empty if it is undefined.
 std::string ratio_cell(double ratio) {
   return std::isnan(ratio) ? "," : fmt::format(",{:.6f}", ratio);
 }
@@ -148,7 +148,7 @@ OrderedJson to_json(const HeightFigures& figures) {
   return json;
 }
 
-/// A scan's own.
+/// Height errors of one scan.
 OrderedJson to_json(const HeightErrors& errors) {
   const auto if_any = [&](double figure) {
     return errors.given > 0 ? OrderedJson(figure) : OrderedJson();
@@ -160,7 +160,7 @@ OrderedJson to_json(const HeightErrors& errors) {
           {"bias", if_any(errors.bias)}};
 }
 
-/// HeightFiguresByRange, or a scan's HeightErrorsByRange.
+/// `heights` is a HeightFiguresByRange, or the HeightErrorsByRange of one scan.
 template <class ByRange>
 OrderedJson heights_by_range(const ByRange& heights) {
   OrderedJson json = to_json(heights.all);
@@ -175,7 +175,7 @@ OrderedJson heights_by_range(const ByRange& heights) {
   return json;
 }
 
-/// HeightResult, or a scan's HeightScore.
+/// `heights` is a HeightResult, or the HeightScore of one scan.
 template <class Heights>
 OrderedJson heights_json(const Heights& heights) {
   return {{"ground", heights_by_range(heights.ground)},

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double percent = 100;
 
-/// A number in a column of `width`; the best of its column stands out.
+/// A number in a column of `width`. The best number of a column is bold or marked with an asterisk.
 std::string cell(double value, int width, int digits, bool is_best, const TextStyle& style) {
   if (!is_best) return fmt::format("{:>{}.{}f} ", value, width, digits);
   if (style.bold) return fmt::format("\x1b[1m{:>{}.{}f}\x1b[0m ", value, width, digits);
@@ -33,7 +33,7 @@ std::string optional_cell(const std::optional<double>& value, int width, int dig
   return cell(*value, width, digits, is_best, style);
 }
 
-/// The value itself as it is printed, so that what looks the same is equally good.
+/// Rounds a value as it is printed, so that values that look equal count as equally good.
 double printed(double value, int digits) {
   const double scale = std::pow(10.0, digits);
   return std::round(value * scale) / scale;
@@ -50,12 +50,12 @@ struct Column {
   bool has_best = true;
 };
 
-/// Only methods that came through on every scan are compared.
+/// Only methods that succeeded on every scan are compared.
 bool is_complete(const Results& results, const MethodResult& result) {
   return result.scans.size() == results.scans && results.scans > 0;
 }
 
-/// The best value of a column, as printed: the largest, or the smallest; none of a single method.
+/// The best value of a column, as printed: the largest or the smallest. None for a single method.
 std::optional<double> best_of(const Results& results, const Column& column) {
   std::optional<double> best;
   if (!column.has_best || results.methods.size() < 2) return best;
@@ -72,7 +72,7 @@ std::optional<double> in_percent(const std::optional<double>& share) {
   return share ? std::optional(percent * *share) : std::nullopt;
 }
 
-/// Which methods stand for fewer scans than the table.
+/// Lists the methods that were scored on fewer scans than the table.
 std::string footnotes(const Results& results) {
   std::string text;
   for (const MethodResult& result : results.methods) {

@@ -22,26 +22,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// With more methods than this, those of a sweep, each is made anew for every scan: what they hold
-/// in memory would be too much.
+/// With more methods than this (in a sweep), methods are constructed again for every scan, because
+/// keeping them all would take too much memory.
 constexpr std::size_t most_kept = 32;
 
-/// Where labels of scan "05/000120" are in a tree laid out as its dataset is:
-/// sequences/05/PLACE/000120.label. Of several datasets, each has a folder of its name.
-fs::path in_tree(const fs::path& folder, const fs::path& name, const char* place,
-                 const char* ending = ".label") {
-  const fs::path file = fs::path(place) / (name.filename().string() + ending);
+/// Path of the labels of scan "05/000120" in a tree with the layout of its dataset:
+/// sequences/05/SUBDIRECTORY/000120.label. With several datasets, each has a directory with its
+/// name.
+fs::path in_tree(const fs::path& folder, const fs::path& name, const char* subdirectory,
+                 const char* extension = ".label") {
+  const fs::path file = fs::path(subdirectory) / (name.filename().string() + extension);
   const fs::path sequence = name.parent_path();
   if (sequence.empty()) return folder / file;
   return folder / sequence.parent_path() / "sequences" / sequence.filename() / file;
 }
 
-/// The file that holds a method's labels of a scan; the first that was looked for if there is none.
+/// The file with a method's labels of a scan, or the first candidate if none exists.
 fs::path label_file(const fs::path& folder, const std::string& name) {
   const std::array candidates = {folder / (name + ".label"),
                                  folder / (name + ".npy"),
                                  folder / (name + ".label.npy"),        // of --format u8
-                                 in_tree(folder, name, "predictions"),  // SemanticKITTI's place
+                                 in_tree(folder, name, "predictions"),  // SemanticKITTI's layout
                                  in_tree(folder, name, "velodyne"),     // 'flagstone segment TREE'
                                  in_tree(folder, name, "velodyne", ".label.npy")};
   std::error_code error;
@@ -52,10 +53,11 @@ fs::path label_file(const fs::path& folder, const std::string& name) {
 
 }  // namespace
 
-/// A method at work.
+/// A method and its runner.
 struct ScanEvaluator::Worker {
   const Method* method;
-  std::unique_ptr<MethodRunner> runner;  // null for labels made elsewhere, and between scans
+  std::unique_ptr<MethodRunner>
+      runner;  // null for labels of another program, and between scans in a sweep
 };
 
 ScanEvaluator::ScanEvaluator(std::span<const Method> methods, const Protocol& protocol,
@@ -83,11 +85,11 @@ Status ScanEvaluator::segment(Worker& worker, std::optional<double>& segment_ms)
   const bool is_new = !worker.runner && config;
   if (is_new) worker.runner = std::make_unique<MethodRunner>(*config, worker.method->mount);
   worker.runner->prepare(cloud_);
-  // Memory is taken and caches are filled before the first time that counts.
+  // Warm up: allocate memory and fill caches before the first measured time.
   Status status;
   const bool is_kept = workers_.size() <= most_kept;
   if (is_new && is_kept) status = worker.runner->segment(cloud_, result_);
-  // Every scan is looked at for itself, so that the order of scans and threads does not matter.
+  // Reset the state, so that results do not depend on the order of scans and threads.
   worker.runner->reset();
   Stopwatch watch;
   if (status.ok()) status = worker.runner->segment(cloud_, result_);
@@ -159,7 +161,7 @@ ScanOutcome ScanEvaluator::run(const LabelledScan& scan) noexcept {
     for (Worker& worker : workers_) evaluate(scan, worker, outcome);
   } catch (const std::bad_alloc&) {
     outcome.methods.clear();
-    outcome.error = "not enough memory";  // within what a string holds without allocating
+    outcome.error = "not enough memory";  // short enough to be stored without allocation
   } catch (const std::exception& error) {
     outcome.methods.clear();
     outcome.error = error.what();

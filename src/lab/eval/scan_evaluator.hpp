@@ -17,35 +17,38 @@
 #include "lab/eval/score.hpp"
 
 namespace flagstone::eval {
-/// What one method made of one scan.
+/// Outcome of one method on one scan.
 struct MethodOutcome {
-  std::optional<std::string> error;  ///< one line; nothing else is filled then
+  std::optional<std::string> error;  ///< one line; the other members are then unset
   Score score;
-  std::optional<HeightScore> heights;  ///< of methods that give heights where the truth is known
-  std::optional<double> segment_ms;    ///< none for labels made elsewhere
+  std::optional<HeightScore>
+      heights;  ///< set if the method provides heights and the true heights are known
+  std::optional<double> segment_ms;  ///< unset for labels of another program
 };
 
-/// What became of one scan.
+/// Outcome of one scan.
 struct ScanOutcome {
-  std::optional<std::string> error;  ///< the scan or its truth could not be read: one line
+  std::optional<std::string>
+      error;  ///< one line, if the scan or its ground truth could not be read
   std::vector<MethodOutcome> methods;
-  double read_ms = 0;   ///< points and classes
-  double score_ms = 0;  ///< truth and all scores
+  double read_ms = 0;   ///< time to read points and classes
+  double score_ms = 0;  ///< time to compute the ground truth and all scores
 };
 
-/// Runs methods over one scan after another and scores them, reusing its memory. One per thread.
+/// Runs methods on one scan after another and scores them, reusing memory. Not thread-safe: use one
+/// instance per thread.
 class ScanEvaluator {
  public:
-  /// What is referred to must outlive it. Configurations are checked.
+  /// The arguments must outlive this object. Configurations are checked on first use.
   ScanEvaluator(std::span<const Method> methods, const Protocol& protocol,
                 const io::ReadOptions& read);
   ~ScanEvaluator();
 
-  /// Never throws: what goes wrong is in the outcome.
+  /// Evaluates a scan. Errors are reported in the outcome.
   ScanOutcome run(const LabelledScan& scan) noexcept;
 
-  /// Every method's labels of a scan, for who draws them; none of a method that failed. cloud() and
-  /// truth() are that scan's then.
+  /// Computes the labels of every method for a scan, for images; empty for a method that failed.
+  /// Afterwards `cloud()` and `truth()` return the data of this scan.
   Status label_all(const LabelledScan& scan, std::vector<std::vector<Label>>& labels);
   [[nodiscard]] CloudView cloud() const noexcept { return cloud_.view(); }
   [[nodiscard]] const ScanTruth& truth() const noexcept { return truth_; }
@@ -65,10 +68,10 @@ class ScanEvaluator {
   std::vector<Worker> workers_;
   io::Cloud cloud_;
   std::vector<std::uint32_t> classes_;
-  std::vector<float> ground_;  // true height of the ground at each point; empty where unknown
+  std::vector<float> ground_;  // true ground height at each point; empty if unknown
   ScanTruth truth_;
   Segmentation result_;
-  std::vector<Label> found_;  // by another program
+  std::vector<Label> found_;  // labels read from the files of another program
 };
 
 }  // namespace flagstone::eval

@@ -52,22 +52,22 @@ namespace {
 constexpr auto row_cells = static_cast<std::uint32_t>(2 * range_bands.back() / cell_size);
 constexpr std::uint32_t no_cell = row_cells * row_cells;
 
-/// Points are counted in groups: twice the band (one more for what lies beyond), plus one for true
-/// ground; and those that are not scored.
+/// Points are counted in groups. The group is 2 * band, plus 1 for ground in the ground truth;
+/// there is one more band beyond the last, and one group for points that are not scored.
 constexpr std::size_t not_scored = 2 * (range_bands.size() + 1);
 
 std::uint32_t cell_of(Point p) {
   constexpr float half_side = range_bands.back();
   const float x = p.x + half_side;
   const float y = p.y + half_side;
-  const auto is_covered = [](float v) { return v >= 0 && v < 2 * half_side; };  // not if NaN
+  const auto is_covered = [](float v) { return v >= 0 && v < 2 * half_side; };  // false for NaN
   if (!is_covered(x) || !is_covered(y)) return no_cell;
   return static_cast<std::uint32_t>(x / cell_size) * row_cells +
          static_cast<std::uint32_t>(y / cell_size);
 }
 
-/// The number of bands whose upper ends lie at or below the point's horizontal range: the index of
-/// its band; beyond the last, and not finite, bands.size(). Branches would often be mispredicted.
+/// Index of the range band of a point; bands.size() beyond the last band and for non-finite points.
+/// Counts band ends instead of branching, because branches would often be mispredicted.
 template <std::size_t Count>
 std::uint32_t band_of(Point p, const std::array<float, Count>& bands) {
   const float squared_range = p.x * p.x + p.y * p.y;
@@ -98,8 +98,9 @@ void ScanTruth::set(const Protocol& protocol, CloudView cloud,
 }
 
 Score ScanTruth::score(std::span<const Label> labels) const noexcept {
-  std::array<std::array<std::uint64_t, 2>, not_scored + 1> points{};  // by group and found
-  std::array<std::array<double, 2>, 2> area{};                        // by truth and found
+  std::array<std::array<std::uint64_t, 2>, not_scored + 1>
+      points{};                                 // by group, and labelled ground or not
+  std::array<std::array<double, 2>, 2> area{};  // by ground truth, and labelled ground or not
   for (std::size_t i = 0; i < labels.size(); ++i) {
     const std::size_t found = labels[i] == Label::ground ? 1 : 0;
     ++points[groups_[i]][found];
@@ -124,10 +125,10 @@ Score ScanTruth::score(std::span<const Label> labels) const noexcept {
 
 namespace {
 
-/// Gathers the errors of some points.
+/// Collects the errors of a set of points.
 class Errors {
  public:
-  /// Of a point without a height, NaN.
+  /// `error` is NaN for a point without a height.
   void add(double error) {
     ++points_;
     if (!std::isnan(error)) errors_.push_back(error);
@@ -157,7 +158,7 @@ struct ErrorsByRange {
   Errors all;
   std::array<Errors, height_bands.size()> by_range;
 
-  /// `band` is height_bands.size() beyond all bands.
+  /// `band` is height_bands.size() beyond the last band.
   void add(std::size_t band, double error) {
     all.add(error);
     if (band < by_range.size()) by_range[band].add(error);

@@ -17,10 +17,10 @@
 #include "library/core/truth.hpp"
 
 namespace flagstone::eval {
-/// How labels compare with the ground truth; section IV-B of the paper, equation (1). In points, or
-/// in cells where each counts once. All scores are ratios from 0 to 1, or NaN where they are
-/// undefined: without ground in the ground truth only the accuracy is defined, without points
-/// labelled ground the precision is undefined too.
+/// Confusion matrix of labels and ground truth; section IV-B of the paper, equation (1). Counts are
+/// points, or BEV cells that count once each. All metrics are ratios from 0 to 1, or NaN if they
+/// are undefined. Without ground in the ground truth only the accuracy is defined; without points
+/// labelled ground the precision is undefined.
 struct Confusion {
   double true_positives = 0;
   double false_positives = 0;
@@ -29,10 +29,10 @@ struct Confusion {
 
   Confusion& operator+=(const Confusion& other) noexcept;
 
-  /// Is there ground in the ground truth?
+  /// Whether the ground truth contains ground.
   [[nodiscard]] bool has_ground() const noexcept { return true_positives + false_negatives > 0; }
 
-  /// All that was scored.
+  /// Number of scored points or cells.
   [[nodiscard]] double total() const noexcept {
     return true_positives + false_positives + false_negatives + true_negatives;
   }
@@ -50,7 +50,7 @@ struct Confusion {
   [[nodiscard]] double accuracy() const noexcept {
     return (true_positives + true_negatives) / total();
   }
-  /// Intersection over union of found and true ground.
+  /// Intersection over union of labelled ground and ground truth.
   [[nodiscard]] double iou() const noexcept {
     if (!has_ground()) return undefined;
     return true_positives / (true_positives + false_positives + false_negatives);
@@ -60,89 +60,91 @@ struct Confusion {
   static constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// "95.12" for a ratio of 0.9512, "n/a" for one that is undefined.
+/// "95.12" for a ratio of 0.9512, "n/a" for an undefined ratio.
 std::string percent_text(double ratio);
 
-/// "precision 95.12 %, recall 93.00 %, F1 94.05 %"; says so if there is no ground to be found.
+/// "precision 95.12 %, recall 93.00 %, F1 94.05 %"; only the accuracy if the ground truth contains
+/// no ground.
 std::string scores_text(const Confusion& confusion);
 
-/// Compares labels with the truth, one of each per point. Whatever is not labelled ground counts as
-/// not ground; ignored points are left out.
+/// Compares labels with the ground truth, one of each per point. All labels except ground count as
+/// not ground. Ignored points are skipped.
 Confusion compare(std::span<const Label> labels, std::span<const Truth> truth);
 
-/// Upper ends of the bands of horizontal range that are scored apart, metres; the first begins at
-/// 0.
+/// Upper ends of the bands of horizontal range with separate scores, metres; the first band begins
+/// at 0.
 inline constexpr std::array<float, 4> range_bands = {10, 20, 40, 80};
 
-/// Side of the cells of the bird's-eye view, metres. They cover the square out to the last band.
+/// Side of the cells of the bird's-eye view (BEV), metres. The cells cover the square up to the end
+/// of the last band.
 inline constexpr float cell_size = 0.5f;
 
-/// One method's labels of one scan compared with the truth.
+/// Score of the labels of one method for one scan.
 struct Score {
   Confusion points;                                      ///< over all points
-  std::array<Confusion, range_bands.size()> by_range{};  ///< points of each band
-  Confusion by_area;  ///< each cell counts once, divided among its points
+  std::array<Confusion, range_bands.size()> by_range{};  ///< points in each band
+  Confusion by_area;  ///< per BEV cell: each cell counts once, divided equally among its points
 };
 
-/// What is true of each point of a scan, and where it counts. One per thread, used again: its
-/// memory is kept.
+/// The ground truth of each point of a scan, with its range band and BEV cell. Reuses its memory.
+/// Not thread-safe: use one instance per thread.
 class ScanTruth {
  public:
-  /// `classes` holds one id per point of `cloud`.
+  /// `classes` contains one id per point of `cloud`.
   void set(const Protocol& protocol, CloudView cloud, std::span<const std::uint32_t> classes);
 
   [[nodiscard]] std::span<const Truth> truth() const noexcept { return truth_; }
 
-  /// Scores one label per point of that cloud.
+  /// Scores labels, one per point of the cloud passed to set().
   [[nodiscard]] Score score(std::span<const Label> labels) const noexcept;
 
  private:
   std::vector<Truth> truth_;
-  std::vector<std::uint8_t> groups_;        // per point: band and truth
-  std::vector<std::uint32_t> cells_;        // per point
-  std::vector<std::uint32_t> cell_points_;  // per cell: scored points
-  std::vector<float> shares_;               // per cell: what each of its points counts
+  std::vector<std::uint8_t> groups_;        // per point: band and ground truth
+  std::vector<std::uint32_t> cells_;        // per point: BEV cell
+  std::vector<std::uint32_t> cell_points_;  // per cell: number of scored points
+  std::vector<float> shares_;               // per cell: weight of each of its points
 };
 
-/// Upper ends of the bands of horizontal range in which heights are judged, metres; the first
-/// begins at 0.
+/// Upper ends of the bands of horizontal range in which heights are evaluated, metres; the first
+/// band begins at 0.
 inline constexpr std::array<float, 3> height_bands = {20, 40, 80};
 
-/// How far a method's heights above the ground are from the truth, over some points of one scan.
-/// An error is what the method says minus what is true, metres: above 0 where its ground lies too
-/// low.
+/// Height errors of a method over a set of points of one scan. The error is the estimated height
+/// minus the true height, metres. A positive error means that the estimated ground is too low.
 struct HeightErrors {
-  std::size_t points = 0;  ///< whose true height is known
-  std::size_t given = 0;   ///< of these, those for which the method has a height
-  /// @name Over those with a height; 0 of none
+  std::size_t points = 0;  ///< number of points with a known true height
+  std::size_t given = 0;   ///< number of these for which the method provides a height
+  /// @name Over the points with a height; 0 without such points
   /// @{
-  double median = 0;        ///< of the absolute error, metres: at least half do not exceed it
-  double percentile95 = 0;  ///< the same for 95 % of the points
+  double median = 0;        ///< of the absolute error, metres
+  double percentile95 = 0;  ///< of the absolute error, metres
   double bias = 0;          ///< mean error, metres
   /// @}
 
-  /// Share of the points for which the method has a height; none of no points.
+  /// Fraction of the points for which the method provides a height; nullopt without points.
   [[nodiscard]] std::optional<double> share() const noexcept {
     if (points == 0) return std::nullopt;
     return static_cast<double>(given) / static_cast<double>(points);
   }
 };
 
-/// The same over all points and in bands of range.
+/// Height errors over all points and in range bands.
 struct HeightErrorsByRange {
-  HeightErrors all;  ///< at any range
+  HeightErrors all;  ///< points at any range
   std::array<HeightErrors, height_bands.size()> by_range{};
 };
 
-/// One method's heights of one scan compared with the truth.
+/// Height errors of one method for one scan.
 struct HeightScore {
-  HeightErrorsByRange ground;  ///< true ground: where the surface was seen
-  /// Every point, also those on what stands on the ground and hides it.
+  HeightErrorsByRange ground;  ///< ground points in the ground truth
+  /// All points, including points on objects that hide the ground.
   HeightErrorsByRange everywhere;
 };
 
-/// Scores heights above the ground, one a point, NaN where the method has none. `true_ground` is
-/// the z of the ground at each point, metres, NaN where not known; `truth` says which are ground.
+/// Scores heights above the ground, one per point; NaN for points without a height. `true_ground`
+/// is the z of the true ground at each point, metres, NaN if unknown. `truth` selects the ground
+/// points.
 HeightScore score_heights(CloudView cloud, std::span<const Truth> truth,
                           std::span<const float> true_ground, std::span<const float> heights);
 

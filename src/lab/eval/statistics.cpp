@@ -21,7 +21,7 @@ double student_t_975(std::size_t degrees) {
                                 2.110,  2.101, 2.093, 2.086, 2.080, 2.074, 2.069, 2.064,
                                 2.060,  2.056, 2.052, 2.048, 2.045, 2.042};
   if (degrees <= table.size()) return table[std::max<std::size_t>(degrees, 1) - 1];
-  // Their asymptotic expansion 26.7.5 about the normal quantile.
+  // Their asymptotic expansion 26.7.5 around the normal quantile.
   constexpr double z = 1.959964;
   constexpr double z3 = z * z * z;
   constexpr double z5 = z3 * z * z;

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 
 # cmake -D name=NAME -D file=FILE -D source=SOURCE -P embed.cmake
-# writes the C++ file SOURCE, in which embedded::NAME is the text of FILE. Compilers need not take so
-# long a literal, hence the warning; GCC and clang do.
+# writes the C++ file SOURCE, which defines embedded::NAME as the text of FILE. The standard does
+# not require compilers to accept such long literals, hence the warning; GCC and clang accept them.
 file(READ ${file} text)
-file(WRITE ${source} "// Made of ${file} by embed.cmake.
+file(WRITE ${source} "// Generated from ${file} by embed.cmake.
 #include \"lab/report/embedded_files.hpp\"
 
 #pragma GCC diagnostic ignored \"-Woverlength-strings\"

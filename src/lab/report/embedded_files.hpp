@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-/// Files that are built into the library: those of the folder page/, and Chart.js.
+/// Files embedded in the library: the files of the directory page/, and Chart.js.
 namespace flagstone::report::embedded {
 
 extern const std::string_view chart_js;

@@ -20,12 +20,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A band of range as text: "0–10 m".
+/// A range band as text: "0–10 m".
 std::string band_text(const Json& band) {
   return fmt::format("{:g}–{:g} m", band.at("from").get<double>(), band.at("to").get<double>());
 }
 
-/// The range bands of the first method that has some.
+/// The range bands of the first method that has any.
 std::vector<std::string> range_bands(const Json& results) {
   std::vector<std::string> bands;
   for (const Json& method : results.at("methods")) {
@@ -35,7 +35,7 @@ std::vector<std::string> range_bands(const Json& results) {
   return bands;
 }
 
-// Where each scan stands in the list of all, in the order of its first appearance.
+// The names of all scans in order of first appearance, and the index of each.
 class ScanList {
  public:
   explicit ScanList(const Json& methods) {
@@ -44,20 +44,20 @@ class ScanList {
   }
 
   [[nodiscard]] const Json& names() const noexcept { return names_; }
-  [[nodiscard]] std::size_t place(const Json& scan) const {
-    return place_.at(scan.at("scan").get<std::string>());
+  [[nodiscard]] std::size_t index_of(const Json& scan) const {
+    return index_.at(scan.at("scan").get<std::string>());
   }
 
  private:
   void add(const std::string& name) {
-    if (place_.try_emplace(name, names_.size()).second) names_.push_back(name);
+    if (index_.try_emplace(name, names_.size()).second) names_.push_back(name);
   }
 
   Json names_ = Json::array();
-  std::unordered_map<std::string, std::size_t> place_;
+  std::unordered_map<std::string, std::size_t> index_;
 };
 
-// A plot shows no more than five decimals of a share, and a report may hold 200,000 of them.
+// Five decimals are enough for a plot, and a report can contain 200,000 ratios.
 Json rounded(const Json& share) {
   if (!share.is_number()) return nullptr;
   return std::round(share.get<double>() * 1e5) / 1e5;
@@ -68,7 +68,7 @@ Json method_data(const Json& method, const ScanList& scans) {
   for (const Json& band : method.at("by_range")) by_range.push_back(band.at("f1"));
   std::vector<Json> f1_of_scan(scans.names().size());
   for (const Json& scan : method.at("per_scan"))
-    f1_of_scan[scans.place(scan)] = rounded(scan.at("f1"));
+    f1_of_scan[scans.index_of(scan)] = rounded(scan.at("f1"));
   return {{"title", method.at("title")},
           {"precision", method.at("precision").at("mean")},
           {"recall", method.at("recall").at("mean")},
@@ -80,9 +80,9 @@ Json method_data(const Json& method, const ScanList& scans) {
           {"scans", f1_of_scan}};
 }
 
-/// What the plots draw, a small part of the results: all scans' names once, and per method title,
-/// precision, recall, f1, ci95, hz, hz_slowest, by_range (F1 per band) and scans (F1 per scan; null
-/// where the method has none).
+/// The data of the plots, a small part of the results: the names of all scans once and, per method,
+/// title, precision, recall, f1, ci95, hz, hz_slowest, by_range (F1 per band) and scans (F1 per
+/// scan; null if the method has none).
 Json plot_data(const Json& results) {
   const ScanList scans(results.at("methods"));
   Json methods = Json::array();
@@ -90,7 +90,7 @@ Json plot_data(const Json& results) {
   return {{"scans", scans.names()}, {"bands", range_bands(results)}, {"methods", methods}};
 }
 
-// Table I of the paper, and what else there is one number of per method.
+// Table I of the paper, with further metrics per method.
 std::string method_table(const Json& methods) {
   using enum Format;
   const std::array<Column, 13> columns = {{
@@ -111,7 +111,7 @@ std::string method_table(const Json& methods) {
   return table(methods, columns);
 }
 
-// The same judgement with other weights: every point counts once, or every cell of ground.
+// The same metrics with other weights: each point counts once, or each BEV cell.
 std::string pooled_table(const Json& results) {
   using enum Format;
   std::vector<Column> columns = {
@@ -132,7 +132,7 @@ std::string pooled_table(const Json& results) {
   return table(results.at("methods"), columns);
 }
 
-// Errors of heights over one set of points ("ground", "everywhere") in each band of range.
+// Height errors over one set of points ("ground" or "everywhere") in each range band.
 std::string height_table(const Json& methods, const Json& bands, std::string_view points) {
   using enum Format;
   std::vector<Column> columns = {{"", "Method", "/title", text, false}};

@@ -10,15 +10,15 @@
 
 namespace flagstone::report {
 
-/// A picture in the report.
+/// An image in the report.
 struct ReportPicture {
-  std::string title;           ///< UTF-8, its caption
-  std::vector<std::byte> png;  ///< the PNG file's bytes
+  std::string title;           ///< caption, UTF-8
+  std::vector<std::byte> png;  ///< bytes of the PNG file
 };
 
-/// The results of `flagstone eval`, as its --json writes them, as one HTML file with tables and
-/// plots that loads nothing from anywhere. Shares in `results` are 0 to 1; null stands for a number
-/// that there is none of. Throws nlohmann::json::exception where `results` is not of that form.
+/// Converts the results of `flagstone eval`, in the format of its --json, to one self-contained
+/// HTML file with tables and plots. Ratios in `results` are 0 to 1; null is an undefined number.
+/// Throws nlohmann::json::exception if `results` does not have this format.
 std::string eval_report(const nlohmann::ordered_json& results,
                         std::span<const ReportPicture> pictures);
 

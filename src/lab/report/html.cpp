@@ -33,7 +33,7 @@ std::string script_json(const nlohmann::ordered_json& value) {
       value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   std::string safe;
   safe.reserve(json.size());
-  // In JSON, '<' occurs within strings only.
+  // In JSON, '<' occurs only within strings.
   for (const char character : json)
     if (character == '<')
       safe += "\\u003c";
@@ -65,7 +65,8 @@ std::string base64(std::span<const std::byte> bytes) {
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   while (!bytes.empty()) {
-    // Three bytes are four digits of six bits; n bytes need n + 1 digits, the rest is padding.
+    // Three bytes are four digits of six bits each; n bytes need n + 1 digits, and the rest is
+    // padding.
     const std::size_t taken = std::min<std::size_t>(bytes.size(), 3);
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < 3; ++i)
@@ -96,7 +97,7 @@ std::string shown(const Json& value, Format format) {
   return {};
 }
 
-// The first row of headings: one cell over the columns of a group.
+// The first row of headings, with one cell per group of columns.
 std::string group_headings(std::span<const Column> columns) {
   std::string html;
   for (std::size_t first = 0; first < columns.size();) {
@@ -120,7 +121,7 @@ std::string headings(std::span<const Column> columns) {
   return "<tr>" + html + "</tr>\n";
 }
 
-// The best value as it is shown: what looks equal counts as equally good.
+// The best value as it is shown, so that values that look equal count as equally good.
 std::string best_shown(const Json& rows, const Column& column) {
   const bool low_is_good = column.format == Format::length;
   Json best;
@@ -150,7 +151,7 @@ std::string table(const Json& rows, std::span<const Column> columns) {
   if (std::ranges::any_of(columns, has_group)) html += group_headings(columns);
   html += headings(columns) + "</thead>\n<tbody>\n";
 
-  // Of one row, nothing is the best.
+  // A single row has no best value.
   std::vector<std::string> best;
   for (const Column& column : columns)
     best.push_back(column.mark_best && rows.size() > 1 ? best_shown(rows, column) : "");

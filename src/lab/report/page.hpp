@@ -9,27 +9,27 @@
 
 namespace flagstone::report {
 
-/// What stands in a template in place of {{name}}.
+/// A value that replaces {{name}} in a template.
 struct Slot {
   std::string_view name;
   std::string_view value;
 };
 
-/// `text` with each {{name}} replaced by its slot's value, which is taken as it is: what looks like
-/// a slot in there stays. Throws std::logic_error for a name that has no slot.
+/// Returns `text` with each {{name}} replaced by the value of its slot. Values are not searched for
+/// slots. Throws std::logic_error for a name without a slot.
 std::string fill(std::string_view text, std::span<const Slot> slots);
 
-/// One HTML file that needs nothing else: `body` is HTML, `plots` what `script` draws.
+/// One self-contained HTML file. `body` is HTML, and `plots` is the data that `script` draws.
 std::string page(std::string_view title, std::string_view body, const nlohmann::ordered_json& plots,
                  std::string_view script);
 
-/// The list of facts under the heading: protocol, scans, data sets, machine, date, version.
+/// The list of facts below the heading: protocol, scans, datasets, machine, date, version.
 std::string facts(const nlohmann::ordered_json& results);
 
-/// "10 scans".
+/// The number of scans: "10 scans".
 std::string scan_count(const nlohmann::ordered_json& results);
 
-/// The names of the data sets, "kitti, nuscenes"; not yet escaped.
+/// The names of the datasets, not escaped: "kitti, nuscenes".
 std::string dataset_names(const nlohmann::ordered_json& results);
 
 }  // namespace flagstone::report

@@ -32,16 +32,17 @@ bool is_number(const std::string& text) noexcept {
   return error == std::errc() && stopped == end;
 }
 
-/// The cells of a sweep by their place on a grid of one or two keys' values.
+/// The cells of a sweep, arranged on a grid by the values of one or two keys.
 class SweepGrid {
  public:
-  /// `results` as sweep_report() takes them, and must outlive this. Throws std::invalid_argument
-  /// where there are not one or two keys, or a cell has another number of values.
+  /// `results` has the format of sweep_report() and must outlive this object. Throws
+  /// std::invalid_argument if there are not one or two keys, or if a cell has a different number of
+  /// values.
   explicit SweepGrid(const Json& results);
 
   [[nodiscard]] const std::vector<std::string>& keys() const noexcept { return keys_; }
 
-  /// A key's values in the order they first appear in.
+  /// The values of a key in order of first appearance.
   [[nodiscard]] const std::vector<std::string>& values(std::size_t key) const {
     return values_.at(key);
   }
@@ -49,12 +50,12 @@ class SweepGrid {
   /// Whether all values of a key are numbers.
   [[nodiscard]] bool is_numeric(std::size_t key) const;
 
-  /// Mean and standard deviation of a metric for the first key's value `first` and the second's
-  /// `second` (0 where there is one key); null where the sweep has no such cell.
+  /// Mean and standard deviation of a metric for value `first` of the first key and value `second`
+  /// of the second key (0 if there is one key). Null if the sweep has no such cell.
   [[nodiscard]] Json mean(std::size_t first, std::size_t second, const char* metric) const;
   [[nodiscard]] Json deviation(std::size_t first, std::size_t second, const char* metric) const;
 
-  /// Lowest and highest mean of a metric; 0 and 0 where there is none.
+  /// Lowest and highest mean of a metric; 0 and 0 if there is no mean.
   [[nodiscard]] std::pair<double, double> bounds(const char* metric) const;
 
  private:
@@ -71,13 +72,13 @@ SweepGrid::SweepGrid(const Json& results)
   if (keys_.empty() || keys_.size() > 2)
     throw std::invalid_argument("a sweep must have one or two keys");
   for (const Json& cell : results.at("cells")) {
-    auto place = cell.at("values").get<std::vector<std::string>>();
-    if (place.size() != keys_.size())
+    auto values = cell.at("values").get<std::vector<std::string>>();
+    if (values.size() != keys_.size())
       throw std::invalid_argument("a cell of a sweep must have one value per key");
-    for (std::size_t key = 0; key < place.size(); ++key)
-      if (std::ranges::find(values_[key], place[key]) == values_[key].end())
-        values_[key].push_back(place[key]);
-    cells_.emplace(std::move(place), &cell);
+    for (std::size_t key = 0; key < values.size(); ++key)
+      if (std::ranges::find(values_[key], values[key]) == values_[key].end())
+        values_[key].push_back(values[key]);
+    cells_.emplace(std::move(values), &cell);
   }
 }
 
@@ -95,7 +96,7 @@ Json SweepGrid::deviation(std::size_t first, std::size_t second, const char* met
 
 std::pair<double, double> SweepGrid::bounds(const char* metric) const {
   std::vector<double> means;
-  for (const auto& [place, cell] : cells_)
+  for (const auto& [values, cell] : cells_)
     if (const Json& mean = cell->at(metric).at("mean"); mean.is_number())
       means.push_back(mean.get<double>());
   if (means.empty()) return {0, 0};
@@ -105,9 +106,9 @@ std::pair<double, double> SweepGrid::bounds(const char* metric) const {
 
 Json SweepGrid::number(std::size_t first, std::size_t second, const char* metric,
                        const char* of) const {
-  std::vector<std::string> place = {values_[0].at(first)};
-  if (keys_.size() > 1) place.push_back(values_[1].at(second));
-  const auto cell = cells_.find(place);
+  std::vector<std::string> values = {values_[0].at(first)};
+  if (keys_.size() > 1) values.push_back(values_[1].at(second));
+  const auto cell = cells_.find(values);
   return cell == cells_.end() ? Json() : cell->second->at(metric).at(of);
 }
 
@@ -151,7 +152,7 @@ std::string canvases() {
   return html + "</div>\n</section>\n";
 }
 
-// Shades tell how good a setting is among all: 0 is the lowest mean, 1 the highest.
+// The shade shows the rank of a setting: 0 for the lowest mean, 1 for the highest.
 std::string heat_table(const SweepGrid& grid, const Metric& metric) {
   const auto [low, high] = grid.bounds(metric.name);
   std::string html = fmt::format(
@@ -189,9 +190,9 @@ Json plot_data(const SweepGrid& grid) {
     Json points;
     for (const auto& [name, title] : metrics) {
       points[name] = Json::array();
-      for (std::size_t place = 0; place < grid.values(0).size(); ++place)
+      for (std::size_t value = 0; value < grid.values(0).size(); ++value)
         points[name].push_back(
-            {{"mean", grid.mean(place, line, name)}, {"std", grid.deviation(place, line, name)}});
+            {{"mean", grid.mean(value, line, name)}, {"std", grid.deviation(value, line, name)}});
     }
     series.push_back(points);
   }

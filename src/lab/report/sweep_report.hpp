@@ -7,11 +7,11 @@
 
 namespace flagstone::report {
 
-/// The results of `flagstone sweep`, as its --json writes them, as one HTML file that loads nothing
-/// from anywhere: F1, precision and recall as lines over the first key, a line per value of the
-/// second (the paper's Fig. 5), or as tables in shades where both keys are numbers and the second
-/// has more than six values. Throws nlohmann::json::exception or std::invalid_argument where
-/// `results` is not of that form.
+/// Converts the results of `flagstone sweep`, in the format of its --json, to one self-contained
+/// HTML file. It shows F1, precision and recall as lines over the first key, with one line per
+/// value of the second key (as Fig. 5 of the paper). If both keys are numbers and the second has
+/// more than six values, it shows shaded tables instead. Throws nlohmann::json::exception or
+/// std::invalid_argument if `results` does not have this format.
 std::string sweep_report(const nlohmann::ordered_json& results);
 
 }  // namespace flagstone::report

@@ -5,7 +5,7 @@ const methods = data.methods;
 const titles = methods.map((method) => method.title);
 const looks = () => methods.map((_, series) => look(series));
 
-// One point per method on a line of its own, with a whisker.
+// One point per method, each on a separate line and with a whisker.
 function dots(name, values, intervals, scale, number) {
   const series = looks();
   return {
@@ -75,7 +75,7 @@ function speed_plot() {
     `${value.toFixed(1)} Hz` + (interval ? `, slowest 1 % ${interval[0].toFixed(1)} Hz` : ''));
 }
 
-// Curves of equal F1 behind the points: recall r and precision f r / (2 r - f).
+// Curves of constant F1 behind the points: recall r, precision f r / (2 r - f).
 const f1_contours = {
   id: 'f1_contours',
   beforeDatasetsDraw(chart) {
@@ -167,8 +167,8 @@ function sorted_scans(method) {
   const scans = method.scans.map((f1, i) => ({y: percent(f1), name: data.scans[i]}))
     .filter((scan) => scan.y !== null)
     .sort((a, b) => a.y - b.y);
-  scans.forEach((scan, place) => {
-    scan.x = 100 * (place + 0.5) / scans.length;
+  scans.forEach((scan, rank) => {
+    scan.x = 100 * (rank + 0.5) / scans.length;
   });
   return scans;
 }

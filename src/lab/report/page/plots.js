@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: MIT
 'use strict';
 
-// What all plots share: the page's colours, the looks of series, whiskers, drawing anew.
+// Common parts of all plots: page colours, appearance of series, whiskers, redrawing.
 
 const data = JSON.parse(document.getElementById('plot-data').textContent);
 
 const page_color = (name) =>
   getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-const percent = (share) => (share === null ? null : 100 * share);
+const percent = (ratio) => (ratio === null ? null : 100 * ratio);
 
-// Colours repeat after nine series, shapes after seven, dashes after four: no two series of a plot
-// look the same.
+// Colours repeat after nine series, shapes after seven and dashes after four, so that all series of
+// a plot differ.
 function look(series) {
   const color = page_color(`series-${(series % 9) + 1}`);
   const shapes = ['circle', 'triangle', 'rect', 'rectRot', 'star', 'crossRot', 'cross'];
@@ -29,21 +29,21 @@ function look(series) {
   };
 }
 
-// Round bounds in per cent that hold all values with some air, and never leave 0 to 100.
+// Round bounds in per cent around all values, with a margin, clamped to 0 to 100.
 function percent_bounds(values) {
   const numbers = values.filter((value) => value !== null);
   if (numbers.length === 0) return {min: 0, max: 100};
   const low = Math.min(...numbers);
   const high = Math.max(...numbers);
-  const air = Math.max(0.5, 0.05 * (high - low));
+  const margin = Math.max(0.5, 0.05 * (high - low));
   const step = [1, 2, 5, 10].find((size) => high - low < 8 * size) ?? 20;
   return {
-    min: Math.max(0, step * Math.floor((low - air) / step)),
-    max: Math.min(100, step * Math.ceil((high + air) / step)),
+    min: Math.max(0, step * Math.floor((low - margin) / step)),
+    max: Math.min(100, step * Math.ceil((high + margin) / step)),
   };
 }
 
-// A dataset's `intervals` hold [low, high] or null per point, in units of its value axis.
+// `intervals` of a dataset contains [low, high] or null per point, in units of the value axis.
 const whiskers = {
   id: 'whiskers',
   beforeDatasetsDraw(chart) {
@@ -83,7 +83,7 @@ function draw_whisker(context, ends, across, along_x) {
   }
 }
 
-// An axis with the page's colours; `more` wins.
+// An axis in the colours of the page; `more` overrides its options.
 const axis = (title, more = {}) => ({
   title: {display: title !== '', text: title, color: page_color('muted')},
   grid: {color: page_color('line'), borderColor: page_color('line')},
@@ -98,8 +98,8 @@ const legend = () => ({
 
 const no_legend = {display: false};
 
-// `plots`: canvas id to a function that makes a Chart.js configuration. They are drawn now, and
-// again in the colours of the scheme that the reader changes to, or of paper.
+// `plots` maps canvas ids to functions that return a Chart.js configuration. Draws the plots now,
+// and again when the colour scheme changes or the page is printed.
 function show_plots(plots) {
   let charts = [];
   const draw = () => {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// Lines over the first key. Those of different second values stand a little apart, so that their
-// whiskers can be told from each other.
+// Lines over the first key. Lines for different values of the second key are shifted slightly, so
+// that their whiskers do not overlap.
 function sweep_plot(metric) {
   const [labels, seconds] = data.values;
   const middle = (data.series.length - 1) / 2;
@@ -11,7 +11,7 @@ function sweep_plot(metric) {
     ...look(i),
     label: seconds ? `${data.keys[1]} = ${seconds[i]}` : data.keys[0],
     clip: false,
-    data: series[metric].map((cell, place) => ({x: place + apart * (i - middle), y: percent(cell.mean)})),
+    data: series[metric].map((cell, column) => ({x: column + apart * (i - middle), y: percent(cell.mean)})),
     intervals: series[metric].map((cell) => cell.mean === null || cell.std === null
       ? null : [100 * (cell.mean - cell.std), 100 * (cell.mean + cell.std)]),
   }));
