@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Ground segmentation for 3D LiDAR.
 
-A scan goes in; every point comes back labelled ground or not, with its height above the ground below it, every patch
-of ground comes back with its plane, and the ground itself as one continuous surface:
+flagstone labels every point of a scan as ground or non-ground and measures its height above the ground. It also
+returns the plane of each ground patch, and the ground as one continuous surface:
 
     import flagstone
 
@@ -11,7 +11,7 @@ of ground comes back with its plane, and the ground itself as one continuous sur
     result.ground  # (N,) bool
     result.heights  # (N,) float32, metres
 
-Coordinates are metres in the sensor's frame: x forward, y left, z up.
+Coordinates are in metres in the sensor frame: x forward, y left, z up.
 """
 
 from flagstone import io, plot

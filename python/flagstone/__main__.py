@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""`python -m flagstone` is the command `flagstone`."""
+"""Runs the command `flagstone` for `python -m flagstone`."""
 
 from flagstone._command import main
 

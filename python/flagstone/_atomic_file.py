@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Files that are there whole or not at all."""
+"""Files that are written atomically."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ _numbers = itertools.count()
 
 @contextmanager
 def atomic_write(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
-    """Opens a new file beside `path`, which takes its place when the block ends well and goes away otherwise.
+    """Opens a temporary file next to `path`. It replaces `path` if the block succeeds, otherwise it is deleted.
 
-    A symbolic link is followed; what is there and no regular file is never replaced.
+    Symbolic links are followed. Anything other than a regular file is never replaced.
 
     Raises:
-        OSError: The folder is not there, the disk is full, `path` is a folder, pipe or device.
+        OSError: The directory does not exist, the disk is full, or `path` is a directory, pipe or device.
     """
     target = Path(os.path.realpath(path))
     if target.exists() and not target.is_file():
-        what = "is no regular file (name one, or one that is not there yet)"
-        raise OSError(errno.EINVAL, what, os.fspath(path))
+        problem = "is not a regular file (choose a regular file or a new path)"
+        raise OSError(errno.EINVAL, problem, os.fspath(path))
     try:
         temporary, opened = _new_file_in(target.parent)
     except OSError as error:
@@ -46,7 +46,7 @@ def atomic_write(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
 
 
 class _FirstErrorFile:
-    """A file that keeps the first error of the disk, since compressors tell only that there was one."""
+    """A file that keeps the first OSError, because compressors report only that writing failed."""
 
     def __init__(self, file: BinaryIO) -> None:
         self._file = file
@@ -70,5 +70,5 @@ def _new_file_in(folder: Path) -> tuple[Path, BinaryIO]:
         path = folder / f".flagstone-{os.getpid()}-py{next(_numbers)}.tmp"
         try:
             return path, path.open("x+b")
-        except FileExistsError:  # left behind by a killed process that had our number
+        except FileExistsError:  # left by a killed process that had the same process ID
             continue

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The command `flagstone`, which comes with the package."""
+"""The command `flagstone`, which the package includes."""
 
 import os
 import sys
@@ -11,20 +11,20 @@ from flagstone import _core
 
 
 def path() -> Path:
-    """Where the program is.
+    """Path of the program.
 
     Raises:
-        FileNotFoundError: The package was put together without it.
+        FileNotFoundError: This installation does not include the program.
     """
-    # It is where CMake put the compiled module; in an editable installation that is not where this file is.
+    # CMake installs it next to the compiled module. In an editable installation, this file is elsewhere.
     program = Path(_core.__file__).parent / "bin" / "flagstone"
     if not program.is_file():
-        raise FileNotFoundError(f"{program}: the command is not part of this installation: install flagstone again")
+        raise FileNotFoundError(f"{program}: the command is missing from this installation; reinstall flagstone")
     return program
 
 
 def main() -> NoReturn:
-    """Becomes the command, with the arguments of this process."""
+    """Replaces this process with the command and passes on its arguments."""
     try:
         program = os.fspath(path())
         os.execv(program, [program, *sys.argv[1:]])

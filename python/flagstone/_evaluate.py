@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Methods scored on labelled scans, as data frames."""
+"""Scores of methods on labelled scans, as data frames."""
 
 from __future__ import annotations
 
@@ -24,37 +24,37 @@ if TYPE_CHECKING:
 
 PathLike = str | os.PathLike[str]
 
-_shares = ("precision", "recall", "f1", "accuracy", "iou")
-_height_figures = ("median", "percentile95", "bias")
+_ratios = ("precision", "recall", "f1", "accuracy", "iou")
+_height_metrics = ("median", "percentile95", "bias")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Evaluation:
-    """What `evaluate` found. Shares are 0 to 1, lengths metres; NaN where the scans allow no figure.
+    """Results of `evaluate`. Ratios are 0 to 1, lengths are in metres, and undefined values are NaN.
 
     Attributes:
-        methods: A row a method, in the order asked for; index `method`. `title`, `scans` (how many it stands on), then
-            of `precision`, `recall`, `f1`, `accuracy` and `iou` the mean over scans, `..._std` (sample standard
-            deviation) and `..._ci95` (half width of the 95 % interval of the mean, Student's t); `f1_pooled` (each
-            point counts once), `f1_by_area` (each 0.5 m cell of each scan counts once), `hz` and
-            `hz_slowest_1_percent` (scans a second, `segment` alone).
-        scans: A row a method and scan: `method`, `scan`, the five shares, counts of points `tp`, `fp`, `fn`, `tn`, F1
-            by horizontal range (`f1_0_10m` ...) and area, `milliseconds`; with true heights `height_median_0_20m` and
-            so on, metres, over points of the ground.
-        ranges: A row a method and band of horizontal range, points pooled over scans: `method`, `from`, `to` (metres;
-            the row to infinity is over all points), the five shares, `points`.
-        heights: A row a method, `points` (`ground`, or `all` of them, also where the ground is hidden) and band:
-            `count` of points, `with_height` (the share that has one), means over scans of the `median` and
-            `percentile95` of the absolute error and of the `bias`, metres, each with `..._std` and `..._ci95`. Empty
-            where the dataset has no true heights.
-        failed: A row a scan that could not be read, or that a method failed on: `scan`, `error`.
-        unscored: Scans left out, since no point of them is scored.
-        without_ground: Number of scans without ground in the ground truth. They have an accuracy alone: their
-            precision, recall, F1 and IoU are NaN, and the means leave them out.
-        protocol: Which classes were ground.
-        datasets: Their names.
-        threads: Scans worked on at once; `hz` depends on it.
-        machine: Processor and cores.
+        methods: One row per method, in the order requested; the index is `method`. `title`; `scans`, the number of
+            scans scored. For each of `precision`, `recall`, `f1`, `accuracy` and `iou`: the mean over scans, `..._std`
+            (sample standard deviation) and `..._ci95` (half-width of the 95 % confidence interval of the mean,
+            Student's t). `f1_pooled`, where each point counts once, and `f1_by_area`, where each 0.5 m cell of each
+            scan counts once. `hz` and `hz_slowest_1_percent`, scans per second of `segment` alone.
+        scans: One row per method and scan: `method`, `scan`, the five ratios, the numbers of points `tp`, `fp`, `fn`
+            and `tn`, F1 by horizontal range (`f1_0_10m` ...) and per cell, `milliseconds`. If the dataset has
+            ground-truth heights, also `height_median_0_20m` and so on: metres, over ground points.
+        ranges: One row per method and range interval, with the points of all scans together: `method`, `from` and `to`
+            (horizontal range, metres; the row up to infinity covers all points), the five ratios, `points`.
+        heights: One row per method, `points` (`ground`, or `all`, which includes points over hidden ground) and range
+            interval: `count` of points, `with_height` (fraction that has a height), and means over scans of the
+            `median` and `percentile95` of the absolute error and of the `bias`, in metres. Each has `..._std` and
+            `..._ci95`. Empty if the dataset has no ground-truth heights.
+        failed: One row per scan that could not be read, or that a method failed on: `scan`, `error`.
+        unscored: Scans omitted because none of their points is scored.
+        without_ground: Number of scans whose ground truth contains no ground. Only their accuracy is defined. Their
+            precision, recall, F1 and IoU are NaN and are excluded from the means.
+        protocol: Name of the protocol, which defines the ground classes.
+        datasets: Names of the datasets.
+        threads: Number of scans processed in parallel; `hz` depends on it.
+        machine: CPU and number of cores.
         date: Day of the run, YYYY-MM-DD.
     """
 
@@ -111,41 +111,41 @@ def evaluate(
     """Scores methods on labelled scans, as `flagstone eval` does.
 
     Args:
-        dataset: One or several of: a SemanticKITTI tree (`sequences/NN`; also what `simulate` writes), a folder with
-            `velodyne/` and `labels/`, a folder of nuScenes-lidarseg files.
-        methods: Names of `flagstone.method_names()`, or `"table1"`, `"all"`, `"none"`.
+        dataset: One or more datasets. Each is a SemanticKITTI tree (`sequences/NN`, which `simulate` also writes), a
+            directory with `velodyne/` and `labels/`, or a directory of nuScenes-lidarseg files.
+        methods: Names from `flagstone.method_names()`, or `"table1"`, `"all"` or `"none"`.
         protocol: `"patchwork"`, `"patchwork++"`, `"simulation"`, `"lidarseg"`, or a `.toml` or `.json` file.
-        sequences: Those to take, such as `["05", "10"]`; all by default.
-        every: Take one scan in so many of each sequence, 1 to 1,000,000.
-        columns: Floats a point in `.bin` files, 3 to 1024; 5 for `.pcd.bin`, else 4.
-        sensor: Derive settings from this sensor: a name, or a `.toml` file.
-        sensor_height: Metres above the ground, `"estimate"` or `"track"`.
-        tilt: `"off"`, `"estimate"`, or where up is in the sensor's frame: x, y, z.
-        preset: Patchwork's settings to start from: `"default"`, `"paper"`, `"reference"`.
-        config: A TOML file of Patchwork's settings, as `flagstone config` prints.
-        settings: Of methods, by name: `{"surface": {"point": {"margin": 0.2}}, "gpf": {"segments": 5}}`.
-        labels: Labels that other programs made, scored like a method: its name, and the folder.
-        label_map: Codes in `labels`: `"flagstone"` (1 is ground), or `"semantic-kitti"` (the protocol's classes).
-        threads: Scans worked on at once, 1 to 1024; all cores by default. `hz` is comparable with 1.
+        sequences: Sequences to use, for example `["05", "10"]`; all by default.
+        every: Use every N-th scan of each sequence, 1 to 1,000,000.
+        columns: Floats per point in `.bin` files, 3 to 1,024; by default 5 for `.pcd.bin`, otherwise 4.
+        sensor: Sensor to derive settings from: a name from `flagstone.sensors()`, or a `.toml` file.
+        sensor_height: Height of the sensor above the ground in metres, `"estimate"` or `"track"`.
+        tilt: Up direction (x, y, z) in the sensor frame, `"off"` or `"estimate"`.
+        preset: Settings that Patchwork starts from: `"default"`, `"paper"` or `"reference"`.
+        config: TOML file of Patchwork settings, as `flagstone config` prints them.
+        settings: Settings by method name: `{"surface": {"point": {"margin": 0.2}}, "gpf": {"segments": 5}}`.
+        labels: Labels written by other programs, each scored like a method: a name and its directory.
+        label_map: Codes in `labels`: `"flagstone"` (1 is ground) or `"semantic-kitti"` (classes of the protocol).
+        threads: Number of scans to process in parallel, 1 to 1,024; all cores by default. Use 1 to compare `hz`.
 
     Returns:
-        Data frames of a row a method, a row a method and scan, and by range. Scans that failed are in `failed`, with
-        a warning.
+        Data frames with one row per method, per method and scan, and per method and range interval. A scan that fails
+        is listed in `failed`, and a RuntimeWarning is issued.
 
     Raises:
-        FileNotFoundError: A dataset is not there.
-        ValueError: An argument is wrong, or the dataset has no scans with labels.
+        FileNotFoundError: A dataset does not exist.
+        ValueError: An argument is invalid, or a dataset has no labelled scans.
         OSError: No scan could be read.
         ImportError: pandas is not installed.
-        KeyboardInterrupt: Ctrl-C.
+        KeyboardInterrupt: You pressed Ctrl-C.
     """
     needs("pandas", "pandas")
     datasets = [dataset] if isinstance(dataset, (str, os.PathLike)) else list(dataset)
     for each in datasets:
         if not Path(each).exists():
-            raise FileNotFoundError(f"{os.fspath(each)}: no such dataset")
+            raise FileNotFoundError(f"{os.fspath(each)}: this dataset does not exist")
     if label_map not in ("flagstone", "semantic-kitti"):
-        raise ValueError(f"label_map = {label_map!r} is not known (expected flagstone or semantic-kitti)")
+        raise ValueError(f"label_map: {label_map!r} is not a label map (expected flagstone or semantic-kitti)")
     with run() as (draw, terminal_columns):
         results, table, errors = _core.evaluate(
             [os.fspath(each) for each in datasets],
@@ -167,13 +167,15 @@ def evaluate(
             terminal_columns,
         )
     reason = (
-        errors[0] + (f" (and {len(errors) - 1} more)" if len(errors) > 1 else "") if errors else "no scan is scored"
+        errors[0] + (f" (and {len(errors) - 1} more)" if len(errors) > 1 else "") if errors else "no scan was scored"
     )
     if not results:
         raise OSError(reason)
     evaluation = _read(results, table)
     if len(evaluation.failed) > 0:
-        warnings.warn(f"{len(evaluation.failed)} failed, see `failed`: {reason}", RuntimeWarning, stacklevel=2)
+        count = len(evaluation.failed)
+        failures = "1 failure" if count == 1 else f"{count} failures"
+        warnings.warn(f"{failures}, listed in `failed`: {reason}", RuntimeWarning, stacklevel=2)
     return evaluation
 
 
@@ -202,18 +204,18 @@ def _number(value: float | None) -> float:
     return float("nan") if value is None else value
 
 
-def _spread(name: str, figure: Mapping[str, float | None]) -> dict[str, float]:
+def _mean_std_ci95(name: str, metric: Mapping[str, float | None]) -> dict[str, float]:
     return {
-        name: _number(figure["mean"]),
-        f"{name}_std": _number(figure["std"]),
-        f"{name}_ci95": _number(figure["ci95"]),
+        name: _number(metric["mean"]),
+        f"{name}_std": _number(metric["std"]),
+        f"{name}_ci95": _number(metric["ci95"]),
     }
 
 
 def _method_row(method: Mapping[str, Any]) -> dict[str, Any]:
     row: dict[str, Any] = {key: method[key] for key in ("title", "scans")}
-    for share in _shares:
-        row.update(_spread(share, method[share]))
+    for ratio in _ratios:
+        row.update(_mean_std_ci95(ratio, method[ratio]))
     row["f1_pooled"] = _number(method["pooled"]["f1"])
     row["f1_by_area"] = _number(method["by_area"]["f1"])
     row["hz"] = _number(method["hz"])
@@ -228,7 +230,7 @@ def _range_rows(method: Mapping[str, Any]) -> list[dict[str, Any]]:
             "method": method["name"],
             "from": band["from"],
             "to": band["to"],
-            **{share: _number(band[share]) for share in _shares},
+            **{ratio: _number(band[ratio]) for ratio in _ratios},
             "points": int(band["points"]),
         }
         for band in (*method["by_range"], everything)
@@ -237,7 +239,7 @@ def _range_rows(method: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 _height_columns = [
     *("method", "points", "from", "to", "count", "with_height"),
-    *(f"{figure}{kind}" for figure in _height_figures for kind in ("", "_std", "_ci95")),
+    *(f"{metric}{kind}" for metric in _height_metrics for kind in ("", "_std", "_ci95")),
 ]
 
 
@@ -250,7 +252,7 @@ def _height_rows(method: Mapping[str, Any]) -> list[dict[str, Any]]:
         for band in (*heights["by_range"], {"from": 0.0, "to": float("inf"), **heights}):
             row = {"method": method["name"], "points": points, "from": band["from"], "to": band["to"]}
             row.update(count=band["points"], with_height=_number(band["with_height"]))
-            for figure in _height_figures:
-                row.update(_spread(figure, band[figure]))
+            for metric in _height_metrics:
+                row.update(_mean_std_ci95(metric, band[metric]))
             rows.append(row)
     return rows

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Where patches and the surface of a result are in the scan, as outlines and triangles to draw."""
+"""Outlines and triangles of patches and of the ground surface, for plots."""
 
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ Floats = npt.NDArray[np.float64]
 
 
 class LevelFrame(NamedTuple):
-    """Metres, the origin in the sensor, z up; where patches have their bins, and the surface its grids."""
+    """Gravity-aligned frame in metres, origin at the sensor, z up. Bins and surface grids are defined in it."""
 
     axes: Floats
-    """(3, 3): its axes x, y and z, rows, in the frame of the scan; unit length."""
+    """(3, 3): x, y and z axes as rows, unit length, in the frame of the scan."""
     origin: Floats
-    """(3,): where the sensor is in the frame of the scan, metres."""
+    """(3,): position of the sensor in the frame of the scan, metres."""
     scale: float
-    """Metres a unit of the scan."""
+    """Metres per unit of the scan."""
 
-    def to_scan(self, places: npt.ArrayLike) -> Floats:
-        """Places of shape (..., 3), metres, in the frame and the units of the scan."""
-        scan: Floats = (np.asarray(places, np.float64) @ self.axes + self.origin) / self.scale
+    def to_scan(self, positions: npt.ArrayLike) -> Floats:
+        """Transforms positions (..., 3) from this frame, in metres, to the frame and units of the scan."""
+        scan: Floats = (np.asarray(positions, np.float64) @ self.axes + self.origin) / self.scale
         return scan
 
-    def to_level(self, places: npt.ArrayLike) -> Floats:
-        """Places of shape (..., 3) of the scan, in metres in this frame."""
-        level: Floats = (np.asarray(places, np.float64) * self.scale - self.origin) @ self.axes.T
+    def to_level(self, positions: npt.ArrayLike) -> Floats:
+        """Transforms positions (..., 3) from the frame and units of the scan to this frame, in metres."""
+        level: Floats = (np.asarray(positions, np.float64) * self.scale - self.origin) @ self.axes.T
         return level
 
 
 def level_frame(mount: Mount) -> LevelFrame:
-    """The level frame of a scan: its z axis is up, x and y are turned with it the shortest way."""
+    """The level frame of a scan. The shortest rotation that maps `up` to z also turns x and y."""
     x, y, z = np.asarray(mount.up) / np.linalg.norm(mount.up)
     if z < -0.999999:
         axes = np.diag([1.0, -1.0, -1.0])
@@ -50,19 +50,19 @@ def level_frame(mount: Mount) -> LevelFrame:
     return LevelFrame(axes, np.asarray(mount.origin, np.float64), mount.scale)
 
 
-_ARC_STEP = np.radians(4)  # no piece of an arc is longer
+_ARC_STEP = np.radians(4)  # longest segment of an arc
 
 
 def patch_bins(result: Segmentation, *, inset: float = 0) -> list[Floats]:
     """The bin of each patch, in the order of `result.patches`.
 
     Args:
-        result: Of a method whose patches are squares or sectors of rings.
-        inset: How far within its edges each bin ends, metres, so that neighbours can be told apart.
+        result: Result of a method whose patches are squares or ring sectors.
+        inset: Distance in metres by which each bin is shrunk, so that a gap separates neighbours.
 
     Returns:
-        Of each patch an array (2, S, 2) of x and y, metres, in the level frame: S places along its nearer edge and S
-        along its farther one, facing each other. Empty for methods whose patches have no such bins.
+        One array (2, S, 2) of x and y per patch, in metres, in the level frame: S positions along the near edge and
+        the S opposite positions along the far edge. The list is empty for methods with other patches.
     """
     patches = result.patches
     if not len(patches):
@@ -76,12 +76,12 @@ def patch_bins(result: Segmentation, *, inset: float = 0) -> list[Floats]:
 
 
 def outline(bin_: Floats) -> Floats:
-    """(2 S, 2): the edge of a bin, once around."""
+    """(2 S, 2): the closed outline of a bin."""
     return np.concatenate([bin_[0], bin_[1][::-1]])
 
 
 def _square(patch: Any, extent: float, inset: float) -> Floats:
-    """Squares of 4 m, and of 8 m farther out, are counted from the corner at the smallest x and y."""
+    """Squares of 4 m, and of 8 m farther out. Rows and columns start at the corner with the smallest x and y."""
     side = 4.0 if patch["zone"] == 0 else 8.0
     x, y = patch["sector"] * side - extent, patch["ring"] * side - extent
     near, far = inset, side - inset
@@ -89,7 +89,7 @@ def _square(patch: Any, extent: float, inset: float) -> Floats:
 
 
 def _sector(patch: Any, settings: dict[str, Any], inset: float) -> Floats:
-    """The paper's eqs. (2) and (3): rings by distance, sectors by angle, counter-clockwise."""
+    """Eqs. (2) and (3) of the paper: rings by distance, sectors by angle, counter-clockwise."""
     zones, view = settings["zones"], settings["field_of_view"]
     zone, ring, sector = int(patch["zone"]), int(patch["ring"]), int(patch["sector"])
     if ring > 0:
@@ -100,28 +100,28 @@ def _sector(patch: Any, settings: dict[str, Any], inset: float) -> Floats:
     width = np.radians(view["width"]) / zones[zone]["sectors"]
     begin = np.radians(view["begin"]) + sector * width
     inset = min(inset, (outer - inner) / 4)
-    places = 2 + int(width / _ARC_STEP)
-    return np.stack([_arc(radius, begin, width, places, inset) for radius in (inner + inset, outer - inset)])
+    count = 2 + int(width / _ARC_STEP)
+    return np.stack([_arc(radius, begin, width, count, inset) for radius in (inner + inset, outer - inset)])
 
 
-def _arc(radius: float, begin: float, width: float, places: int, inset: float) -> Floats:
-    within = min(inset / radius, width / 4) if radius > 0 else 0.0
-    angles = np.linspace(begin + within, begin + width - within, places)
+def _arc(radius: float, begin: float, width: float, count: int, inset: float) -> Floats:
+    margin = min(inset / radius, width / 4) if radius > 0 else 0.0
+    angles = np.linspace(begin + margin, begin + width - margin, count)
     arc: npt.NDArray[np.float64] = radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     return arc
 
 
 _INSET = 0.06  # metres; leaves a dark line between neighbours
-_LEAST_REACH = 1.0  # metres above and below the mean that a quad may always have
+_MIN_REACH = 1.0  # metres above and below the mean that a quad always covers
 
 
 def patch_quads(result: Segmentation) -> list[Floats]:
-    """Each patch's bin on its plane, cut off above and below where a steep plane leaves its points.
+    """The bin of each patch, projected onto its plane. Steep planes are cut above and below their points.
 
     Returns:
-        Of each patch, in the order of `result.patches`, an array (T, 3, 3) of T triangles of three corners x, y, z in
-        the frame and the units of the scan. None (T = 0) for a patch without a plane, nor of methods whose patches
-        are neither squares nor sectors of rings.
+        One array (T, 3, 3) per patch, in the order of `result.patches`: T triangles with three corners x, y, z in the
+        frame and units of the scan. T is 0 for a patch without a plane, and for methods whose patches are neither
+        squares nor ring sectors.
     """
     frame = level_frame(result.mount)
     bins = patch_bins(result, inset=_INSET)
@@ -138,7 +138,7 @@ def _quad(patch: Any, bin_: Floats, frame: LevelFrame) -> Floats:
     steepness = max(normal[2], 1e-3)
     heights = mean[2] - ((bin_ - mean[:2]) @ normal[:2]) / steepness
     near, far = np.concatenate([bin_, heights[..., None]], axis=-1)
-    reach = max(_LEAST_REACH, 2 * _spread_upward(patch["eigenvalues"], normal[2]))
+    reach = max(_MIN_REACH, 2 * _max_std_along_z(patch["eigenvalues"], normal[2]))
     triangles: list[Floats] = []
     for i in range(len(near) - 1):
         cell = np.stack([near[i], far[i], far[i + 1], near[i + 1]])
@@ -147,14 +147,14 @@ def _quad(patch: Any, bin_: Floats, frame: LevelFrame) -> Floats:
     return frame.to_scan(np.array(triangles)) if triangles else np.empty((0, 3, 3))
 
 
-def _spread_upward(eigenvalues: Floats, upright: float) -> float:
-    """How far the points of the plane can spread along z, metres: a bound of their standard deviation."""
+def _max_std_along_z(eigenvalues: Floats, upright: float) -> float:
+    """Upper bound of the standard deviation along z of the points in a plane, metres."""
     along, _, across = eigenvalues
     return float(np.sqrt(max(along * (1 - upright * upright) + across * upright * upright, 0)))
 
 
 def _cut(corners: Floats, height: float, *, above: bool) -> Floats:
-    """What of a convex polygon (K, 3) lies above, or below, a height."""
+    """The part of a convex polygon (K, 3) above or below a height."""
     side = corners[:, 2] - height if above else height - corners[:, 2]
     if (side >= 0).all():
         return corners
@@ -169,20 +169,20 @@ def _cut(corners: Floats, height: float, *, above: bool) -> Floats:
 
 
 class Mesh(NamedTuple):
-    """Triangles with common corners."""
+    """Triangle mesh with shared corners."""
 
     corners: npt.NDArray[np.float32]
-    """(C, 3): x, y, z in the frame and the units of the scan."""
+    """(C, 3): x, y, z in the frame and units of the scan."""
     triangles: npt.NDArray[np.uint32]
-    """(T, 3): indices into corners."""
+    """(T, 3): indices into `corners`."""
     colors: npt.NDArray[np.uint8]
-    """(C, 3): by height, shaded."""
+    """(C, 3): sRGB colour by height, shaded."""
 
 
 def surface_mesh(result: Segmentation) -> Mesh:
-    """The surface where it is known, as fine as its grids; no triangles where there is none.
+    """Mesh of the known part of the surface, as fine as its grids; empty if there is no surface.
 
-    Lines at the middles of cells, finer towards the sensor, cross everywhere, so that the mesh has neither gaps nor
+    The mesh lines pass through the centres of the cells and extend over the whole grid, so the mesh has no gaps or
     steps where grids meet.
     """
     ground = result.surface
@@ -207,11 +207,11 @@ def surface_mesh(result: Segmentation) -> Mesh:
 
 
 def _lines(ground: GroundSurface) -> npt.NDArray[np.float64]:
-    """Where lines run along x and y: the middles of cells, each grid's outside the next finer one."""
+    """Coordinates of the mesh lines: centres of the cells of each grid, outside the next finer grid."""
     lines = np.empty(0)
     for grid in reversed(ground.grids):  # finest first
-        middles = (np.arange(len(grid.heights)) + 0.5) * grid.cell - grid.extent
+        centres = (np.arange(len(grid.heights)) + 0.5) * grid.cell - grid.extent
         reach = lines[-1] + grid.cell / 2 if len(lines) else 0
-        outside = middles[middles > reach]
+        outside = centres[centres > reach]
         lines = np.concatenate([-outside[::-1], lines, outside])
     return lines

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Sets the classification of a LAS or LAZ file and keeps everything else in it."""
+"""Sets the classification of a LAS or LAZ file and keeps everything else unchanged."""
 
 from __future__ import annotations
 
@@ -27,50 +27,57 @@ def classify_las(
     *,
     overwrite_classes: Iterable[int] = DEFAULT_OVERWRITE_CLASSES,
 ) -> dict[int, int]:
-    """Copies a LAS or LAZ file with the classification of its points set from labels.
+    """Copies a LAS or LAZ file and sets the classification of its points from labels.
 
-    Points labelled ground become class 2 (ground), noise 7 (low point); nonground ones that were 0 (never classified),
-    2 or 7 become 1 (unclassified) and keep any other class. Points that no method judges (out of range, invalid)
-    keep theirs. Only points of classes in `overwrite_classes` are changed at all.
+    Only points with a class in `overwrite_classes` are changed:
 
-    Everything else is kept bit for bit: header, variable length records, all other dimensions, the flags beside the
-    class, what stands behind the points. A LAZ file is compressed anew with its own parameters and read back before it
-    takes its place; offsets of what stands behind the points, and the index of a COPC file, follow the chunks to where
-    they come to lie. Memory holds the labels and a million points at a time.
+    - Points labelled ground get class 2 (ground).
+    - Points labelled noise get class 7 (low point).
+    - Points labelled nonground get class 1 (unclassified) if they had class 0 (never classified), 2 or 7.
+    - Points labelled out of range or invalid keep their class.
+
+    Everything else in the file is bit-identical: the header, variable length records, all other dimensions, the flags
+    stored with the class, and all data after the points. A LAZ file is compressed again with the same parameters and
+    verified before it replaces the destination. Offsets of the data after the points and the index of a COPC file are
+    updated. Memory use is limited to the labels and one million points.
 
     Args:
-        source: The file, LAS 1.0 to 1.4, point formats 0 to 10. Point formats 0 to 5 have 5 bits for the class.
-        destination: The file to write, with the ending of the source, but not the source itself. It is there whole or
-            not at all.
-        labels: Codes of `flagstone.Label`, shape (N,), one a point in the file's order.
-        overwrite_classes: Classes that may be changed, 0 to 255. The default keeps classes that say more than ground or
-            not, such as plants (3 to 5), buildings (6), water (9), overlap (12), bridges (17) and high noise (18).
-            `range(256)` allows all.
+        source: LAS or LAZ file, version 1.0 to 1.4, point formats 0 to 10. In point formats 0 to 5 the class has 5
+            bits.
+        destination: File to write, atomically. It must have the extension of the source and must not be the source.
+        labels: (N,) codes of `flagstone.Label`, one per point in the order of the file.
+        overwrite_classes: Classes that may be changed, 0 to 255. The default keeps all classes that mean more than
+            ground or not ground, such as vegetation (3 to 5), buildings (6), water (9), overlap (12), bridges (17) and
+            high noise (18). `range(256)` allows all.
 
     Returns:
-        How many points of each class the new file has, by class.
+        Number of points per class in the new file.
 
     Raises:
-        FileNotFoundError: There is no such source.
+        FileNotFoundError: The source does not exist.
         OSError: The destination cannot be written.
-        TypeError: The labels are no integers.
-        ValueError: The source is damaged, or of a kind that cannot be kept as it is; labels are not one a point or not
-            0 to 4; endings differ; the destination is the source.
+        TypeError: The labels are not integers.
+        ValueError: The source is damaged or cannot be copied without loss; the number of labels differs from the number
+            of points; a label is not 0 to 4; the extensions differ; the destination is the source.
         ImportError: laspy is not installed.
     """
     codes = checked_labels(labels)
     table = class_table(overwrite_classes)
-    ending = Path(source).suffix.lower()
-    if Path(destination).suffix.lower() != ending:
-        raise ValueError(f"destination: {os.fspath(destination)} must end with {ending}, as the source does")
+    extension = Path(source).suffix.lower()
+    if Path(destination).suffix.lower() != extension:
+        raise ValueError(
+            f"destination: {os.fspath(destination)} has another extension than the source (expected {extension})"
+        )
     if Path(destination).exists() and Path(destination).samefile(source):
-        raise ValueError(f"destination: {os.fspath(destination)} is the source; choose another file")
+        raise ValueError(f"destination: {os.fspath(destination)} is the source (choose another file)")
     counts = np.zeros(256, np.int64)
     with atomic_write(destination) as copy, opened(source) as reader, Path(source).open("rb") as file:
         layout = Layout.of(reader, os.fstat(file.fileno()).st_size)
         class_byte, class_bits = (16, 0xFF) if reader.header.point_format.id >= 6 else (15, 0x1F)
         if len(codes) != layout.count:
-            raise BadFileError(f"has {layout.count:,} points, but there are {len(codes):,} labels; give one a point")
+            raise BadFileError(
+                f"{len(codes):,} labels do not match {layout.count:,} points (expected one label per point)"
+            )
         with Progress(layout.count, "points") as progress:
 
             def classify(rows: Rows, first: int) -> None:
@@ -84,40 +91,44 @@ def classify_las(
     return {code: int(count) for code, count in enumerate(counts) if count > 0}
 
 
-Rows = npt.NDArray[np.uint8]  # (points, bytes a point)
-Change = Callable[[Rows, int], None]  # some rows, in place, and the number of the first
+Rows = npt.NDArray[np.uint8]  # (points, bytes per point)
+Change = Callable[[Rows, int], None]  # changes rows in place; the second argument is the index of the first row
 
-# Bytes of the public header block that say where things behind the points begin.
+# Bytes of the public header block that contain the offsets of data after the points.
 _start_of_waveforms = slice(227, 235)
 _start_of_extended_records = slice(235, 243)
 
 
 @dataclass(frozen=True)
 class Layout:
-    """Where the points of a file are."""
+    """Positions of the points and of other data in a file."""
 
-    begin: int  # of the points
-    count: int
-    row: int  # bytes a point
-    compressed_as: bytes | None  # the parameters of LASzip
-    behind: int  # begin of what stands behind compressed points, 0 where nothing does
-    has_index: bool  # of COPC
+    begin: int  # offset of the points, bytes
+    count: int  # number of points
+    row: int  # bytes per point
+    compressed_as: bytes | None  # parameters of LASzip
+    behind: int  # offset of the data after compressed points, 0 if there is none
+    has_index: bool  # the index of COPC
 
     @staticmethod
     def of(reader: Any, size: int) -> Layout:
-        """That of a file of so many bytes that laspy reads.
+        """Layout of a file of `size` bytes, opened by laspy.
 
         Raises:
-            BadFileError: No copy could be true to it.
+            BadFileError: The file cannot be copied without loss.
         """
         header = reader.header
         users = {record.user_id for record in header.vlrs}
         if "lascompatible" in users:
-            raise BadFileError("is LAS 1.4 in compatibility mode, with classes in two places; convert it to plain LAZ")
+            raise BadFileError(
+                "LAS 1.4 in compatibility mode is not supported: it stores classes twice (convert it to plain LAZ)"
+            )
         starts = (header.start_of_waveform_data_packet_record, header.start_of_first_evlr)
         behind = min((start for start in starts if start > header.offset_to_point_data), default=0)
         if behind > size:
-            raise BadFileError(f"says that records begin at byte {behind:,} of its {size:,}: it is cut off or damaged")
+            raise BadFileError(
+                f"records start at byte {behind:,} of a file of {size:,} bytes (the file is truncated or damaged)"
+            )
         return Layout(
             begin=header.offset_to_point_data,
             count=header.point_count,
@@ -129,10 +140,10 @@ class Layout:
 
 
 def copy_points(file: BinaryIO, copy: BinaryIO, layout: Layout, change: Change) -> None:
-    """Copies the file; `change` sees all points in their order, some at a time.
+    """Copies the file and calls `change` on all points, in order, in blocks.
 
     Raises:
-        BadFileError: It would not come out as it was.
+        BadFileError: The copy would differ in more than the changes.
     """
     if layout.compressed_as is None or layout.count == 0:
         _copy_uncompressed(file, copy, layout, change)
@@ -145,7 +156,7 @@ def _compression(header: Any) -> bytes | None:
         return None
     parameters = bytes(header.vlrs.get("LasZipVlr")[0].record_data)
     if int.from_bytes(parameters[:2], "little") not in (2, 3):
-        raise BadFileError("was compressed by a LASzip of before 2011, without chunks; compress it anew")
+        raise BadFileError("LASzip without chunks (before 2011) is not supported (compress the file again)")
     return parameters
 
 
@@ -190,7 +201,7 @@ def _copy_compressed(file: BinaryIO, copy: BinaryIO, layout: Layout, parameters:
     _check_copy(copy, layout, parameters, checksum)
 
 
-# Points and bytes of each chunk.
+# Number of points and of bytes of each chunk.
 def _chunks(file: BinaryIO, layout: Layout, kind: Any) -> list[tuple[int, int]]:
     file.flush()
     file.seek(layout.begin)
@@ -198,7 +209,7 @@ def _chunks(file: BinaryIO, layout: Layout, kind: Any) -> list[tuple[int, int]]:
     return chunks
 
 
-# Rows of points, and whether a chunk of the compressed file begins with them.
+# Blocks of points, each with a flag that is true if the block starts a chunk of the compressed file.
 def _decompressed(file: BinaryIO, layout: Layout, parameters: bytes) -> Iterator[tuple[Rows, bool]]:
     lazrs = needs("lazrs", "las")
     kind = lazrs.LazVlr(parameters)
@@ -216,21 +227,21 @@ def _decompressed(file: BinaryIO, layout: Layout, parameters: bytes) -> Iterator
 
 
 def _move(head: bytearray, start: slice, layout: Layout, shift: int) -> None:
-    if start.stop > int.from_bytes(head[94:96], "little"):  # header of a version that did not know it
+    if start.stop > int.from_bytes(head[94:96], "little"):  # the header is of an older version without this field
         return
     before = int.from_bytes(head[start], "little")
     if before >= layout.behind:
         head[start] = (before + shift).to_bytes(8, "little")
 
 
-# What a compressor made wrong would be lost for good.
+# Detects errors of the compressor before the copy replaces an older file.
 def _check_copy(copy: BinaryIO, layout: Layout, parameters: bytes, checksum: int) -> None:
     copy.flush()
     again = 0
     for rows, _ in _decompressed(copy, layout, parameters):
         again = zlib.crc32(rows.data, again)
     if again != checksum:
-        raise BadFileError("cannot be compressed by lazrs without loss; uncompress it to LAS, and give that")
+        raise BadFileError("lazrs cannot compress this file without loss (convert it to LAS first)")
 
 
 def _copy_rest(file: BinaryIO, copy: BinaryIO) -> None:
@@ -238,35 +249,35 @@ def _copy_rest(file: BinaryIO, copy: BinaryIO) -> None:
         copy.write(block)
 
 
-Chunks = Sequence[tuple[int, int]]  # points and bytes of each
+Chunks = Sequence[tuple[int, int]]  # number of points and of bytes of each chunk
 
-_begin_of_root_page = slice(469, 477)  # in the file: the first record is COPC's own, at a fixed place
+_begin_of_root_page = slice(469, 477)  # bytes of the file; the COPC record is the first record, at a fixed offset
 _record_head = 60  # bytes of an extended record before its data
-_hierarchy = 1000  # the number of the record that holds the index
+_hierarchy = 1000  # ID of the record that contains the index
 _entry = np.dtype([("voxel", "<i4", 4), ("begin", "<u8"), ("bytes", "<i4"), ("points", "<i4")])
-_page_elsewhere = -1  # in the place of a number of points
+_page_elsewhere = -1  # number of points of an entry that refers to another page
 
 
 def move_index(head: bytearray, copy: BinaryIO, before: Chunks, after: Chunks, shift: int) -> None:
-    """Lets the index in a copy tell where its chunks are.
+    """Updates the offsets in the COPC index of a copy.
 
     Args:
-        head: The copy's bytes up to the points; changed in place.
-        copy: The copy, with the records behind the points; the index is changed in the file.
-        before: The chunks of the file that was copied.
-        after: The chunks of the copy, the same points in each.
-        shift: How many bytes farther the records behind the points are.
+        head: Bytes of the copy up to the points; changed in place.
+        copy: The copy, including the records after the points; the index is changed in the file.
+        before: Chunks of the source.
+        after: Chunks of the copy, with the same points in each chunk.
+        shift: Number of bytes by which the records after the points have moved.
 
     Raises:
-        BadFileError: The index does not fit the chunks.
+        BadFileError: The index does not match the chunks.
     """
     begin_of_points = int.from_bytes(head[96:100], "little")
     begin_of_records = int.from_bytes(head[235:243], "little")
     root = int.from_bytes(head[_begin_of_root_page], "little")
     if root + shift < begin_of_records:
-        raise BadFileError("is COPC with an index that does not stand behind the points: it is damaged")
+        raise BadFileError("the COPC index is not after the points (the file is damaged)")
     head[_begin_of_root_page] = (root + shift).to_bytes(8, "little")
-    places = dict(zip(_places(begin_of_points, before), _places(begin_of_points, after), strict=True))
+    positions = dict(zip(_positions(begin_of_points, before), _positions(begin_of_points, after), strict=True))
 
     end = copy.seek(0, os.SEEK_END)
     at = begin_of_records
@@ -276,32 +287,34 @@ def move_index(head: bytearray, copy: BinaryIO, before: Chunks, after: Chunks, s
         size = int.from_bytes(record[20:28], "little")
         at += _record_head
         if at + size > end:
-            raise BadFileError("is COPC with a record that reaches beyond its end: it is cut off or damaged")
+            raise BadFileError("a COPC record extends beyond the end of the file (the file is truncated or damaged)")
         if record[2:18].rstrip(b"\0") == b"copc" and int.from_bytes(record[18:20], "little") == _hierarchy:
             entries = np.frombuffer(bytearray(copy.read(size)), _entry)
-            _move_entries(entries, places, shift)
+            _move_entries(entries, positions, shift)
             copy.seek(at)
             copy.write(entries.tobytes())
         at += size
 
 
-# Begin and size of every chunk that holds points; the first stands behind the place of the chunk table's own offset.
-def _places(begin_of_points: int, chunks: Chunks) -> list[tuple[int, int]]:
-    places = []
+# Offset and size of every chunk with points. The 8 bytes before the first chunk contain the offset of the chunk table.
+def _positions(begin_of_points: int, chunks: Chunks) -> list[tuple[int, int]]:
+    positions = []
     at = begin_of_points + 8
     for points, size in chunks:
         if points > 0:
-            places.append((at, size))
+            positions.append((at, size))
         at += size
-    return places
+    return positions
 
 
-def _move_entries(entries: npt.NDArray[np.void], places: Mapping[tuple[int, int], tuple[int, int]], shift: int) -> None:
+def _move_entries(
+    entries: npt.NDArray[np.void], positions: Mapping[tuple[int, int], tuple[int, int]], shift: int
+) -> None:
     for entry in entries:
         if entry["points"] == _page_elsewhere:
             entry["begin"] = int(entry["begin"]) + shift
         elif entry["points"] > 0:
-            place = places.get((int(entry["begin"]), int(entry["bytes"])))
-            if place is None:
-                raise BadFileError("is COPC with an index that does not fit its chunks: it is damaged")
-            entry["begin"], entry["bytes"] = place
+            position = positions.get((int(entry["begin"]), int(entry["bytes"])))
+            if position is None:
+                raise BadFileError("the COPC index does not match the chunks (the file is damaged)")
+            entry["begin"], entry["bytes"] = position

@@ -1,16 +1,16 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Packages that only some functions need."""
+"""Optional packages, imported by the functions that need them."""
 
 import importlib
 from typing import Any
 
 
 def needs(module: str, extra: str) -> Any:
-    """The module, imported now.
+    """Imports a module of an optional package.
 
     Raises:
-        ImportError: It is not installed; names the extra that brings it.
+        ImportError: The package is not installed. The message names the extra that installs it.
     """
     try:
         return importlib.import_module(module)
@@ -19,5 +19,5 @@ def needs(module: str, extra: str) -> Any:
         if error.name is not None and error.name.partition(".")[0] != package:
             raise
         raise ImportError(
-            f"{package} is not installed, and is needed here: pip install 'flagstone[{extra}]'", name=package
+            f"{package} is not installed, but this function needs it: pip install 'flagstone[{extra}]'", name=package
         ) from error

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The colours of all pictures: those of the command."""
+"""Colours of plots and of the viewer. The images of the command use the same ones."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from flagstone.codes import Label, Verdict
 Color = tuple[int, int, int]
 """sRGB, each 0 to 255."""
 
-# A dark panel, since the yellow and cyan of the paper's figures are too pale to read on white.
+# The panel is dark because the yellow and cyan of the paper's figures are too pale to read on white.
 PANEL: Color = (16, 19, 24)
 PANEL_TEXT: Color = (232, 236, 240)
 RANGE_RING: Color = (150, 160, 172)
@@ -39,15 +39,15 @@ VERDICTS: Mapping[Verdict, Color] = {
 }
 
 TINT = 0.42
-"""How much of what lies below a tinted patch its colour covers, 0 to 1."""
+"""Opacity of the colour that tints a patch, 0 to 1."""
 
 
 def in_words(member: Label | Verdict) -> str:
-    """The name as a legend has it: "out of range"."""
+    """The name for a legend, for example "out of range"."""
     return member.name.lower().replace("_", " ")
 
 
-def shares(color: Color) -> tuple[float, float, float]:
-    """The colour with parts of 0 to 1, as Matplotlib has them."""
+def rgb(color: Color) -> tuple[float, float, float]:
+    """The colour for Matplotlib: red, green and blue, 0 to 1."""
     red, green, blue = color
     return red / 255, green / 255, blue / 255

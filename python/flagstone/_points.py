@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Points of any type, as three columns that the compiled part reads in place."""
+"""Conversion of points of any supported type to three columns, zero-copy where possible."""
 
 from __future__ import annotations
 
@@ -11,32 +11,32 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-# A NumPy array, or anything that DLPack, the buffer protocol or NumPy's own conversion turns into one. No type is
-# narrower, since pandas, PyArrow, torch and others share no base class.
+# A NumPy array, or any object that DLPack, the buffer protocol or NumPy can convert to one. The type cannot be
+# narrower, because the classes of pandas, PyArrow, torch and others have no common base class.
 PointsLike = Any
 
 Column = npt.NDArray[np.float32] | npt.NDArray[np.float64]
 
-_WANTED = "wanted is (N, 3) or more columns, float32 or float64: x, y, z in metres"
-_CPU_DEVICES = (1, 3)  # DLPack's kDLCPU, and kDLCUDAHost: host memory too
-# No scan has so few points with so many columns: rows and columns were exchanged.
+_EXPECTED = "expected (N, 3) or more columns, float32 or float64: x, y, z in metres"
+_CPU_DEVICES = (1, 3)  # kDLCPU and kDLCUDAHost of DLPack; both are host memory
+# An array with so few rows and so many columns is transposed: scans have more points and fewer columns.
 _FEW_ROWS, _MANY_COLUMNS = 8, 8
-_FIELDS_NAMED = 8  # at most, in an error
+_MAX_FIELDS_NAMED = 8  # in an error message
 
 
 def columns_of(points: PointsLike) -> tuple[Column, Column, Column]:
-    """x, y and z of every point: views of the caller's memory, or a conversion if the type needs one.
+    """Returns x, y and z of every point: views of the caller's memory if the type allows it, otherwise copies.
 
     Args:
-        points: An array of shape (N, >=3) or (H, W, >=3), or an array with fields, a data frame or a table with
-            columns x, y and z. Organized clouds, (H, W), become N = H * W points, row by row.
+        points: An array of shape (N, >=3) or (H, W, >=3); or a structured array, data frame or table with columns
+            x, y and z. Organized clouds (H, W) become N = H * W points, row by row.
 
     Returns:
-        Three arrays of shape (N,), each float32 or float64 in this machine's byte order.
+        Three arrays of shape (N,), each float32 or float64 in native byte order.
 
     Raises:
-        TypeError: These are not points in the memory of the CPU, or not of floats.
-        ValueError: The shape is not supported.
+        TypeError: The points are not floats, or not in CPU memory.
+        ValueError: The shape is not supported, or a column is missing.
     """
     names = _column_names(points)
     if names is not None:
@@ -47,19 +47,19 @@ def columns_of(points: PointsLike) -> tuple[Column, Column, Column]:
     kind = f"{type(points).__name__} of shape {array.shape}"
     if array.ndim == 3 and array.shape[2] >= 3:
         if array.shape[0] <= _FEW_ROWS and array.shape[2] > _MANY_COLUMNS:
-            raise ValueError(f"points: {kind}; {_WANTED} in the last axis: pass numpy.moveaxis(points, 0, -1)")
+            raise ValueError(f"points: {kind} ({_EXPECTED} in the last axis; pass numpy.moveaxis(points, 0, -1))")
         array = array.reshape(-1, array.shape[2])
     if array.ndim != 2 or array.shape[1] < 3:
-        hint = "; pass points.T if coordinates go down the rows" if array.ndim == 2 and array.shape[0] == 3 else ""
-        raise ValueError(f"points: {kind}; {_WANTED}{hint}")
+        hint = "; if each row is a coordinate, pass points.T" if array.ndim == 2 and array.shape[0] == 3 else ""
+        raise ValueError(f"points: {kind} ({_EXPECTED}{hint})")
     if array.shape[0] <= _FEW_ROWS and array.shape[1] > _MANY_COLUMNS:
-        raise ValueError(f"points: {kind}; {_WANTED}, one point per row: pass points.T")
+        raise ValueError(f"points: {kind} ({_EXPECTED}, one point per row; pass points.T)")
     array = _floats(array, "points")
     return array[:, 0], array[:, 1], array[:, 2]
 
 
 def _column_names(points: PointsLike) -> Sequence[str] | None:
-    """Names of the columns of a data frame (pandas, polars) or table (PyArrow); None for anything else."""
+    """Column names of a data frame (pandas, polars) or table (PyArrow), otherwise None."""
     if isinstance(points, np.ndarray):
         return None
     for attribute in ("column_names", "columns"):
@@ -72,16 +72,16 @@ def _column_names(points: PointsLike) -> Sequence[str] | None:
 def _named_columns(points: PointsLike, names: Sequence[str]) -> tuple[Column, Column, Column]:
     missing = [name for name in ("x", "y", "z") if name not in names]
     if missing:
-        others = f" and {len(names) - _FIELDS_NAMED} more" if len(names) > _FIELDS_NAMED else ""
+        others = f" and {len(names) - _MAX_FIELDS_NAMED} more" if len(names) > _MAX_FIELDS_NAMED else ""
         raise ValueError(
-            f"points: no {' and no '.join(missing)} among the fields {', '.join(names[:_FIELDS_NAMED])}{others}; "
-            f"{_WANTED}"
+            f"points: no field named {' or '.join(missing)} (expected x, y and z, float32 or float64, in metres; "
+            f"found {', '.join(names[:_MAX_FIELDS_NAMED])}{others})"
         )
     columns = [np.asarray(points[name]) for name in ("x", "y", "z")]
     shape = points.shape if isinstance(points, np.ndarray) else columns[0].shape[:1]
     for name, column in zip("xyz", columns, strict=True):
         if column.shape != shape or len(shape) not in (1, 2):
-            raise ValueError(f"points: field {name} of shape {column.shape}; wanted is one number per point, (N,)")
+            raise ValueError(f"points: field {name} has shape {column.shape} (expected (N,), one number per point)")
     x, y, z = (
         _floats(column.reshape(-1), f"points: field {name}") for name, column in zip("xyz", columns, strict=True)
     )
@@ -93,39 +93,39 @@ def _array_of(points: PointsLike) -> npt.NDArray[Any]:
         return points
     if isinstance(points, (str, os.PathLike)):
         path = os.fspath(points)
-        raise TypeError(f"points: {path!r} is a path; read it first: segment(flagstone.io.read({path!r}))")
+        raise TypeError(f"points: {path!r} is a path (read the file first: segment(flagstone.io.read({path!r})))")
     if type(points).__module__.partition(".")[0] == "laspy":
         raise TypeError(
-            f"points: {type(points).__name__} of laspy holds map coordinates; for points around a sensor at x, y, z: "
-            "segment(flagstone.io.read(FILE, origin=(x, y, z)))"
+            f"points: {type(points).__name__} of laspy contains map coordinates (expected coordinates relative to the "
+            "sensor; for a sensor at x, y, z: segment(flagstone.io.read(FILE, origin=(x, y, z))))"
         )
     if hasattr(points, "__dlpack__"):
         return _from_dlpack(points)
     try:
         return np.asarray(points)
     except ValueError as error:
-        raise TypeError(f"points: {type(points).__name__} is not an array: {error}; {_WANTED}") from error
+        raise TypeError(f"points: {type(points).__name__} is not an array: {error} ({_EXPECTED})") from error
 
 
 def _from_dlpack(points: PointsLike) -> npt.NDArray[Any]:
     try:
         device = points.__dlpack_device__()[0]
-        number = getattr(device, "value", device)  # an enum, as of Open3D, need not convert to int
+        number = getattr(device, "value", device)  # Open3D returns an enum that int() does not accept
         if not isinstance(number, int) or number in _CPU_DEVICES:
             return np.from_dlpack(points)
     except (BufferError, RuntimeError, TypeError, ValueError) as error:
         reason = " ".join(str(error).split())
-        raise TypeError(f"points: {type(points).__name__} cannot be read: {reason}; {_WANTED}") from error
+        raise TypeError(f"points: {type(points).__name__} cannot be read: {reason} ({_EXPECTED})") from error
     raise TypeError(
-        f"points: {type(points).__name__} is in the memory of another device (DLPack type {number}); "
-        "copy it to the CPU first, with torch: points.cpu()"
+        f"points: {type(points).__name__} is in the memory of another device, DLPack type {number} "
+        "(copy it to the CPU first; with torch: points.cpu())"
     )
 
 
 def _floats(array: npt.NDArray[Any], what: str) -> Column:
     if array.dtype.kind != "f" or array.dtype.itemsize not in (4, 8):
         raise TypeError(
-            f"{what}: numbers of type {array.dtype}; wanted is float32 or float64 in metres: "
-            "convert with points.astype(numpy.float32)"
+            f"{what}: dtype {array.dtype} is not supported (expected float32 or float64, in metres; "
+            "convert with points.astype(numpy.float32))"
         )
     return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))

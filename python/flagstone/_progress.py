@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""How far a long piece of work is, on standard error."""
+"""Progress of long operations, on standard error."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ import sys
 import time
 from types import TracebackType
 
-_WIDTH = 30  # characters, of the bar
-_PAUSE = 0.2  # seconds between two updates on a terminal, which eyes can follow
-_PAUSE_OF_LOG = 5.0  # seconds between two lines elsewhere
+_WIDTH = 30  # characters of the bar
+_INTERVAL = 0.2  # seconds between updates on a terminal
+_LOG_INTERVAL = 5.0  # seconds between lines if standard error is not a terminal
 
 
 class Progress:
-    """On a terminal one line, drawn anew as the work goes on; elsewhere, if `log`, a line every few seconds."""
+    """On a terminal, one line that is redrawn; otherwise, if `log` is set, one line every few seconds."""
 
     def __init__(self, total: int, what: str, *, shown: bool = True, log: bool = False) -> None:
-        """Begins.
+        """Starts the clock.
 
         Args:
-            total: How much there is to do.
-            what: The things that are counted, such as "scans".
-            shown: Whether to say anything at all.
-            log: Whether to write lines where standard error is not a terminal.
+            total: Number of items to process.
+            what: Name of the items in the plural, for example "scans".
+            shown: Whether to print anything.
+            log: Whether to print lines if standard error is not a terminal.
         """
         self.total = total
         self._what = what
@@ -31,8 +31,8 @@ class Progress:
         self._on_terminal = shown and sys.stderr is not None and sys.stderr.isatty()
         self._logs = shown and log and sys.stderr is not None and not self._on_terminal
         self._begin = time.monotonic()
-        self._next = self._begin + 1  # short work draws nothing
-        self._first: tuple[int, float] | None = None  # how many were done when the first were, and when that was
+        self._next = self._begin + 1  # operations under a second print nothing
+        self._first: tuple[int, float] | None = None  # number of items done at the first call of add(), and its time
         self._is_drawn = False
 
     def __enter__(self) -> Progress:
@@ -45,18 +45,18 @@ class Progress:
             self._draw("")
 
     def note(self, text: str) -> None:
-        """Says what is done before anything can be counted."""
+        """Prints a step that has no count."""
         if self._on_terminal or self._logs:
             self._draw(text)
 
     def add(self, count: int) -> None:
-        """So many more are done. The time left is computed from the first ones on, so that it has no start in it."""
+        """Counts `count` more items. The time left is computed since the first call, which excludes the start-up."""
         self._done += count
         now = time.monotonic()
         first, since = self._first = self._first or (self._done, now)
         if not (self._on_terminal or self._logs) or now < self._next:
             return
-        self._next = now + (_PAUSE if self._on_terminal else _PAUSE_OF_LOG)
+        self._next = now + (_INTERVAL if self._on_terminal else _LOG_INTERVAL)
         seconds_each = (now - since) / (self._done - first) if self._done > first else None
         text = progress_text(self._done, self.total, self._what, seconds_each)
         self._draw(text if self._on_terminal else text.partition("] ")[2])
@@ -71,7 +71,7 @@ class Progress:
 
 
 def progress_text(done: int, total: int, what: str, seconds_each: float | None) -> str:
-    """One line: a bar, how many are done, and how long the rest takes if it is known how long each does."""
+    """One line: a bar, the number of items done and, if `seconds_each` is known, the time left."""
     filled = _WIDTH if total == 0 else _WIDTH * done // total
     text = f"[{'#' * filled:<{_WIDTH}}] {done:,} of {total:,} {what}"
     if seconds_each is not None and done < total:
@@ -80,7 +80,7 @@ def progress_text(done: int, total: int, what: str, seconds_each: float | None) 
 
 
 def duration_text(seconds: float) -> str:
-    """Seconds as people say them: 5 s, 3 min 04 s, 2 h 10 min."""
+    """A duration in readable form: 5 s, 3 min 04 s, 2 h 10 min."""
     whole = round(seconds)
     if whole < 60:
         return f"{whole} s"

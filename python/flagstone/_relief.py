@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""How the ground is coloured: by height, shaded as if light fell from ahead and the left."""
+"""Colours of the ground: by height, shaded with light from the front left."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from flagstone.ground_surface import GroundSurface
 
 Floats = npt.NDArray[np.float64]
 
-# Greens, yellows and browns of atlases, all of them light, so that shade and lines stand out.
+# Greens, yellows and browns, as in atlases. All are light, so that shading and lines are clearly visible.
 TONES = np.array(
     [
         [0.53, 0.70, 0.61],
@@ -26,61 +26,61 @@ TONES = np.array(
 )
 _SHADOW = np.array([0.16, 0.17, 0.30])  # bluish, as under an open sky
 _SUNLIGHT = np.array([1, 0.99, 0.93])
-_DARKEST = 0.72  # share of shadow in what no light falls on
-_BRIGHTEST = 1.5  # share of sunlight a unit above level ground
-_FAINTEST = 0.25  # opacity of ground that nobody is sure of
+_DARKEST = 0.72  # fraction of shadow colour where no light falls
+_BRIGHTEST = 1.5  # fraction of sunlight colour per unit of brightness above that of level ground
+_FAINTEST = 0.25  # opacity of ground with confidence 0
 
 _SAMPLES = 200  # along a side
-_LEAST_SPAN = 1.0  # metres; colours do not make mountains of a level road
-_WELL_SHADED = 0.3  # metres a metre
-_MOST_EXAGGERATION = 5.0
-_MOST_LINES = 14
+_MIN_SPAN = 1.0  # metres; prevents a level road from looking mountainous
+_WELL_SHADED = 0.3  # slope in m/m that is shaded clearly
+_MAX_EXAGGERATION = 5.0
+_MAX_LINES = 14
 _STEPS = ((0.25, 2), (0.5, 2), (1.0, 2), (2.0, 5), (5.0, 2), (10.0, 2), (20.0, 5), (50.0, 2), (100.0, 2))
 
 
 class Look(NamedTuple):
-    """How a surface is drawn."""
+    """Style in which a surface is drawn."""
 
     lowest: float
-    """Metres; what lies below has the first colour."""
+    """Height of the first colour, metres; lower ground has the same colour."""
     highest: float
-    """Metres; what lies above has the last one."""
+    """Height of the last colour, metres; higher ground has the same colour."""
     step: float
-    """From one contour line to the next, metres."""
+    """Height difference between contour lines, metres."""
     per_index: int
-    """Every so many-th line is bold, with its height."""
+    """Every N-th contour line is bold and labelled with its height."""
     exaggeration: float
-    """How much steeper than it is ground is shaded."""
+    """Factor by which slopes are exaggerated for shading."""
 
 
 def suitable_range(surface: GroundSurface) -> float:
-    """Half the side of the square that shows nearly all of the ground, metres."""
+    """Half the side of the square that contains 98 % of the ground, rounded up to 10 m, metres."""
     samples = _samples(surface, surface.extent)
     range_ = 10 * np.ceil(_quantile(samples.distance, samples.weight, 0.98, surface.extent) / 10)
     return float(min(max(range_, 1), surface.extent))
 
 
 def suitable_look(surface: GroundSurface, range_: float) -> Look:
-    """Colours for nearly all heights within `range_` metres, about ten lines, shading that shows gentle slopes."""
+    """A style for the ground within `range_` metres: about ten contour lines, and shading that shows gentle slopes."""
     samples = _samples(surface, range_)
     lowest = _quantile(samples.height, samples.weight, 0.02, -1)
     highest = _quantile(samples.height, samples.weight, 0.98, 1)
-    step, per_index = next((s for s in _STEPS if highest - lowest <= _MOST_LINES * s[0]), _STEPS[-1])
-    middle, half = (lowest + highest) / 2, max(highest - lowest, _LEAST_SPAN) / 2
+    step, per_index = next((s for s in _STEPS if highest - lowest <= _MAX_LINES * s[0]), _STEPS[-1])
+    middle, half = (lowest + highest) / 2, max(highest - lowest, _MIN_SPAN) / 2
     steep = _quantile(samples.steepness, samples.weight, 0.85, 0)
     return Look(
         lowest=float(step * np.floor((middle - half) / step)),
         highest=float(step * np.ceil((middle + half) / step)),
         step=step,
         per_index=per_index,
-        exaggeration=float(np.clip(round(_WELL_SHADED / max(steep, 1e-3)), 1, _MOST_EXAGGERATION)),
+        exaggeration=float(np.clip(round(_WELL_SHADED / max(steep, 1e-3)), 1, _MAX_EXAGGERATION)),
     )
 
 
 def relief(surface: GroundSurface, x: npt.ArrayLike, y: npt.ArrayLike, look: Look) -> Floats:
-    """The ground's colour at places of shape S: (*S, 4), red, green, blue and opacity, 0 to 1.
+    """The colour of the ground at positions of shape S: (*S, 4), red, green, blue and opacity, 0 to 1.
 
-    Paler where the surface is less sure, transparent where it is not known.
+    The colour is paler where the confidence is lower, and transparent where the ground is unknown.
     """
     x, y = np.broadcast_arrays(np.asarray(x, np.float32), np.asarray(y, np.float32))
     ground = surface.at(x, y)
@@ -94,15 +94,15 @@ def relief(surface: GroundSurface, x: npt.ArrayLike, y: npt.ArrayLike, look: Loo
     return np.concatenate([color, opacity[..., None]], axis=-1)
 
 
-def tones(share: npt.ArrayLike) -> Floats:
-    """Colours (*S, 3) of heights of shape S, from 0, the lowest, to 1, the highest; NaN as the lowest."""
-    place = np.nan_to_num(np.clip(share, 0, 1)) * (len(TONES) - 1)
+def tones(fraction: npt.ArrayLike) -> Floats:
+    """Colours (*S, 3) of heights of shape S, from 0 (lowest) to 1 (highest); NaN has the lowest colour."""
+    position = np.nan_to_num(np.clip(fraction, 0, 1)) * (len(TONES) - 1)
     stops = np.arange(len(TONES))
-    return np.stack([np.interp(place, stops, TONES[:, part]) for part in range(3)], axis=-1)
+    return np.stack([np.interp(position, stops, TONES[:, part]) for part in range(3)], axis=-1)
 
 
 def _shaded(color: Floats, exaggeration: float, along_x: Floats, along_y: Floats) -> Floats:
-    """The light stands 45 degrees high where both x and y grow; 1 is as bright as level ground."""
+    """Shades colours with light from the direction (+x, +y), 45 degrees high. Level ground has brightness 1."""
     steep_x, steep_y = exaggeration * along_x, exaggeration * along_y
     bright = ((1 - (steep_x + steep_y) / np.sqrt(2)) / np.sqrt(1 + steep_x**2 + steep_y**2))[..., None]
     dark = _DARKEST * (1 - np.clip(bright, 0, 1))
@@ -112,7 +112,7 @@ def _shaded(color: Floats, exaggeration: float, along_x: Floats, along_y: Floats
 
 
 def _slope(before: npt.ArrayLike, here: Floats, after: npt.ArrayLike, cell: npt.ArrayLike) -> Floats:
-    """From heights a cell to either side; to one side alone at the rim of what is known."""
+    """Central difference of the heights one cell to either side; one-sided at the edge of the known ground."""
     before, after = np.asarray(before, np.float64), np.asarray(after, np.float64)
     sides = 2.0 - np.isnan(before) - np.isnan(after)
     before, after = np.where(np.isnan(before), here, before), np.where(np.isnan(after), here, after)
@@ -123,8 +123,8 @@ def _slope(before: npt.ArrayLike, here: Floats, after: npt.ArrayLike, cell: npt.
 class _Samples(NamedTuple):
     distance: Floats  # from the sensor, the larger of |x| and |y|, metres
     height: Floats
-    steepness: Floats  # metres a metre
-    weight: Floats  # as much as the surface is sure of it
+    steepness: Floats  # m/m
+    weight: Floats  # by confidence
 
 
 def _samples(surface: GroundSurface, range_: float) -> _Samples:
@@ -140,10 +140,10 @@ def _samples(surface: GroundSurface, range_: float) -> _Samples:
     )
 
 
-def _quantile(values: Floats, weights: Floats, share: float, none: float) -> float:
-    """The least value that `share` of the weight lies at or below; `none` without values."""
+def _quantile(values: Floats, weights: Floats, fraction: float, none: float) -> float:
+    """Weighted quantile: the smallest value with `fraction` of the weight at or below it; `none` without values."""
     if not len(values):
         return none
     order = np.argsort(values)
     sums = np.cumsum(weights[order])
-    return float(values[order][np.searchsorted(sums, share * sums[-1])])
+    return float(values[order][np.searchsorted(sums, fraction * sums[-1])])

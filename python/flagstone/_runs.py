@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What `evaluate` and `simulate` share: progress on a terminal, and errors in terms of Python's arguments."""
+"""Common parts of `evaluate` and `simulate`: progress on a terminal, and errors that name Python's arguments."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ def listed(values: str | Iterable[object]) -> list[str]:
 
 @contextmanager
 def run() -> Iterator[tuple[Callable[[str], None] | None, int]]:
-    """Gives the function that draws a line of progress, None where standard error is not a terminal, and its width.
+    """Yields the function that draws a progress line (None if standard error is not a terminal) and its width.
 
     Raises:
-        ValueError: An argument is wrong, in terms of Python's arguments.
+        ValueError: An argument is invalid. The message names the Python argument instead of the command's option.
     """
     on_terminal = sys.stderr is not None and sys.stderr.isatty()
     try:
@@ -39,5 +39,5 @@ def _draw(text: str) -> None:
 
 
 def _in_terms_of_python(error: str) -> str:
-    # What is in quotes after the program's name is to be typed as it is.
+    # A quoted command line, 'flagstone ...', keeps its options.
     return re.sub(r"'flagstone [^']*'|--([a-z][a-z-]*)", lambda at: at[1].replace("-", "_") if at[1] else at[0], error)

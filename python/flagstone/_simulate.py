@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Simulated scans with exact ground truth, and the list of their files."""
+"""Simulated scans with exact ground truth."""
 
 from __future__ import annotations
 
@@ -21,30 +21,32 @@ _ground_classes = (40, 44, 48, 49, 60, 72)  # protocol "simulation"
 
 
 class SimulatedScan(NamedTuple):
-    """A scan that `simulate` wrote: its place in the sequence, its files, and where the sensor was."""
+    """A scan that `simulate` wrote: its index in the sequence, its files and the position of the sensor."""
 
     sequence: str
-    """Two digits."""
+    """Name of the sequence, two digits."""
     frame: int
-    """From 0."""
+    """Index in the sequence, from 0."""
     drive: int
-    """From 0; the scans of one drive are of one environment."""
+    """Index of the environment that the scan was simulated in, from 0."""
     scan: str
-    """File of the points: x, y, z, intensity, float32."""
+    """Path of the points: x, y, z, intensity, float32."""
     labels: str
-    """File of the classes, SemanticKITTI's."""
+    """Path of the ground-truth classes, with SemanticKITTI's codes."""
     ground: str
-    """File of the true z of the ground at each point, metres."""
+    """Path of the true z of the ground at each point, metres."""
     returns: str
-    """File of what each point is a return of."""
+    """Path of the origin of each return (surface, rain, reflection and so on)."""
     points: int
     """Number of points."""
     ground_share: float
-    """Fraction of the points on the ground, 0 to 1, by the classes of protocol `simulation`; NaN without points."""
+    """Fraction of the points that are ground under protocol `simulation`, 0 to 1; NaN without points."""
     x: float
-    """Position of the sensor in the environment of its drive, metres."""
+    """x of the sensor in its environment, metres."""
     y: float
+    """y of the sensor, metres."""
     z: float
+    """z of the sensor, metres."""
 
 
 def simulate(
@@ -64,35 +66,35 @@ def simulate(
 ) -> list[SimulatedScan]:
     """Simulates a sequence of scans with exact ground truth, as `flagstone simulate` does.
 
-    The files lie below `output/sequences/NN` as SemanticKITTI lays out a sequence, so that `evaluate(output)` reads
-    them. Frames that are there already are kept: an interrupted call continues where it ended, and a call with more
-    frames adds to them. The same arguments give the same bytes, for any number of threads.
+    The files are written to `output/sequences/NN` in the layout of SemanticKITTI, which `evaluate(output)` reads.
+    Existing frames are kept: call again with the same arguments to resume an interrupted simulation, or with more
+    frames to extend it. The same arguments give bit-identical files for any number of threads.
 
     Args:
-        output: The directory; created if missing.
-        scene: What is simulated: `"flat_street"`, `"steep_street"`, `"parked_cars"`, `"bushes_and_lawn"`,
+        output: Output directory, created if it does not exist.
+        scene: Scene to simulate: `"flat_street"`, `"steep_street"`, `"parked_cars"`, `"bushes_and_lawn"`,
             `"bumpy_field"`, `"steps"`, `"park"`, `"forest_track"`, `"ploughed_field"`, `"embankment"`,
             `"construction_site"`, `"urban_street"`, `"highway"`, `"drops"`, `"crossroads"`, `"ramp"`, `"tunnel"`,
             `"indoor_hall"`.
-        sensor: A name of `flagstone.sensors()`, or a `.toml` file.
-        sensor_height: Metres above the ground, 0 to 100; where the sensor usually is by default.
-        tilt: Pitch and roll of the sensor on its vehicle, degrees, -90 to 90 each: positive pitch looks down ahead,
-            positive roll has the right side lower.
+        sensor: A name from `flagstone.sensors()`, or a `.toml` file.
+        sensor_height: Height of the sensor above the ground in metres, 0 to 100; the sensor's usual height by default.
+        tilt: Pitch and roll of the sensor in degrees, -90 to 90 each. Positive pitch tilts the sensor down ahead,
+            positive roll lowers its right side.
         noise: `"clean"`, `"default"` or `"harsh"`.
-        weather: One or more of `"clear"`, `"wet"`, `"rain"`, `"dust"`.
+        weather: One or more of `"clear"`, `"wet"`, `"rain"` and `"dust"`.
         keep_no_returns: Write missing returns as points at (0, 0, 0), as many drivers do.
-        frames: Scans, 1 to 100,000; every 10 in a new environment, a drive.
-        seed: Which environments, 0 to 2**64 - 1.
-        sequence: Two digits, so that one directory can hold several sequences.
-        threads: Scans worked on at once, 1 to 1024; all cores by default.
+        frames: Number of scans, 1 to 100,000. A new environment starts every 10 scans.
+        seed: Seed of the environments and the noise, 0 to 2**64 - 1.
+        sequence: Name of the sequence, two digits. One directory can contain several sequences.
+        threads: Number of scans to process in parallel, 1 to 1,024; all cores by default.
 
     Returns:
-        The scans with their files, in order; `pandas.DataFrame(scans)` makes a data frame of them.
+        The scans with their files, in order. `pandas.DataFrame(scans)` converts them to a data frame.
 
     Raises:
-        ValueError: An argument is wrong, or the folder holds something else.
+        ValueError: An argument is invalid, or the directory contains a sequence made with other arguments.
         OSError: Files cannot be written.
-        KeyboardInterrupt: Ctrl-C; the same call continues.
+        KeyboardInterrupt: You pressed Ctrl-C; the same call resumes the simulation.
     """
     with run() as (draw, columns):
         frames_per_drive = _core.simulate(

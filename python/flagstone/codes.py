@@ -1,41 +1,41 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The numbers that labels and patches hold."""
+"""Codes of point labels and patch verdicts."""
 
 from enum import IntEnum
 
 
 class Label(IntEnum):
-    """What a point is. The codes are part of the data contract: label files hold them, and they will not change."""
+    """Label of a point. Label files contain these codes; they are part of the data contract and will not change."""
 
     NONGROUND = 0
-    """Stands on the ground, hangs above it, or lies in a patch that is not ground."""
+    """Not ground: an object on the ground or above it."""
     GROUND = 1
-    """Belongs to the ground."""
+    """Ground."""
     NOISE = 2
-    """Below any ground there can be at that place: multipath, reflections."""
+    """Below any possible ground: a ghost point, caused by a reflection (multipath)."""
     OUT_OF_RANGE = 3
-    """Too far, too near or out of view for the method, or over 10 km above or below the sensor."""
+    """Too far from the sensor, too close, outside the field of view, or more than 10 km above or below the sensor."""
     INVALID = 4
-    """A coordinate is not finite, or all three are zero ("no echo")."""
+    """A coordinate is not finite, or all three are zero, which drivers write for a missing return."""
 
 
 class Verdict(IntEnum):
-    """Why a patch was taken for ground, or was not; the paper's section III-D."""
+    """Status of a patch: ground, or the reason why not. Section III-D of the paper."""
 
     GROUND = 0
     """Passed every term of the ground likelihood."""
     GROUND_FLAT = 1
-    """Too high for the elevation term, brought back by its flatness, eq. (11)."""
+    """Failed the elevation term, but accepted because it is flat, eq. (11)."""
     TOO_FEW_POINTS = 2
-    """Not enough points to fit a plane."""
+    """Too few points to fit a plane."""
     NO_PLANE = 3
-    """Fewer than three points survived the fit."""
+    """Fewer than three points remained during the fit."""
     NOT_UPRIGHT = 4
-    """The normal leans too far, eq. (9): a wall, a hedge, a trunk."""
+    """The normal is tilted too far, eq. (9): a wall, a hedge, a trunk."""
     TOO_HIGH = 5
-    """Lies above where ground can be at that range, eq. (10), and is not flat enough."""
+    """Higher than the ground can be at that range, eq. (10), and not flat enough."""
     MIXED = 6
-    """Method `surface`: as many points just above the plane as in it: a wall, a bush."""
+    """Method `surface`: as many points just above the plane as in it, as in a wall or bush."""
     OFF_SURFACE = 7
-    """Method `surface`: above or below what ground nearer to the sensor lets expect."""
+    """Method `surface`: above or below the height that ground closer to the sensor predicts."""

@@ -14,43 +14,44 @@ from flagstone import _core
 
 
 class GroundSample(NamedTuple):
-    """The ground at places of shape S, which x and y broadcast to."""
+    """The ground at several positions. S is the shape that x and y broadcast to."""
 
     height: npt.NDArray[np.float32]
-    """S: z of the ground, metres, in the sensor's frame; NaN where it is not known."""
+    """S: z of the ground in the level frame, metres; NaN if unknown."""
     normal: npt.NDArray[np.float32]
-    """(\\*S, 3): unit length, z > 0; NaN where it is not known."""
+    """(\\*S, 3): unit normal with z > 0; NaN if unknown."""
     slope: npt.NDArray[np.float32]
-    """S: angle between normal and z axis, radians, 0 to pi/2; NaN where it is not known."""
+    """S: angle between the normal and the z axis, radians, 0 to pi/2; NaN if unknown."""
     confidence: npt.NDArray[np.float32]
-    """S: 0 (not known) to 1 (measured right here)."""
+    """S: 0 (unknown) to 1 (measured at this position)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """A square grid of heights around the sensor.
+    """A square grid of ground heights, centred at the sensor.
 
-    Cell (row, column) has its centre at x = (column + 0.5 - W / 2) * cell, y = (row + 0.5 - W / 2) * cell.
+    The centre of cell (row, column) is at x = (column + 0.5 - W / 2) * cell, y = (row + 0.5 - W / 2) * cell.
     """
 
     cell: float
-    """Side of a cell, metres."""
+    """Side length of a cell, metres."""
     heights: npt.NDArray[np.float32]
-    """(W, W): z of the ground in the middle of each cell, metres; NaN where it is not known. A read-only view."""
+    """(W, W): z of the ground at the centre of each cell, metres; NaN if unknown. A read-only view."""
     confidences: npt.NDArray[np.float32]
-    """(W, W): 0 (not known) to 1 (measured). A read-only view."""
+    """(W, W): 0 (unknown) to 1 (measured). A read-only view."""
 
     @property
     def extent(self) -> float:
-        """It covers |x| <= extent and |y| <= extent, metres."""
+        """The grid covers |x| <= extent and |y| <= extent, metres."""
         return len(self.heights) * self.cell / 2
 
 
 class GroundSurface:
-    """z = height(x, y) in the sensor's frame, made by methods that join patches to one surface (`surface`).
+    """The ground as a function z = height(x, y), in metres, in the level frame of `Mount`.
 
-    It is a nest of square grids around the sensor, finer towards it, bilinear between the middles of cells. Of methods
-    that make none it is empty: False, and its height is NaN everywhere.
+    Only the method `surface` computes it. For other methods it is empty: it evaluates to False, and `height` returns
+    NaN everywhere. The surface consists of nested square grids, which are finer closer to the sensor, and is bilinear
+    between cell centres. It is immutable, so threads may share it.
     """
 
     def __init__(self, result: _core.Result) -> None:
@@ -69,7 +70,7 @@ class GroundSurface:
 
     @property
     def extent(self) -> float:
-        """It covers |x| <= extent and |y| <= extent, metres; 0 if there is none."""
+        """The surface covers |x| <= extent and |y| <= extent, metres; 0 if there is no surface."""
         return self._result.extent()
 
     @property
@@ -82,31 +83,31 @@ class GroundSurface:
     @overload
     def height(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32]: ...
     def height(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32] | float:
-        """Elevation of the ground at places: z, metres; NaN if unknown.
+        """Elevation z of the ground at given positions.
 
         Args:
             x: Metres forward, any shape.
-            y: Metres to the left, any shape that broadcasts with that of x.
+            y: Metres to the left, any shape that broadcasts with x.
 
         Returns:
-            Heights in the shape that x and y broadcast to; a float if both are numbers.
+            z in metres, in the shape that x and y broadcast to; NaN if unknown. A float if x and y are numbers.
         """
-        places_x, places_y, shape = _places(x, y)
-        return _shaped(self._result.height_at(places_x, places_y), shape)
+        flat_x, flat_y, shape = _flattened(x, y)
+        return _shaped(self._result.height_at(flat_x, flat_y), shape)
 
     @overload
     def resolution(self, x: float, y: float) -> float: ...
     @overload
     def resolution(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32]: ...
     def resolution(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.float32] | float:
-        """Side of the cells at places, metres; NaN outside. Arguments and shape are those of `height`."""
-        places_x, places_y, shape = _places(x, y)
-        return _shaped(self._result.resolution_at(places_x, places_y), shape)
+        """Side length of the grid cell at given positions, metres; NaN outside. See `height` for the arguments."""
+        flat_x, flat_y, shape = _flattened(x, y)
+        return _shaped(self._result.resolution_at(flat_x, flat_y), shape)
 
     def at(self, x: npt.ArrayLike, y: npt.ArrayLike) -> GroundSample:
-        """Height, normal, slope and confidence at places. Arguments are those of `height`."""
-        places_x, places_y, shape = _places(x, y)
-        table = self._result.ground_at(places_x, places_y)
+        """Height, normal, slope and confidence at given positions. See `height` for the arguments."""
+        flat_x, flat_y, shape = _flattened(x, y)
+        table = self._result.ground_at(flat_x, flat_y)
         return GroundSample(
             height=table[:, 0].reshape(shape),
             normal=table[:, 1:4].reshape((*shape, 3)),
@@ -124,7 +125,7 @@ def _restored(grids: list[Any]) -> GroundSurface:
     return GroundSurface(_core.restored_result(none, None, none, grids, (0.0, (0.0, 0.0, 1.0), (0.0,) * 3, 1.0, "")))
 
 
-def _places(
+def _flattened(
     x: npt.ArrayLike, y: npt.ArrayLike
 ) -> tuple[npt.NDArray[np.float32], npt.NDArray[np.float32], tuple[int, ...]]:
     wide_x, wide_y = np.broadcast_arrays(np.asarray(x, np.float32), np.asarray(y, np.float32))

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Files of points and of labels: the readers and writers of the command.
+"""Readers and writers of scan files and label files, the same as in the command.
 
-Which formats there are, and what each may hold, says docs/reference/file-formats.md.
+docs/reference/file-formats.md describes the formats.
 """
 
 from __future__ import annotations
@@ -35,32 +35,34 @@ Path = str | os.PathLike[str]
 _NPY_OF = {"float32": "<f4", "float64": "<f8"} | {
     f"{sign}int{8 * size}": f"<{sign or 'i'}{size}" for sign in ("", "u") for size in (1, 2, 4, 8)
 }
-_NAMES_OF_COLUMNS = ("x", "y", "z", "intensity", "ring")  # as files without names have them
+_COLUMN_NAMES = ("x", "y", "z", "intensity", "ring")  # for files without field names
 
 
 def read(
     path: Path, *, columns: int | None = None, origin: Sequence[float] | npt.NDArray[np.floating[Any]] | None = None
 ) -> npt.NDArray[np.void]:
-    """Reads a scan with every field its file has.
+    """Reads a scan with all its fields.
 
     Args:
-        path: .bin, .pcd.bin, .pcd, .ply, .npy, .las or .laz; the name says the format.
-        columns: Floats a point of raw files (.bin), 3 to 1,024; without it 5 for .pcd.bin, else 4.
-        origin: x, y, z in the file's coordinates that become 0: where the sensor stood, for files in coordinates of a
-            map, which 32-bit floats would round to decimetres. x, y and z are float64 then.
+        path: Scan file. The extension selects the format: .bin, .pcd.bin, .pcd, .ply, .npy, .las or .laz.
+        columns: Floats per point in raw files (.bin), 3 to 1,024; by default 5 for .pcd.bin, otherwise 4.
+        origin: Position x, y, z of the sensor in the coordinates of the file, which is subtracted from all points. Use
+            it for files in map coordinates, which 32-bit floats would round to decimetres. x, y and z are then
+            float64.
 
     Returns:
-        (N,) structured array with the fields x, y, z and whatever else there is, in the file's order. It can be handed
-        to `segment` as it is. Of LAS and LAZ: x, y, z as float64, then the dimensions by their names in laspy, such as
-        `intensity`, `return_number`, `classification`, `gps_time`; flags as 0 and 1; then the extra bytes.
+        (N,) structured array with the fields x, y, z and all other fields, in the order of the file. `segment` accepts
+        it as it is. For LAS and LAZ: x, y and z are float64, followed by the dimensions under the names that laspy
+        uses (`intensity`, `return_number`, `classification`, `gps_time` and so on; flags are 0 or 1) and the extra
+        bytes.
 
     Raises:
-        FileNotFoundError: There is no such file.
-        ImportError: LAS and LAZ need laspy: pip install 'flagstone[las]'.
-        OSError: The system would not read it.
-        ValueError: Its contents are not what its format allows, or its ending is not known; one line with file, byte
-            and reason. Or `origin` is not three finite numbers.
-        MemoryError: It is larger than the memory.
+        FileNotFoundError: The file does not exist.
+        ImportError: laspy, which LAS and LAZ need, is not installed: pip install 'flagstone[las]'.
+        OSError: The operating system cannot read the file.
+        ValueError: The contents are invalid (the message is one line with file, byte and reason), the extension is
+            unknown, or `origin` is not three finite numbers.
+        MemoryError: The points do not fit in memory.
     """
     shift = None if origin is None else _three_finite("origin", origin)
     rows = _las.read(path) if _las.is_las(path) else _read_by_core(path, columns)
@@ -69,23 +71,24 @@ def read(
 
 def _read_by_core(path: Path, columns: int | None) -> npt.NDArray[np.void]:
     if columns is not None and not isinstance(columns, int):
-        raise TypeError(f"columns = {columns!r} is not a whole number")
+        raise TypeError(f"columns: {columns!r} is not an integer")
     return _structured(*_core.read_cloud(os.fspath(path), 0 if columns is None else columns))
 
 
 def parse(data: bytes | bytearray | memoryview, format: str, *, columns: int = 4) -> npt.NDArray[np.void]:
-    """The same for a file's bytes in memory.
+    """Reads a scan from the bytes of a file in memory.
 
     Args:
-        data: The bytes of the file.
-        format: "raw", "pcd", "ply" or "npy"; `format_of` says which from a name.
-        columns: Floats a point of raw files.
+        data: Contents of the file.
+        format: "raw", "pcd", "ply" or "npy". `format_of` returns it for a file name.
+        columns: Floats per point in raw files, 3 to 1,024.
 
     Returns:
-        As `read`.
+        (N,) structured array, as `read` returns it.
 
     Raises:
-        ValueError: As `read`, without the file's name.
+        ValueError: The contents are invalid, or the format is unknown.
+        MemoryError: The points do not fit in memory.
     """
     return _structured(*_core.parse_cloud(np.frombuffer(data, np.uint8), format, columns))
 
@@ -97,23 +100,25 @@ def write(
     labels: npt.ArrayLike | None = None,
     heights: npt.ArrayLike | None = None,
 ) -> None:
-    """Writes a scan; the file is there whole or not at all.
+    """Writes a scan atomically.
+
+    LAS and LAZ files have version 1.4 and point format 6; 7 if there are fields `red`, `green` and `blue`; 8 if there
+    is also `nir`. Their coordinates are rounded to millimetres, and a floating-point `intensity` from 0 to 1 is scaled
+    to 16 bits. Fields that are not dimensions of LAS become extra bytes.
 
     Args:
-        path: .bin, .pcd, .ply, .npy, .las or .laz; the name says the format. LAS and LAZ are of version 1.4, point
-            format 6, 7 with fields `red`, `green`, `blue`, 8 with `nir` too; coordinates are rounded to a millimetre,
-            a floating `intensity` of 0 to 1 is spread over 16 bits, fields that LAS does not know are extra bytes.
-        points: (N,) structured array with fields x, y and z, or (N, >=3) numbers, whose columns become x, y, z,
-            intensity, ring, c5, c6, ...; organized clouds, (H, W) and (H, W, >=3), are written row by row.
-        labels: (N,) codes; become a field `label`, uint8. In LAS and LAZ they set `classification` as `classify_las`
-            does.
-        heights: (N,) metres; become a field `height`, float32.
+        path: File to write. The extension selects the format: .bin, .pcd, .ply, .npy, .las or .laz.
+        points: (N,) structured array with fields x, y and z; or (N, >=3) numbers, whose columns become x, y, z,
+            intensity, ring, c5, c6, ... Organized clouds, (H, W) and (H, W, >=3), are written row by row.
+        labels: (N,) codes, written as a field `label`, uint8. In LAS and LAZ files they set `classification` by the
+            rule of `classify_las`.
+        heights: (N,) heights above the ground in metres, written as a field `height`, float32.
 
     Raises:
-        ImportError: LAS and LAZ need laspy: pip install 'flagstone[las]'.
-        OSError: The system would not write it.
-        TypeError: A field is of a type that no format holds.
-        ValueError: The format cannot hold a field, or lengths differ.
+        ImportError: laspy, which LAS and LAZ need, is not installed: pip install 'flagstone[las]'.
+        OSError: The operating system cannot write the file.
+        TypeError: No format can store the type of a field.
+        ValueError: The format cannot store a field, or the lengths differ.
     """
     rows = _rows(points)
     if _las.is_las(path):
@@ -128,18 +133,19 @@ def write(
 
 
 def read_labels(path: Path, points: int) -> npt.NDArray[np.uint32]:
-    """Reads one class a point: labels of this program, or a data set's truth.
+    """Reads one class per point: labels written by flagstone, or ground-truth labels of a dataset.
 
     Args:
         path: .label (SemanticKITTI: uint32, the class in the low 16 bits), .bin (nuScenes-lidarseg: uint8) or .npy.
-        points: How many points the scan has that they belong to.
+        points: Number of points of the scan.
 
     Returns:
-        (points,) classes, without the instances of .label files.
+        (points,) classes, without the instance IDs of .label files.
 
     Raises:
-        FileNotFoundError: There is no such file.
-        ValueError: It holds another number of labels, or is no such file.
+        FileNotFoundError: The file does not exist.
+        OSError: The operating system cannot read the file.
+        ValueError: The file contains another number of labels, or is not a label file.
     """
     return _core.read_classes(os.fspath(path), points)
 
@@ -147,44 +153,50 @@ def read_labels(path: Path, points: int) -> npt.NDArray[np.uint32]:
 def write_labels(
     path: Path, labels: npt.ArrayLike, *, label_map: Literal["flagstone", "semantic-kitti"] = "flagstone"
 ) -> None:
-    """Writes one label a point; the file is there whole or not at all.
+    """Writes one label per point, atomically.
 
     Args:
-        path: .label (SemanticKITTI's layout: uint32) or .npy (uint8); the name says the format.
-        labels: (N,) codes, 0 to 4.
-        label_map: What number stands for a label: "flagstone", its own code; "semantic-kitti", 40 (road) for ground
-            and 0 (unlabelled) for all else.
+        path: File to write. The extension selects the format: .label (uint32, the layout of SemanticKITTI) or .npy
+            (uint8).
+        labels: (N,) codes of `Label`, integers 0 to 4.
+        label_map: Codes in the file: "flagstone" (0 to 4) or "semantic-kitti" (40, road, for ground; 0, unlabelled,
+            otherwise).
 
     Raises:
-        OSError: The system would not write it.
-        ValueError: The ending is another, or a code is none.
+        OSError: The operating system cannot write the file.
+        ValueError: The extension is unknown, or a label is not 0 to 4.
     """
     name = os.fspath(path)
     if not name.lower().endswith((".label", ".npy")):
-        raise ValueError(f"{name}: labels are written as .label or .npy")
+        raise ValueError(f"{name}: unknown extension of a label file (expected .label or .npy)")
     if label_map not in ("flagstone", "semantic-kitti"):
-        raise ValueError(f"label_map = {label_map!r} is not known; there are flagstone and semantic-kitti")
+        raise ValueError(f"label_map: {label_map!r} is not a label map (expected flagstone or semantic-kitti)")
     codes = np.asarray(labels)
     if codes.ndim != 1 or codes.dtype.kind not in "ui" or (codes.size and not 0 <= codes.min() <= codes.max() <= 4):
-        raise ValueError(f"{name}: labels are whole numbers from 0 to 4 in one row; came {codes.dtype} {codes.shape}")
+        raise ValueError(
+            f"labels: array of {codes.dtype}, shape {codes.shape}, is not supported (expected (N,) integers from 0 to 4)"
+        )
     compact = np.ascontiguousarray(codes, np.uint8)
     _core.write_labels(name, compact, label_map == "semantic-kitti", name.lower().endswith(".npy"))
 
 
 def format_of(path: Path) -> str | None:
-    """The format that a name stands for, "raw", "pcd", "ply" or "npy"; None for other endings."""
+    """The format for a file name: "raw", "pcd", "ply" or "npy"; None for other extensions."""
     return _core.format_of(os.fspath(path))
 
 
 def is_scan_name(path: Path) -> bool:
-    """Whether a file met in a folder is taken for a scan: by its ending, not hidden, not one of labels or heights."""
+    """Whether a file found in a directory is treated as a scan.
+
+    The extension must be that of a scan. Hidden files and files of labels or heights are not scans.
+    """
     return _core.is_scan_name(os.fspath(path))
 
 
 def _three_finite(name: str, values: Sequence[float] | npt.NDArray[np.floating[Any]]) -> npt.NDArray[np.float64]:
     numbers = np.asarray(values, np.float64)
     if numbers.shape != (3,) or not np.isfinite(numbers).all():
-        raise ValueError(f"{name} = {values!r}; wanted are x, y, z, three finite numbers in the file's coordinates")
+        raise ValueError(f"{name}: {values!r} is not a position (expected three finite numbers x, y, z)")
     return numbers
 
 
@@ -220,8 +232,10 @@ def _rows(points: PointsLike) -> npt.NDArray[np.void]:
     if array.ndim == 3:
         array = array.reshape(-1, array.shape[2])
     if array.ndim != 2 or array.shape[1] < 3:
-        raise ValueError(f"points: shape {array.shape}; wanted is (N, 3) or more columns, or fields x, y and z")
-    names = [*_NAMES_OF_COLUMNS, *(f"c{i}" for i in range(len(_NAMES_OF_COLUMNS), array.shape[1]))]
+        raise ValueError(
+            f"points: shape {array.shape} is not supported (expected (N, 3) or more columns, or fields x, y and z)"
+        )
+    names = [*_COLUMN_NAMES, *(f"c{i}" for i in range(len(_COLUMN_NAMES), array.shape[1]))]
     dtype = np.dtype([(name, array.dtype) for name in names[: array.shape[1]]])
     return numpy.lib.recfunctions.unstructured_to_structured(array, dtype)
 
@@ -229,7 +243,8 @@ def _rows(points: PointsLike) -> npt.NDArray[np.void]:
 def _with_field(rows: npt.NDArray[np.void], name: str, values: npt.ArrayLike, dtype: Any) -> npt.NDArray[np.void]:
     column = np.asarray(values)
     if column.shape != rows.shape:
-        raise ValueError(f"{name}s of shape {column.shape} for {rows.shape[0]} points; wanted is one a point")
+        count = rows.shape[0]
+        raise ValueError(f"{name}s: shape {column.shape} does not match {count} points (expected ({count},))")
     others = [field for field in rows.dtype.names or () if field != name]
     together = np.empty(rows.shape, [(field, rows.dtype[field]) for field in others] + [(name, dtype)])
     for field in others:
@@ -243,6 +258,6 @@ def _fields_of(dtype: np.dtype[np.void]) -> list[tuple[str, str, int, int]]:
     for name in dtype.names or ():
         base, shape = dtype[name].base, dtype[name].shape
         if not base.isnative:
-            raise TypeError(f"field {name} is of type {base}; wanted are numbers in this machine's byte order")
+            raise TypeError(f"points: field {name} has dtype {base} (expected native byte order)")
         fields.append((name, base.name, int(np.prod(shape, dtype=int)), 0))
     return fields

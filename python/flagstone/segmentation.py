@@ -28,36 +28,37 @@ def _patch_dtype() -> np.dtype[np.void]:
 
 
 PATCH_DTYPE: np.dtype[np.void] = _patch_dtype()
-"""Type of the elements of `Segmentation.patches`."""
+"""dtype of `Segmentation.patches`."""
 
 _LABEL_NAMES = tuple(_core.label_names())
 
 
 class Mount(NamedTuple):
-    """How the sensor stands to the ground, as the scan was segmented with.
+    """Mounting pose (height and tilt) of the sensor that a scan was segmented with: its extrinsic calibration.
 
-    A point p of the scan lies at scale * p - origin metres from the sensor; turned the shortest way that brings `up`
-    to z, that is its place in the level frame.
+    The position of a point p of the scan relative to the sensor is scale * p - origin, in metres. The shortest rotation
+    that maps `up` to z transforms it to the level frame: origin at the sensor, z up.
     """
 
     sensor_height: float
-    """h_s: from the sensor down to the ground along `up`, metres."""
+    """h_s: height of the sensor above the ground along `up`, metres."""
     up: tuple[float, float, float]
-    """Where up is in the scan's frame."""
+    """Up direction in the frame of the scan."""
     origin: tuple[float, float, float]
-    """Where the sensor is in the scan's frame, metres."""
+    """Position of the sensor in the frame of the scan, metres."""
     scale: float
-    """Metres a unit of the scan."""
+    """Metres per unit of the scan."""
     decision: str
-    """What the scan was found to say of it, in one sentence; of a given mount that it is given."""
+    """How this pose was determined, in one sentence: configured, or estimated from scans."""
 
 
 class Segmentation:
     """Labels, heights, patches and surface of one scan of N points.
 
-    Arrays are read-only views of memory that the result owns; they stay valid for as long as they, or the result, are
-    held. Once nobody holds any of them, the memory serves a later scan of the same segmenter. Results can be pickled
-    and copied; a copy has memory of its own.
+    Arrays are read-only, zero-copy views of memory that the result owns. They stay valid as long as you keep a
+    reference to them or to the result. Without references, a later scan of the same segmenter reuses the memory.
+
+    Results can be pickled and copied; a copy has its own memory. Threads may share a result.
     """
 
     def __init__(self, result: _core.Result, settings: Callable[[], dict[str, Any]]) -> None:
@@ -79,7 +80,7 @@ class Segmentation:
     def labels(self) -> npt.NDArray[np.uint8]:
         """(N,): code of each point, in input order; see `Label`.
 
-        Of an organized cloud of shape (H, W) they go row by row: `labels.reshape(H, W)`.
+        For an organized cloud, the order is row by row: `labels.reshape(H, W)`.
         """
         return self._result.labels()
 
@@ -90,57 +91,63 @@ class Segmentation:
 
     @property
     def heights(self) -> npt.NDArray[np.float32]:
-        """(N,): height of each point above the ground below it, metres, in input order.
+        """(N,): height of each point above the ground below it, in metres, in input order.
 
-        NaN where no ground is known, and for points that are invalid or out of range. Methods that make no surface,
-        `patchwork` among them, know none.
+        NaN if the ground is unknown, and for points that are invalid or out of range. Methods without a surface, such
+        as `patchwork`, do not compute heights: all are NaN.
         """
         return self._result.heights()
 
     @property
     def patches(self) -> npt.NDArray[np.void]:
-        """(P,): the bins S_n that hold points, with their planes and what was made of them; paper, III-B to III-D.
+        """(P,): the bins S_n that contain points, with plane and verdict; sections III-B to III-D of the paper.
 
-        Ordered by zone, ring and sector; those of `surface` nearest to the sensor first. Methods without patches have
-        none. Fields:
+        Patches of `patchwork` are ordered by zone, ring and sector, patches of `surface` by distance from the sensor.
+        Methods without patches return an empty array. Fields:
 
-        - `zone`, `ring`, `sector` (uint16): place in the zone model, from 0, the innermost; sectors counter-clockwise
-          from the rear. Of `surface`: zone 0 are squares of 4 m, zone 1 of 8 m, ring the row, sector the column.
-        - `verdict` (uint16): see `Verdict`. `point_count` |S_n|, `ground_count`, and of those
-          `lower_ground_count`, below the plane in one of their own (uint32).
-        - `mean` (3 float32), metres; `normal` (3 float32) n = v_3, unit length, upward, eq. (4); `d` (float32): the
-          plane is normal . p + d = 0; `eigenvalues` (3 float32) of the covariance, descending, square metres. Zero
-          where no plane was fitted.
-        - `uprightness` phi, eq. (9); `elevation` psi, eq. (10); `flatness` varphi, eq. (11); `likelihood` f, their
-          product, ground above 0.5, eqs. (8) and (12); `surface_variable` sigma, 0 to 1/3 (float32). Of `surface`
-          they are zero.
+        - `zone`, `ring`, `sector` (uint16): indices in the zone model, from 0. Zones and rings start at the sensor,
+          sectors run counter-clockwise from the rear. For `surface`, zone 0 has squares of 4 m and zone 1 squares of
+          8 m; `ring` is the row and `sector` the column.
+        - `verdict` (uint16): see `Verdict`.
+        - `point_count` |S_n| (uint32): number of points.
+        - `ground_count` (uint32): number of ground points. For `surface` an estimate.
+        - `lower_ground_count` (uint32): number of ground points below the plane that form a separate plane.
+        - `mean` (3 float32): mean of the ground points, in the frame and units of the scan.
+        - `normal` (3 float32): n = v_3, unit length, upward, eq. (4). With `d` (float32), the plane is
+          normal . p + d = 0.
+        - `eigenvalues` (3 float32): of the covariance, descending, square metres. `mean`, `normal`, `d` and
+          `eigenvalues` are zero if no plane was fitted.
+        - `uprightness` phi, eq. (9); `elevation` psi, eq. (10); `flatness` varphi, eq. (11) (float32).
+        - `likelihood` f (float32): product of these three terms, above 0.5 for ground, eqs. (8) and (12).
+        - `surface_variable` sigma (float32): 0 to 1/3. Like the likelihood and its terms, it is zero for `surface`.
         """
         return self._result.patches().view(PATCH_DTYPE)
 
     @cached_property
     def surface(self) -> GroundSurface:
-        """The ground as one continuous surface; empty for methods that make none."""
+        """The ground as one continuous surface; empty for methods that do not compute it."""
         return GroundSurface(self._result)
 
     @property
     def counts(self) -> dict[str, int]:
-        """Number of points by name of their label, all five; they add up to N."""
+        """Number of points for each of the five label names; the numbers add up to N."""
         return dict(zip(_LABEL_NAMES, self._result.counts(), strict=True))
 
     @property
     def mount(self) -> Mount:
-        """How the sensor stands, as given or as found out from scans."""
+        """Mounting pose of the sensor, as configured or as estimated from scans."""
         return Mount(*self._result.mount())
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Every setting the scan was segmented with, as `Segmenter.settings`: the zones of `patches` among them."""
+        """All settings that the scan was segmented with, like `Segmenter.settings`. They include the zones."""
         return self._settings()
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The patches as a data frame: a row a patch, a column a field.
+        """The patches as a data frame, with one row per patch and one column per field.
 
-        Vectors take three columns, `mean_x`, `normal_z`, `eigenvalue_1` and so on; `verdict` is a category by name.
+        Vectors are split into three columns: `mean_x`, `normal_z`, `eigenvalue_1` and so on. `verdict` is a categorical
+        column of names.
 
         Raises:
             ImportError: pandas is not installed.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The methods: what turns points into labels."""
+"""Ground segmentation methods."""
 
 from __future__ import annotations
 
@@ -27,11 +27,12 @@ _DEFAULTS = {"sensor": None, "sensor_height": None, "tilt": None, "preset": "def
 
 
 class Segmenter:
-    """A ground segmentation method. Made by its class, `Surface` or `Patchwork`, or by name, `make_segmenter`.
+    """A ground segmentation method. Create one with `Surface`, `Patchwork` or `make_segmenter`.
 
-    Threads may share one: their calls take turns, each with the interpreter's lock released. To work on several scans
-    at once, give each thread a segmenter of its own. Segmenters can be pickled, which keeps how they were made, not
-    what scans have told them. After a fork, parent and child may both use one.
+    Thread-safe: threads that share a segmenter take turns. `segment` releases the GIL, so use one segmenter per thread
+    to segment several scans in parallel. After a fork, both the parent and the child may use the segmenter.
+
+    A segmenter can be pickled. The pickle contains its arguments, but not what it has estimated from scans.
     """
 
     def __init__(
@@ -81,51 +82,53 @@ class Segmenter:
 
     @property
     def method(self) -> str:
-        """Name of the method, as `make_segmenter` takes it."""
+        """Name of the method, as `make_segmenter` accepts it."""
         return self._method
 
     @property
     def settings(self) -> dict[str, Any]:
-        """Every setting with the value it has, in tables as in the file that `flagstone config` prints."""
+        """All settings with their values, in the tables that `flagstone config` prints."""
         return self._core.settings()
 
     def segment(self, points: PointsLike) -> Segmentation:
         """Labels every point of a scan.
 
         Args:
-            points: (N, >=3) float32 or float64: x, y, z in metres, then any other columns. Any strides; a NumPy array,
-                or anything that supports DLPack or the buffer protocol (a torch or Open3D tensor of the CPU); or
-                fields or columns named x, y and z: a structured array, a data frame, a PyArrow table. Organized
-                clouds, (H, W, >=3) or (H, W) records, count as H * W points, row by row. float32 is read in place,
-                without a copy. Any bit pattern is allowed: points that are not finite are labelled `invalid`.
+            points: (N, >=3) float32 or float64, with any strides: x, y, z in metres in the sensor frame, followed by
+                any other columns. A NumPy array, or an object that supports DLPack or the buffer protocol, such as a
+                torch or Open3D tensor in CPU memory. Structured arrays, data frames and PyArrow tables are read by
+                their columns x, y and z. Organized clouds, (H, W, >=3) or (H, W) records, are read as H * W points,
+                row by row. float32 input is zero-copy if the three columns have the same stride. Any value is allowed:
+                points with NaN or infinity are labelled `invalid`.
 
         Returns:
-            The result, whose arrays stay valid as long as they are held. The same points give the same bytes every
-            time, but for segmenters that are told to estimate or track how the sensor stands.
+            The result; see `Segmentation`. The same points and settings always give bit-identical results, unless the
+            segmenter estimates or tracks the mounting pose.
 
         Raises:
-            TypeError: The points are not floats, or not in the processor's memory.
-            ValueError: Their shape is another, or they are more than 2^32 - 1.
-            MemoryError: They are more than the memory holds.
+            TypeError: The points are not floats, or not in CPU memory.
+            ValueError: The shape is not supported, a column is missing, or there are more than 2^32 - 1 points.
+            MemoryError: There is not enough memory.
 
         Warns:
-            UserWarning: Nearly all points are out of range, once per segmenter: the scan may not be in metres.
+            UserWarning: More than 90 % of the points are out of range, so the scan may not be in metres. Issued once
+                per segmenter.
         """
-        result = self._core.segment_rows(points)  # the usual case
+        result = self._core.segment_rows(points)  # the fast path: rows of float32
         if result is None:
             result = self._core.segment(*columns_of(points))
         return Segmentation(result, self._core.settings)
 
     def reset(self) -> None:
-        """Forgets all scans: as newly made. Only how the sensor stands, where it is estimated, is ever remembered."""
+        """Discards the estimated mounting pose, the only state that a segmenter keeps between scans."""
         self._core.reset()
 
 
 class Surface(Segmenter):
-    """The method `surface`: planes of square patches, those that are ground joined to one continuous surface.
+    """The default method, `surface`: one continuous ground surface, and labels by the height above it.
 
-    The surface is refined where points say more, and every point judged by its height above it: docs/explanation/surface.md. One
-    set of settings serves all sensors.
+    It fits planes to square patches, merges the ground patches into one surface and refines the surface with the
+    points. One set of settings works for every sensor. docs/explanation/surface.md describes the method.
     """
 
     def __init__(
@@ -138,22 +141,23 @@ class Surface(Segmenter):
         threads: int = 1,
         **settings: Unpack[SurfaceSettings],
     ) -> None:
-        """Makes a segmenter.
+        """Creates a segmenter.
 
         Args:
-            sensor: Whose height and range to use: a name that `sensors()` lists, or the path of a .toml file of your
-                own.
-            sensor_height: h_s, metres above the ground, -100 to 100; "estimate": from the first scan that tells it;
-                "track": from every scan, smoothed. Without it the sensor's, or 1.73.
-            tilt: Where up is in the sensor's frame, (x, y, z), for a sensor that leans; "estimate": from the scans;
-                "off": along z.
-            config: Path of a TOML file of settings, as `flagstone config --method surface` prints.
-            threads: How many work on one scan together, 1 to 1,024; the result does not depend on it.
-            **settings: Any setting of that file, tables as dictionaries: `point={"margin": 0.2}`.
+            sensor: Sensor whose height and range to use: a name from `sensors()`, or the path of a .toml file.
+            sensor_height: Height h_s of the sensor above the ground in metres, -100 to 100. "estimate" uses the first
+                scan that determines it, "track" updates it with every scan. By default the height of the sensor, or
+                1.73.
+            tilt: Up direction (x, y, z) in the sensor frame, for a tilted sensor. "estimate" determines it from the
+                scans, "off" (the default) uses the z axis.
+            config: Path of a TOML file of settings, as `flagstone config --method surface` prints them.
+            threads: Number of threads per scan, 1 to 1,024. The result does not depend on it.
+            **settings: Settings by name, tables as dictionaries, for example `point={"margin": 0.2}`. They override
+                `config`. See `SurfaceSettings`.
 
         Raises:
-            TypeError: An argument is of another type.
-            ValueError: A setting is unknown or out of range; names it, its value and what is allowed.
+            TypeError: An argument has the wrong type.
+            ValueError: A setting is unknown or out of range. The message names it, its value and the allowed range.
         """
         super().__init__(
             "surface",
@@ -167,11 +171,11 @@ class Surface(Segmenter):
 
 
 class Patchwork(Segmenter):
-    """Patchwork: concentric zones, a plane a patch, each judged by its ground likelihood.
+    """Patchwork: bins of concentric zones, with one plane and one ground likelihood per bin.
 
-    H. Lim, M. Oh, H. Myung, "Patchwork: Concentric Zone-based Region-wise Ground Segmentation with Ground Likelihood
-    Estimation Using a 3D LiDAR Sensor", IEEE RA-L 6(4), 2021: sections III-B (zones, eqs. 2, 3), III-C (planes, eqs. 4
-    to 6), III-D (likelihood, eqs. 7 to 12).
+    Source: H. Lim, M. Oh, H. Myung, "Patchwork: Concentric Zone-based Region-wise Ground Segmentation with Ground
+    Likelihood Estimation Using a 3D LiDAR Sensor", IEEE RA-L 6(4), 2021; sections III-B (zones, eqs. 2 and 3), III-C
+    (planes, eqs. 4 to 6) and III-D (likelihood, eqs. 7 to 12).
     """
 
     def __init__(
@@ -185,25 +189,26 @@ class Patchwork(Segmenter):
         threads: int = 1,
         **settings: Unpack[PatchworkSettings],
     ) -> None:
-        """Makes a segmenter.
+        """Creates a segmenter.
 
         Args:
-            sensor: What to derive zones, field of view, ranges and margins from (docs/reference/sensors.md): a name that
-                `sensors()` lists, or the path of a .toml file of your own.
-            sensor_height: h_s, metres above the ground, -100 to 100; "estimate": from the first scan that tells it;
-                "track": from every scan, smoothed. Without it the sensor's, or 1.73.
-            tilt: Where up is in the sensor's frame, (x, y, z), for a sensor that leans; "estimate": from the scans;
-                "off": along z.
-            preset: Settings to start from where no sensor is named: "default", what measures best; "paper", the
-                equations and numbers as printed; "reference", how the authors' public code behaves.
-            config: Path of a TOML file of settings, as `flagstone config --method patchwork` prints.
-            threads: How many work on one scan together, 1 to 1,024; the result does not depend on it.
-            **settings: Any setting of that file, tables as dictionaries: `distance_margin=0.1`,
-                `uprightness={"angle": 45}`.
+            sensor: Sensor to derive zones, field of view, ranges and margins from (docs/reference/sensors.md): a name
+                from `sensors()`, or the path of a .toml file.
+            sensor_height: Height h_s of the sensor above the ground in metres, -100 to 100. "estimate" uses the first
+                scan that determines it, "track" updates it with every scan. By default the height of the sensor, or
+                1.73.
+            tilt: Up direction (x, y, z) in the sensor frame, for a tilted sensor. "estimate" determines it from the
+                scans, "off" (the default) uses the z axis.
+            preset: Settings to start from if there is no `sensor`: "default", the values that scored best; "paper",
+                the equations and values as printed; "reference", the behaviour of the authors' public code.
+            config: Path of a TOML file of settings, as `flagstone config --method patchwork` prints them.
+            threads: Number of threads per scan, 1 to 1,024. The result does not depend on it.
+            **settings: Settings by name, tables as dictionaries, for example `distance_margin=0.1` or
+                `uprightness={"angle": 45}`. They override `config`. See `PatchworkSettings`.
 
         Raises:
-            TypeError: An argument is of another type.
-            ValueError: A setting is unknown or out of range; names it, its value and what is allowed.
+            TypeError: An argument has the wrong type.
+            ValueError: A setting is unknown or out of range. The message names it, its value and the allowed range.
         """
         super().__init__(
             "patchwork",
@@ -228,24 +233,24 @@ def make_segmenter(
     threads: int = 1,
     **settings: Any,
 ) -> Segmenter:
-    """A method by name, for comparisons and for names that come from files.
+    """Creates a segmenter by the name of its method, for example to compare methods.
 
     Args:
-        name: One of `method_names()`.
-        sensor: As for `Surface` and `Patchwork`; of other methods it sets the height, of `cascaded` the beams too.
+        name: A name from `method_names()`.
+        sensor: As for `Surface` and `Patchwork`. For other methods it sets the height, for `cascaded` also the beams.
         sensor_height: As for `Surface`.
         tilt: As for `Surface`.
-        preset: As for `Patchwork`; of `patchwork` and czm+... only.
-        config: As for `Surface`, of this method.
-        threads: As for `Surface`; 1 for all methods but `surface` and `patchwork`.
-        **settings: As for `Surface`, of this method.
+        preset: As for `Patchwork`; only for `patchwork` and the methods `czm+...`.
+        config: As for `Surface`, with settings of this method.
+        threads: As for `Surface`; must be 1 for all methods except `surface` and `patchwork`.
+        **settings: As for `Surface`, with settings of this method.
 
     Returns:
-        `Surface` or `Patchwork` for those two names, else a `Segmenter`.
+        A `Surface` or `Patchwork` for these two names, otherwise a `Segmenter`.
 
     Raises:
-        TypeError: An argument is of another type.
-        ValueError: There is no such method or setting, or a value is out of range; names what is allowed.
+        TypeError: An argument has the wrong type.
+        ValueError: The method or a setting is unknown, or a value is out of range. The message names what is allowed.
     """
     made_of: dict[str, Any] = {
         "sensor": sensor,
@@ -268,24 +273,24 @@ def _remake(name: str, made_of: dict[str, Any]) -> Segmenter:
 
 
 def method_names() -> tuple[str, ...]:
-    """What `make_segmenter` knows, in the order of the paper's Table I, then `surface`."""
+    """Names that `make_segmenter` accepts, in the order of Table I of the paper, followed by `surface`."""
     return tuple(_core.method_names())
 
 
 def _check_types(
     sensor: object, sensor_height: object, tilt: object, preset: object, config: object, threads: object
 ) -> None:
-    """Raises TypeError, in one line, if an argument is of another type; values are checked by the compiled part."""
-    for name, value, fits, wanted in (
+    """Raises a one-line TypeError if an argument has the wrong type. The compiled module checks the values."""
+    for name, value, fits, expected in (
         ("sensor", sensor, sensor is None or isinstance(sensor, (str, os.PathLike)), "a name or path"),
         ("sensor_height", sensor_height, _is_height(sensor_height), 'a number, "estimate" or "track"'),
         ("tilt", tilt, _is_tilt(tilt), 'three numbers (x, y, z), "estimate" or "off"'),
         ("preset", preset, isinstance(preset, str), "a name"),
         ("config", config, config is None or isinstance(config, (str, os.PathLike)), "a path"),
-        ("threads", threads, isinstance(threads, (int, np.integer)), "a whole number"),
+        ("threads", threads, isinstance(threads, (int, np.integer)), "an integer"),
     ):
         if not fits:
-            raise TypeError(f"{name} = {value!r} is not {wanted}")
+            raise TypeError(f"{name}: {value!r} has the wrong type (expected {expected})")
 
 
 def _is_height(value: object) -> bool:

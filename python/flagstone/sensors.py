@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The sensors that are known by name."""
+"""Sensors that flagstone knows by name."""
 
 from __future__ import annotations
 
@@ -15,32 +15,32 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Sensor:
-    """A LiDAR as data: where its beams point, how far they reach, how high it usually stands."""
+    """Properties of a LiDAR sensor: beams, field of view, range and usual height."""
 
     name: str
-    """Short, as `sensor=` takes it: "hdl-64e"."""
+    """Short name, as `sensor=` accepts it: "hdl-64e"."""
     title: str
-    """Maker and model."""
+    """Manufacturer and model."""
     elevations: Sequence[float]
-    """Degrees above the horizontal, highest first, one a beam; of a rosette the edges of its field of view."""
+    """Elevation of each beam, highest first, degrees above the horizontal. For a rosette, its vertical limits."""
     firings: int
-    """Firings of every beam in one scan; points of one scan for a rosette."""
+    """Number of firings per beam and scan. For a rosette, the number of points per scan."""
     azimuth_begin: float
     """Right edge of the field of view, degrees counter-clockwise from straight ahead."""
     azimuth_end: float
-    """Left edge, likewise; at most 360 more."""
+    """Left edge of the field of view, in the same unit, at most 360 more than `azimuth_begin`."""
     rosette: Sequence[float]
-    """Turns that each of two prisms makes in a scan; empty for sensors with beams."""
+    """Rotations per scan of each of the two prisms; empty for sensors with beams."""
     min_range: float
-    """Nearer echoes are not reported, metres."""
+    """Minimum range of a return, metres."""
     max_range: float
-    """Farther echoes are not reported, metres."""
+    """Maximum range of a return, metres."""
     range_sigma: float
     """Standard deviation of a measured range, metres."""
     height: float
-    """h_s where nobody says otherwise: above the ground, metres."""
+    """Default height h_s of the sensor above the ground, metres."""
 
 
 def sensors() -> tuple[Sensor, ...]:
-    """The sensors that `sensor=` knows by name, as `flagstone sensors` lists them."""
+    """The sensors that `sensor=` accepts by name, as `flagstone sensors` lists them."""
     return tuple(Sensor(**fields) for fields in _core.sensors())

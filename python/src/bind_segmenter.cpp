@@ -38,7 +38,7 @@ std::atomic<std::uint32_t> forks = 0;
 unsigned checked_threads(std::int64_t threads) {
   if (threads >= 1 && threads <= max_threads) return static_cast<unsigned>(threads);
   throw std::invalid_argument(
-      fmt::format("threads = {} is out of range; allowed: 1 to {}", threads, max_threads));
+      fmt::format("threads: {} is out of range (expected 1 to {})", threads, max_threads));
 }
 
 /// Are nine points in ten out of range? A scan in millimetres looks like this. Few points may be

@@ -13,7 +13,7 @@ import pytest
 from conftest import Scan
 
 import flagstone
-from flagstone._palette import LABELS, VERDICTS, shares
+from flagstone._palette import LABELS, VERDICTS, rgb
 from flagstone.plot import birds_eye, surface
 
 matplotlib = pytest.importorskip("matplotlib", reason="matplotlib draws the pictures")
@@ -83,7 +83,7 @@ def test_without_a_range_nearly_all_points_are_in_the_picture(scan: Scan, result
 def test_each_point_has_the_colour_of_its_label(scan: Scan, result: flagstone.Segmentation) -> None:
     drawn = places_by_color(birds_eye(scan, result))
     for label in (flagstone.Label.GROUND, flagstone.Label.NONGROUND, flagstone.Label.NOISE):
-        np.testing.assert_array_equal(drawn[shares(LABELS[label])], scan[result.labels == label, :2])
+        np.testing.assert_array_equal(drawn[rgb(LABELS[label])], scan[result.labels == label, :2])
 
 
 def test_legend_names_labels_that_occur_with_their_share(scan: Scan, result: flagstone.Segmentation) -> None:
@@ -94,7 +94,7 @@ def test_legend_names_labels_that_occur_with_their_share(scan: Scan, result: fla
 def test_any_programs_mask_can_be_drawn(scan: Scan) -> None:
     mask = scan[:, 2] < -1.5
     drawn = places_by_color(birds_eye(scan, mask))
-    np.testing.assert_array_equal(drawn[shares(LABELS[flagstone.Label.GROUND])], scan[mask, :2])
+    np.testing.assert_array_equal(drawn[rgb(LABELS[flagstone.Label.GROUND])], scan[mask, :2])
 
 
 def test_reference_colours_right_and_wrong() -> None:
@@ -102,11 +102,11 @@ def test_reference_colours_right_and_wrong() -> None:
     truth = np.ma.array([True, False, True, False, True], mask=[False] * 4 + [True])
     drawn = places_by_color(birds_eye(points, [1, 1, 0, 2, 1], reference=truth))
     x_of = {color: places[:, 0].tolist() for color, places in drawn.items()}
-    assert x_of[shares(GREEN)] == [1], "true positive"
-    assert x_of[shares(RED)] == [2], "false positive"
-    assert x_of[shares(BLUE)] == [3], "false negative"
-    assert x_of[shares((140, 148, 158))] == [4], "true negative: noise counts as not ground"
-    assert x_of[shares((70, 77, 87))] == [5], "not scored"
+    assert x_of[rgb(GREEN)] == [1], "true positive"
+    assert x_of[rgb(RED)] == [2], "false positive"
+    assert x_of[rgb(BLUE)] == [3], "false negative"
+    assert x_of[rgb((140, 148, 158))] == [4], "true negative: noise counts as not ground"
+    assert x_of[rgb((70, 77, 87))] == [5], "not scored"
 
 
 def test_heights_above_ground_go_from_yellow_to_cyan(scan: Scan, result: flagstone.Segmentation) -> None:
@@ -114,7 +114,7 @@ def test_heights_above_ground_go_from_yellow_to_cyan(scan: Scan, result: flagsto
     drawn = places_by_color(axes)
     assert sum(map(len, drawn.values())) == (result.labels != flagstone.Label.INVALID).sum()
     most = max(drawn, key=lambda color: len(drawn[color]))
-    np.testing.assert_allclose(most, shares(LABELS[flagstone.Label.GROUND]), atol=0.05)
+    np.testing.assert_allclose(most, rgb(LABELS[flagstone.Label.GROUND]), atol=0.05)
     assert "height above the ground" in axes.child_axes[0].get_ylabel()
 
 
@@ -144,7 +144,7 @@ def test_patches_are_tinted_by_verdict(scan: Scan, method: str) -> None:
         if isinstance(collection, matplotlib.collections.PolyCollection)
     }
     verdicts, counts = np.unique(result.patches["verdict"], return_counts=True)
-    assert tinted == {shares(VERDICTS[v]): n for v, n in zip(map(flagstone.Verdict, verdicts), counts, strict=True)}
+    assert tinted == {rgb(VERDICTS[v]): n for v, n in zip(map(flagstone.Verdict, verdicts), counts, strict=True)}
 
 
 @pytest.mark.parametrize("method", ["surface", "patchwork", "r_gpf"])

@@ -57,11 +57,11 @@ def test_what_does_not_fit_is_one_line() -> None:
     points = np.zeros((2, 3), np.float32)
     with pytest.raises(ValueError, match="1 labels and 2 classes for 2 points"):
         flagstone.score([1], [ROAD, ROAD], points)
-    with pytest.raises(ValueError, match="labels: reach from 0 to 5; wanted are whole numbers of 0 to 4"):
+    with pytest.raises(ValueError, match=r"labels: 5 is out of range \(expected integers from 0 to 4"):
         flagstone.score([0, 5], [ROAD, ROAD], points)
-    with pytest.raises(ValueError, match="classes: reach from -1 to 40; wanted are whole numbers of 0 to 65,535"):
+    with pytest.raises(ValueError, match=r"classes: -1 is out of range \(expected integers from 0 to 65,535"):
         flagstone.score([0, 1], [-1, 40], points)
-    with pytest.raises(TypeError, match="labels: an array of float64 came"):
+    with pytest.raises(TypeError, match="labels: dtype float64 is not supported"):
         flagstone.score([0.0, 1.0], [ROAD, ROAD], points)
     with pytest.raises(ValueError, match=r'protocol = "kitti" is not known; there are patchwork'):
         flagstone.score([0, 1], [ROAD, ROAD], points, protocol="kitti")

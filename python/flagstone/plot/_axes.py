@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from flagstone._optional import needs
-from flagstone._palette import PANEL, PANEL_TEXT, RANGE_RING, Color, shares
+from flagstone._palette import PANEL, PANEL_TEXT, RANGE_RING, Color, rgb
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,7 +34,7 @@ def view_from_above(axes: Axes | None, range_: float, *, background: Color) -> A
     axes.set_ylim(-range_, range_)
     axes.set_xlabel("y, metres (left)")
     axes.set_ylabel("x, metres (forward)")
-    axes.set_facecolor(shares(background))
+    axes.set_facecolor(rgb(background))
     return axes
 
 
@@ -51,7 +51,7 @@ def draw_rings(axes: Axes, range_: float) -> None:
         radius = ring * step
         axes.add_patch(
             patches.Circle(
-                (0, 0), radius, fill=False, color=shares(RANGE_RING), alpha=0.55, linewidth=0.6, linestyle=(0, (5, 5))
+                (0, 0), radius, fill=False, color=rgb(RANGE_RING), alpha=0.55, linewidth=0.6, linestyle=(0, (5, 5))
             )
         )
         along = radius / np.sqrt(2)
@@ -60,12 +60,12 @@ def draw_rings(axes: Axes, range_: float) -> None:
                 -along,
                 along,
                 f"{radius:g} m",
-                color=shares(PANEL_TEXT),
+                color=rgb(PANEL_TEXT),
                 fontsize=7,
                 ha="center",
                 va="center",
                 zorder=5,
-                path_effects=[effects.withStroke(linewidth=2, foreground=shares(PANEL))],
+                path_effects=[effects.withStroke(linewidth=2, foreground=rgb(PANEL))],
             )
 
 
@@ -78,7 +78,7 @@ def draw_sensor(axes: Axes) -> None:
         marker=arrow,
         markersize=9,
         markerfacecolor="white",
-        markeredgecolor=shares(PANEL),
+        markeredgecolor=rgb(PANEL),
         markeredgewidth=0.8,
         linestyle="none",
         zorder=6,

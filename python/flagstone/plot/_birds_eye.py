@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from flagstone._geometry import level_frame, outline, patch_bins
 from flagstone._optional import needs
-from flagstone._palette import LABELS, PANEL, TINT, VERDICTS, ZONE_LINE, Color, in_words, shares
+from flagstone._palette import LABELS, PANEL, TINT, VERDICTS, ZONE_LINE, Color, in_words, rgb
 from flagstone._points import Column, PointsLike, columns_of
 from flagstone.codes import Label, Verdict
 from flagstone.plot._axes import add_color_bar, color_map, draw_rings, draw_sensor, view_from_above, width_in_points
@@ -170,10 +170,10 @@ def _draw_kinds(
     entries: list[Artist] = []
     for kind in kinds:
         shown = kind.mask & placed
-        _draw(axes, x[shown], y[shown], shares(kind.color), kind.size * size)
+        _draw(axes, x[shown], y[shown], rgb(kind.color), kind.size * size)
         if count := int(kind.mask.sum()):
             label = f"{kind.name} {_percent(count, len(kind.mask))}"
-            look = {"marker": "o", "markersize": 6, "markeredgewidth": 0, "color": shares(kind.color)}
+            look = {"marker": "o", "markersize": 6, "markeredgewidth": 0, "color": rgb(kind.color)}
             entries.append(lines.Line2D([], [], linestyle="none", label=label, **look))
     return [*entries[1:], entries[0]] if kinds[0].mask.any() else entries  # what lies undermost comes last
 
@@ -184,9 +184,9 @@ def _draw_values(axes: Axes, x: _Floats, y: _Floats, values: _Floats, color: str
     if color == "z":
         low, high = np.quantile(values, (0.02, 0.98)) if len(values) else (0, 1)
         between, caption = (float(low), float(max(high, low + 0.1))), "z, metres"
-    map_ = color_map([(share, shares(stop)) for share, stop in _HEIGHT_COLORS])
+    map_ = color_map([(share, rgb(stop)) for share, stop in _HEIGHT_COLORS])
     known = np.isfinite(values)
-    _draw(axes, x[~known], y[~known], shares(_UNKNOWN_HEIGHT), size)
+    _draw(axes, x[~known], y[~known], rgb(_UNKNOWN_HEIGHT), size)
     share = (values[known] - between[0]) / (between[1] - between[0])
     level = np.clip(share * _LEVELS, 0, _LEVELS - 1).astype(int)
     x, y = x[known], y[known]
@@ -203,14 +203,13 @@ def _tint(axes: Axes, bins: list[npt.NDArray[np.float64]], verdicts: npt.NDArray
         chosen = [bin_ for bin_, given in zip(bins, verdicts, strict=True) if given == verdict]
         if not chosen:
             continue
-        look = {"facecolor": (*shares(VERDICTS[verdict]), TINT), "edgecolor": (*shares(ZONE_LINE), 0.35)}
+        look = {"facecolor": (*rgb(VERDICTS[verdict]), TINT), "edgecolor": (*rgb(ZONE_LINE), 0.35)}
         axes.add_collection(collections.PolyCollection(chosen, linewidths=0.4, zorder=2, **look), autolim=False)
         label = f"{in_words(verdict)} {_percent(len(chosen), len(bins))}"
         on_panel = [
-            (1 - TINT) * under + TINT * over
-            for under, over in zip(shares(PANEL), shares(VERDICTS[verdict]), strict=True)
+            (1 - TINT) * under + TINT * over for under, over in zip(rgb(PANEL), rgb(VERDICTS[verdict]), strict=True)
         ]
-        entries.append(patches.Patch(facecolor=on_panel, edgecolor=shares(VERDICTS[verdict]), label=label))
+        entries.append(patches.Patch(facecolor=on_panel, edgecolor=rgb(VERDICTS[verdict]), label=label))
     return entries
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from flagstone._palette import CONTOUR, shares
+from flagstone._palette import CONTOUR, rgb
 from flagstone._relief import TONES, Look, relief, suitable_look, suitable_range
 from flagstone.ground_surface import GroundSurface
 from flagstone.plot._axes import add_color_bar, color_map, draw_sensor, view_from_above
@@ -76,7 +76,7 @@ def _draw_contours(axes: Axes, ground: GroundSurface, range_: float, look: Look)
             x.ravel(),
             np.ma.masked_invalid(heights),
             levels=look.step * numbers[(numbers % look.per_index == 0) == bold],
-            colors=[shares(CONTOUR)],
+            colors=[rgb(CONTOUR)],
             linewidths=1.0 if bold else 0.5,
             linestyles="solid",
             alpha=0.8,
