@@ -6,19 +6,19 @@
 
 namespace flagstone::bench {
 
-/// What operator new and delete have done so far, in all threads.
+/// Counts of operator new and delete so far, in all threads.
 struct AllocationCount {
-  std::size_t calls = 0;  ///< of operator new
-  std::size_t bytes = 0;  ///< handed out and not given back
+  std::size_t calls = 0;  ///< calls of operator new
+  std::size_t bytes = 0;  ///< allocated and not yet freed
 };
 
-/// The count up to now. It moves only in programs that link flagstone_counting_new.
+/// The current counts. They change only in programs that link flagstone_counting_new. Thread-safe.
 [[nodiscard]] AllocationCount allocation_count() noexcept;
 
-/// Does this program link it? Found by trying.
+/// Whether this program links flagstone_counting_new, determined by a test allocation.
 [[nodiscard]] bool allocations_are_counted();
 
-/// @name For counting_new.cpp
+/// @name Used by counting_new.cpp
 /// @{
 void count_new(std::size_t bytes) noexcept;
 void count_delete(std::size_t bytes) noexcept;

@@ -22,7 +22,7 @@ std::vector<std::size_t> order_of_round(std::size_t candidates, std::size_t roun
   std::vector<std::size_t> order(candidates);
   for (std::size_t i = 0; i < candidates; ++i) {
     const std::size_t step = round % 2 == 0 ? i : candidates - i;
-    // Two rounds, one each way, begin with the same candidate.
+    // Two consecutive rounds, one in each direction, begin with the same candidate.
     order[i] = (round / 2 + step) % candidates;
   }
   return order;
@@ -32,9 +32,9 @@ namespace {
 
 constexpr double seconds_by_default = 10;
 constexpr double fewest_rounds = 3;
-constexpr double most_rounds = 10000;  // where scans are tiny
+constexpr double most_rounds = 10000;  // for very small scans
 
-/// Uses the best instruction set again at the end of its life.
+/// Selects an instruction set, and the best one again on destruction.
 struct TargetReset {
   explicit TargetReset(const std::string& target) { use_simd_target(target); }
   TargetReset(const TargetReset&) = delete;
@@ -44,11 +44,11 @@ struct TargetReset {
   ~TargetReset() { use_simd_target(""); }
 };
 
-/// Who takes part.
+/// A participant of the benchmark.
 struct Entrant {
-  std::unique_ptr<Candidate> candidate;  // none once it failed
+  std::unique_ptr<Candidate> candidate;  // null after a failure
   std::function<void(std::size_t round, std::size_t scan, const Trial&)> note;
-  ExternalToolResult* tool = nullptr;  // none for ours
+  ExternalToolResult* tool = nullptr;  // null for flagstone's own candidates
 };
 
 std::vector<CloudView> views_of(std::span<const io::Cloud> scans) {
@@ -86,7 +86,8 @@ class Benchmark {
   Results run() {
     const std::size_t rounds = warm_up();
     for (std::size_t round = 0; round < rounds && !watch_.stop(); ++round) {
-      // Between rounds of external tools it would not be known how long the rest takes.
+      // Progress is reported only in rounds with external tools; in between, the remaining time is
+      // unknown.
       if (has_external_tools(round)) watch_.progress(round, rounds);
       results_.rounds = round + 1;
       run_round(round);
@@ -123,7 +124,8 @@ class Benchmark {
     ours_ = entrants_.size();
   }
 
-  /// Also finds what memory the first of them holds once it has seen every scan.
+  /// Makes a segmenter and warms it up on every scan. For the first one, also measures the
+  /// allocated memory.
   std::unique_ptr<TimedSegment> segmenter(const std::string& target, TimedSegment::Stages stages) {
     const std::size_t held_before = allocation_count().bytes;
     auto made = std::make_unique<TimedSegment>(views_, settings_.config, settings_.mount,
@@ -139,7 +141,7 @@ class Benchmark {
 
   void enter_external_tools(const ExternalToolPaths& places) {
     const auto known = known_external_tools(places, sensor_height(settings_.config));
-    results_.external_tools.reserve(known.size());  // they are pointed to
+    results_.external_tools.reserve(known.size());  // because of pointers to its elements
     for (const ExternalToolCommand& command : known) {
       results_.external_tools.push_back({command.name, Measured(scans_.size()), command.missing});
       ExternalToolResult& result = results_.external_tools.back();
@@ -167,7 +169,7 @@ class Benchmark {
     measured.ground[scan] = trial.ground;
   }
 
-  /// Has everybody take all scans; how many rounds to make.
+  /// Runs all candidates on all scans and returns the number of rounds.
   std::size_t warm_up() {
     const auto seconds_of = [&](std::size_t begin, std::size_t end) {
       Stopwatch stopwatch;
@@ -179,7 +181,7 @@ class Benchmark {
     const double tools = seconds_of(ours_, entrants_.size());
     drop_failed();
     if (own <= 0) return 0;  // interrupted
-    // Both take about as long then.
+    // With this ratio, both groups take about the same time.
     rounds_per_tool_round_ = static_cast<std::size_t>(std::clamp(tools / own, 1.0, 1e6));
     if (settings_.rounds != 0) return settings_.rounds;
     const double each = own + tools / static_cast<double>(rounds_per_tool_round_);
@@ -187,15 +189,15 @@ class Benchmark {
         std::clamp(seconds_by_default / each, fewest_rounds, most_rounds));
   }
 
-  /// Do external tools take part in this round? Without any, every round is as good as one of
-  /// theirs.
+  /// Whether external tools take part in this round. Without external tools, this is true for every
+  /// round.
   [[nodiscard]] bool has_external_tools(std::size_t round) const {
     return round % rounds_per_tool_round_ == 0;
   }
 
   void run_round(std::size_t round) {
     const bool with_tools = has_external_tools(round);
-    // Rounds with external tools and those without are counted apart, so that each kind sees every
+    // Rounds with and without external tools are numbered separately, so that each kind uses every
     // order.
     const std::size_t tool_rounds = round / rounds_per_tool_round_;
     const std::size_t turn = with_tools ? tool_rounds : round - tool_rounds - 1;
@@ -205,7 +207,8 @@ class Benchmark {
     drop_failed();
   }
 
-  /// Outside of rounds it is not noted. An external tool that fails says so in its result.
+  /// Runs a candidate on all scans. Times are recorded only if `round` is set. If an external tool
+  /// fails, its result contains the reason.
   void try_all(Entrant& entrant, std::optional<std::size_t> round) {
     try {
       for (std::size_t scan = 0; scan < scans_.size() && !watch_.stop(); ++scan) {
@@ -229,7 +232,7 @@ class Benchmark {
   std::vector<CloudView> views_;
   Results results_;
   std::unique_ptr<PinnedCore> pinned_;
-  std::vector<Entrant> entrants_;  // ours, then external tools
+  std::vector<Entrant> entrants_;  // flagstone's own, then external tools
   std::size_t ours_ = 0;
   std::size_t rounds_per_tool_round_ = 1;
 };

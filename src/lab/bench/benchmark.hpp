@@ -16,35 +16,35 @@
 
 namespace flagstone::bench {
 
-/// In which order the candidates 0 to `candidates` - 1 go in this round: each begins in turn, and
-/// every other round goes backwards, so that none always follows the same one.
+/// Order of the candidates 0 to `candidates` - 1 in a round. Each candidate is first in turn, and
+/// every second round is reversed, so that no candidate always follows the same one.
 [[nodiscard]] std::vector<std::size_t> order_of_round(std::size_t candidates, std::size_t round);
 
-/// What is measured.
+/// Settings of a benchmark.
 struct BenchmarkSettings {
-  TimedConfig config = {};   ///< of the method that is timed
-  MountSettings mount = {};  ///< how the sensor stands; its height is the method's
-  unsigned threads = 1;      ///< on one scan; with one, all that is timed shares one core
-  std::string target = {};   ///< instruction set; empty for the best
-  std::size_t rounds = 0;    ///< over all scans; 0 for as many as take about ten seconds
-  std::optional<ExternalToolPaths> external_tools =
-      {};  ///< compares with other people's programs too
+  TimedConfig config = {};   ///< settings of the timed method
+  MountSettings mount = {};  ///< tilt of the sensor; the height is a setting of the method
+  unsigned threads = 1;      ///< threads per scan; with 1, everything is pinned to one core
+  std::string target = {};   ///< instruction set; empty for the best one
+  std::size_t rounds = 0;    ///< rounds over all scans; 0 for about ten seconds
+  std::optional<ExternalToolPaths> external_tools = {};  ///< if set, external tools are timed too
 };
 
-/// Who wants to know how far it is, and who may stop it.
+/// Callbacks for progress and interruption.
 struct BenchmarkWatch {
-  /// Called now and then, before the first round at the latest.
+  /// Called repeatedly, first before the first round.
   std::function<void(std::size_t rounds_done, std::size_t rounds)> progress;
   std::function<bool()> stop;
 };
 
-/// Times a method on scans, each at least one point, beside the read baseline, its own scalar build
-/// and external tools. All take every scan of a round, one candidate after the other, so that a
-/// scan was not touched for a whole rotation when its turn comes; the order of candidates changes
-/// from round to round. External tools, which are slow, join in fewer rounds, so that they take
-/// about as long as the others together. What was measured until `watch.stop` is returned. Throws
-/// std::invalid_argument for settings that are not allowed, and std::runtime_error where a scan
-/// cannot be segmented.
+/// Runs and times a method on all scans, together with the read-only baseline, the scalar build of
+/// the method and external tools. Each scan must have at least one point. In a round, each
+/// candidate processes all scans before the next candidate starts, so a scan is not accessed for a
+/// whole rotation and is not in the cache. The order of candidates changes from round to round.
+/// External tools are slow and run in fewer rounds, so that they take about as long as all others
+/// together. If `watch.stop` returns true, the results measured so far are returned. Throws
+/// std::invalid_argument for invalid settings, and std::runtime_error if a scan cannot be
+/// segmented.
 [[nodiscard]] Results run_benchmark(std::span<const io::Cloud> scans,
                                     const BenchmarkSettings& settings, const BenchmarkWatch& watch);
 

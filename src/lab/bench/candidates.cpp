@@ -56,7 +56,8 @@ std::unique_ptr<Segmenter> make_timed(const TimedConfig& config, const MountSett
 
 namespace {
 
-/// The name, once it is in use: whatever a method prepares when it is made is prepared for it.
+/// Selects the instruction set before the method is constructed, because constructors may depend on
+/// it. Returns the name.
 std::string used(std::string target) {
   use_simd_target(target);
   return target;

@@ -27,14 +27,14 @@
 
 namespace flagstone::bench {
 
-/// What came of one scan.
+/// Result of one run on one scan.
 struct Trial {
   double milliseconds = 0;
-  std::size_t ground = 0;  ///< points found ground
-  StageTimes stages{};     ///< seconds; zeros where stages are not timed
+  std::size_t ground = 0;  ///< number of points labelled ground
+  StageTimes stages{};     ///< seconds; zero if stages are not timed
 };
 
-/// Something that is timed on every scan in turn.
+/// A program or function that is timed on every scan in turn.
 class Candidate {
  public:
   virtual ~Candidate() = default;
@@ -43,49 +43,50 @@ class Candidate {
   Candidate(Candidate&&) = delete;
   Candidate& operator=(Candidate&&) = delete;
 
-  /// Does its work on scan number `scan`. Throws std::runtime_error, with one line, where it
-  /// cannot.
+  /// Processes scan number `scan`. Throws std::runtime_error with a one-line message on failure.
   virtual Trial run_trial(std::size_t scan) = 0;
 
  protected:
   Candidate() = default;
 };
 
-/// Settings of a method that tells how long its stages take; which of them says which method.
+/// Settings of a method that reports the times of its stages. The type of the settings selects the
+/// method.
 using TimedConfig = std::variant<PatchworkConfig, SurfaceConfig>;
 
-/// Names of these methods, as make_segmenter() knows them, in the order of `TimedConfig`.
+/// Names of these methods for make_segmenter(), in the order of `TimedConfig`.
 inline constexpr std::array<std::string_view, 2> timed_methods = {"patchwork", "surface"};
 
-/// Name of the method that these settings are of.
+/// Name of the method with these settings.
 [[nodiscard]] std::string_view method_name(const TimedConfig& config) noexcept;
 
-/// The stages that a method of `timed_methods` has, in order.
+/// The stages of a method in `timed_methods`, in order.
 [[nodiscard]] std::span<const Stage> stages_of(std::string_view method) noexcept;
 
 /// Height of the sensor, metres.
 [[nodiscard]] float sensor_height(const TimedConfig& config);
 
-/// The method with these settings, on clouds of this mount; making them level is none of the
-/// stages. From then on every scan adds the seconds of its stages to `stage_times`; null times no
-/// stage. Throws std::invalid_argument where configuration or threads are not allowed.
+/// Makes a method with these settings for clouds with this mounting pose. Every scan adds the
+/// seconds of its stages to `stage_times`; null disables stage times. Gravity alignment belongs to
+/// no stage. Throws std::invalid_argument for an invalid configuration or number of threads.
 [[nodiscard]] std::unique_ptr<Segmenter> make_timed(const TimedConfig& config,
                                                     const MountSettings& mount, unsigned threads,
                                                     StageTimes* stage_times);
 
-/// A method with one instruction set.
+/// A method, run with one instruction set.
 class TimedSegment final : public Candidate {
  public:
   enum class Stages : bool { not_timed, timed };
 
-  /// Throws std::invalid_argument where configuration, threads or instruction set are not allowed.
+  /// Throws std::invalid_argument for an invalid configuration, number of threads or instruction
+  /// set.
   TimedSegment(std::span<const CloudView> scans, const TimedConfig& config,
                const MountSettings& mount, unsigned threads, std::string target,
                Stages stages = Stages::not_timed);
 
   Trial run_trial(std::size_t scan) override;
 
-  /// Calls of operator new during the last trial.
+  /// Number of calls of operator new during the last trial.
   [[nodiscard]] std::size_t allocations() const noexcept { return allocations_; }
 
  private:
@@ -97,7 +98,7 @@ class TimedSegment final : public Candidate {
   std::size_t allocations_ = 0;
 };
 
-/// The read baseline, with one instruction set.
+/// The read-only baseline, run with one instruction set.
 class TimedReadBaseline final : public Candidate {
  public:
   TimedReadBaseline(std::span<const CloudView> scans, std::string target)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Operator new and delete that count, for programs alone and never part of a library. All forms are
-// here, since a sanitizer's runtime brings its own of those that are not. The allocator says how
-// large a block is, so that blocks need no header of ours.
+// Counting operator new and delete, for programs only, never for a library. All forms are defined,
+// because a sanitizer runtime supplies its own version of any missing form. Block sizes come from
+// the allocator, so blocks need no extra header.
 #include <cstdlib>
 #include <new>
 
@@ -24,7 +24,7 @@ std::size_t size_of(void* memory) noexcept {
 #endif
 }
 
-/// Tries until the new-handler gives up, as the standard has it.
+/// Tries until the new-handler gives up, as the C++ standard requires.
 template <class Allocate>
 void* allocate(Allocate try_once) {
   for (;;) {
@@ -45,12 +45,13 @@ void* allocate_plain(std::size_t size) {
 
 void* allocate_aligned(std::size_t size, std::align_val_t alignment) {
   const auto align = static_cast<std::size_t>(alignment);
-  const std::size_t whole = (size + align - 1) / align * align;  // as aligned_alloc wants it
+  const std::size_t whole =
+      (size + align - 1) / align * align;  // aligned_alloc requires a multiple of the alignment
   if (whole < size) throw std::bad_alloc();
   return allocate([=] { return std::aligned_alloc(align, whole == 0 ? align : whole); });
 }
 
-/// What `allocate` returns, or null where it throws.
+/// Returns the result of `allocate`, or null if it throws.
 template <class Allocate>
 void* or_null(Allocate allocate) noexcept {
   try {

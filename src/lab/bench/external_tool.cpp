@@ -33,7 +33,7 @@ constexpr int send_flags = MSG_NOSIGNAL;
 constexpr int send_flags = 0;
 #endif
 
-/// What posix_spawn is told beyond the command.
+/// File actions and attributes for posix_spawn.
 class SpawnSettings {
  public:
   explicit SpawnSettings(int socket) {
@@ -42,7 +42,7 @@ class SpawnSettings {
     ::posix_spawn_file_actions_adddup2(&actions_, socket, STDOUT_FILENO);
     ::posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     ::posix_spawnattr_init(&attributes_);
-    // A process group of its own: the terminal sends Ctrl-C to ours.
+    // A separate process group, so that Ctrl-C in the terminal does not reach the tool.
     ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
     ::posix_spawnattr_setpgroup(&attributes_, 0);
   }
@@ -82,8 +82,7 @@ std::vector<std::string> environment_of_one_thread() {
 
 std::string reason_of(int error) { return std::generic_category().message(error); }
 
-/// Two sockets, each of which reads what is written to the other; other programs do not inherit
-/// them.
+/// A pair of connected sockets that other programs do not inherit.
 std::array<int, 2> connected_sockets() {
   std::array<int, 2> sockets{};
   if (::socketpair(AF_UNIX, SOCK_STREAM, 0, sockets.data()) != 0) {
@@ -119,7 +118,7 @@ ExternalProcess::ExternalProcess(std::array<int, 2> sockets, std::vector<std::st
 
 ExternalProcess::~ExternalProcess() {
   if (process_ < 0) return;
-  ::kill(process_, SIGKILL);  // it holds nothing that is worth waiting for
+  ::kill(process_, SIGKILL);  // it has no results to wait for
   ::waitpid(process_, nullptr, 0);
 }
 
@@ -165,7 +164,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Loading Open3D from a cold disk takes long; so may a scan of millions of points.
+// Loading Open3D from a cold disk, or processing millions of points, can take minutes.
 constexpr auto patience = 300s;
 
 std::vector<float> xyzi_of(const io::Cloud& cloud) {
@@ -182,12 +181,12 @@ std::vector<float> xyzi_of(const io::Cloud& cloud) {
   return values;
 }
 
-// The command lies in the build folder of its source tree, which has what is compared with. Carried
-// off, with the Python package, it finds neither.
-std::string beside_this_program(const char* place) {
+// Finds a file relative to this program. This works in a build tree. An installed program, as in
+// the Python package, does not find the workers.
+std::string next_to_this_program(const char* path) {
   std::error_code ignored;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  return (program.parent_path() / place).lexically_normal().string();
+  return (program.parent_path() / path).lexically_normal().string();
 }
 
 bool is_file(const std::string& path) {
@@ -198,7 +197,7 @@ bool is_file(const std::string& path) {
 ExternalToolCommand python_tool(const ExternalToolPaths& places, const std::string& name,
                                 float sensor_height) {
   const std::string worker =
-      places.worker.empty() ? beside_this_program("../bench/peer_worker.py") : places.worker;
+      places.worker.empty() ? next_to_this_program("../bench/peer_worker.py") : places.worker;
   ExternalToolCommand tool{
       name, {places.python, worker, name, fmt::format("{}", sensor_height)}, ""};
   if (!is_file(worker)) {
@@ -210,12 +209,12 @@ ExternalToolCommand python_tool(const ExternalToolPaths& places, const std::stri
 }
 
 ExternalToolCommand pcl_tool() {
-  const std::string worker = beside_this_program("bench/pcl_ransac");
+  const std::string worker = next_to_this_program("bench/pcl_ransac");
   if (is_file(worker)) return {"pcl-ransac", {worker}, ""};
   return {"pcl-ransac", {}, "not built, because CMake did not find PCL (Debian: libpcl-dev)"};
 }
 
-/// The two numbers of "NANOSECONDS GROUND"; what it says instead is why it failed.
+/// Parses "NANOSECONDS GROUND". Any other answer is the reason for a failure.
 std::array<std::uint64_t, 2> numbers_of(std::string_view answer) {
   std::array<std::uint64_t, 2> numbers{};
   const char* at = answer.data();

@@ -19,18 +19,19 @@
 
 namespace flagstone::bench {
 
-/// An external tool that cannot be had or stopped working: one line, without its name.
+/// An external tool is not available or failed. The message is one line, without the name of the
+/// tool.
 class ExternalToolError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Another program, talked to through its standard input and output; ended at the end of its life.
-/// What it says on standard error is not shown. It runs on one thread, as far as it follows
-/// OMP_NUM_THREADS, on the cores this process may use, and Ctrl-C does not reach it.
+/// A child process that communicates through standard input and output; it is killed on
+/// destruction. Its standard error is discarded. It runs on the cores that this process may use,
+/// with OMP_NUM_THREADS=1, and does not receive Ctrl-C. Not thread-safe.
 class ExternalProcess {
  public:
-  /// Starts the program `command` names, looked for as a shell does. Throws ExternalToolError.
+  /// Starts the program `command`, searched for in PATH. Throws ExternalToolError.
   explicit ExternalProcess(std::vector<std::string> command);
   ~ExternalProcess();
   ExternalProcess(const ExternalProcess&) = delete;
@@ -38,12 +39,13 @@ class ExternalProcess {
   ExternalProcess(ExternalProcess&&) = delete;
   ExternalProcess& operator=(ExternalProcess&&) = delete;
 
-  /// Sends all of it. Throws ExternalToolError where nobody listens any more.
+  /// Sends all bytes. Throws ExternalToolError if the process has exited.
   void send(std::span<const std::byte> bytes);
   void send_line(const std::string& line);
 
-  /// The next line it prints, without its newline. Throws ExternalToolError where it ends before,
-  /// prints more than a line may hold, says nothing for so long, or a signal arrives meanwhile.
+  /// Reads the next line, without its newline. Throws ExternalToolError if the process exits,
+  /// prints a line of more than 1000 bytes or prints nothing for `patience`, or if a signal
+  /// arrives.
   std::string read_line(std::chrono::seconds patience);
 
  private:
@@ -54,32 +56,33 @@ class ExternalProcess {
   std::string unread_;
 };
 
-/// Where other people's programs are found.
+/// Paths of external tools.
 struct ExternalToolPaths {
-  std::string python = "python3";  ///< an interpreter that has the packages
-  std::string worker = {};         ///< bench/peer_worker.py; empty for that around the command
+  std::string python = "python3";  ///< an interpreter with the packages installed
+  std::string worker = {};         ///< bench/peer_worker.py; empty for the file of this build tree
 };
 
-/// A program to compare with.
+/// An external tool to compare with.
 struct ExternalToolCommand {
   std::string name;
-  std::vector<std::string> command;  ///< what starts its worker
-  std::string missing;               ///< why it cannot be started, one line; else empty
+  std::vector<std::string> command;  ///< command line of its worker
+  std::string missing;               ///< why it cannot be started, one line; empty if it can
 };
 
-/// The programs there may be: pypatchworkpp's two methods, and the plane RANSACs of Open3D and of
-/// PCL. `sensor_height`: metres, for those that ask.
+/// The known external tools: the two methods of pypatchworkpp, and the plane RANSACs of Open3D and
+/// PCL. `sensor_height`, metres, is passed to tools that use it.
 [[nodiscard]] std::vector<ExternalToolCommand> known_external_tools(const ExternalToolPaths& places,
                                                                     float sensor_height);
 
-/// A program that times itself on the scans it was sent: bench/peer_worker.py says how they talk.
+/// An external tool that times itself on the scans it receives. bench/peer_worker.py documents the
+/// protocol.
 class ExternalTool final : public Candidate {
  public:
   /// Starts its worker. Throws ExternalToolError.
   explicit ExternalTool(const ExternalToolCommand& tool);
 
-  /// Waits until it is ready and sends it x, y, z and intensity (0 where a scan has none) of every
-  /// point. Throws ExternalToolError.
+  /// Waits until the worker is ready, then sends x, y, z and intensity (0 if a scan has none) of
+  /// every point. Throws ExternalToolError.
   void take(std::span<const io::Cloud> scans);
 
   /// Throws ExternalToolError.

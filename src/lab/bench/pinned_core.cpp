@@ -24,7 +24,8 @@ bool allow(const std::vector<int>& cores) {
 PinnedCore::PinnedCore() {
   cpu_set_t set;
   CPU_ZERO(&set);
-  if (::sched_getaffinity(0, sizeof set, &set) != 0) return;  // over 1,024 cores, for one
+  if (::sched_getaffinity(0, sizeof set, &set) != 0)
+    return;  // for example on more than 1,024 cores
   for (int core = 0; core < CPU_SETSIZE; ++core) {
     if (CPU_ISSET(static_cast<unsigned>(core), &set)) allowed_before_.push_back(core);
   }

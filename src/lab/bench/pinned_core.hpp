@@ -7,8 +7,8 @@
 
 namespace flagstone::bench {
 
-/// Keeps the calling thread, and the processes it starts, on the first core it may use, so that
-/// times are those of one core; lets it go again at the end of its life. Only Linux can do that.
+/// RAII guard that pins the calling thread, and the processes that it starts, to the first core it
+/// may use, so that times are measured on one core. Only Linux supports this.
 class PinnedCore {
  public:
   PinnedCore();
@@ -18,7 +18,7 @@ class PinnedCore {
   PinnedCore(PinnedCore&&) = delete;
   PinnedCore& operator=(PinnedCore&&) = delete;
 
-  /// Number of the core; none where the system does not pin.
+  /// Number of the core; nullopt if the thread is not pinned.
   [[nodiscard]] std::optional<int> core() const noexcept { return core_; }
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 #if HWY_TARGET == HWY_SCALAR
 
-// Without vectors the plain loop below does it all.
+// Without vectors, the plain loop below processes all points.
 std::size_t pass_of_4(const float*, std::size_t, std::uint8_t*) { return 0; }
 std::size_t pass_of_3(const float*, std::size_t, std::uint8_t*) { return 0; }
 
@@ -28,8 +28,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Floats = hn::ScalableTag<float>;
 using Words = hn::RebindToUnsigned<Floats>;
 
-/// 1 where z is above both x and y. Minimum and maximum differ between instruction sets in what
-/// they make of NaN; comparisons do not.
+/// 1 in lanes with z above both x and y. Uses comparisons, because minimum and maximum treat NaN
+/// differently on different instruction sets.
 template <class V>
 HWY_INLINE hn::Vec<Words> above(V x, V y, V z) {
   const auto is_above = hn::And(hn::Gt(z, x), hn::Gt(z, y));
@@ -41,15 +41,15 @@ HWY_INLINE void store_bytes(hn::Vec<Words> words, std::uint8_t* bytes) {
   hn::StoreU(hn::TruncateTo(d, words), d, bytes);
 }
 
-/// The first points of `count`, a whole number of vectors of them; how many. It leaves one at
-/// least, since the fourth float of the last point need not be there.
+/// Processes as many points as fill whole vectors, and returns their number. Leaves at least one
+/// point, because the fourth float of the last point may not be readable.
 std::size_t pass_of_4(const float* points, std::size_t count, std::uint8_t* bytes) {
   constexpr Floats d;
   const std::size_t lanes = hn::Lanes(d);
-  // Transposing within blocks of four floats takes fewer shuffles than LoadInterleaved4: with
-  // AVX-512 a quarter less time where the scan is in the second-level cache, a twentieth less from
-  // the third. Word 4 b + k of the result then belongs to point b of vector k; one permutation puts
-  // that right.
+  // Transposing within blocks of four floats needs fewer shuffles than LoadInterleaved4. With
+  // AVX-512 this takes a quarter less time if the scan is in the second-level cache, and a
+  // twentieth less from the third level. Word 4 b + k of the result then belongs to point b of
+  // vector k; one permutation restores the order.
   HWY_ALIGN std::array<std::uint32_t, HWY_MAX_BYTES / sizeof(float)> order{};
   const std::size_t points_per_vector = lanes / 4;
   for (std::size_t i = 0; i < lanes; ++i) {
@@ -76,7 +76,7 @@ std::size_t pass_of_4(const float* points, std::size_t count, std::uint8_t* byte
   return i;
 }
 
-/// The same where there is no fourth float.
+/// Like pass_of_4, for points of three floats.
 std::size_t pass_of_3(const float* points, std::size_t count, std::uint8_t* bytes) {
   constexpr Floats d;
   const std::size_t lanes = hn::Lanes(d);

@@ -9,11 +9,12 @@
 
 namespace flagstone::bench {
 
-/// What no segmentation can do without, and so the floor under its time: reads x, y and z of every
-/// point and writes one byte a point, 1 where z is above both x and y, else 0.
+/// Read-only baseline: a lower bound for the time of any segmentation. Reads x, y and z of every
+/// point and writes one byte per point: 1 if z is above both x and y, otherwise 0.
 ///
-/// `bytes` holds cloud.size() of them. Works with the instruction set in use (core/simd_target.hpp)
-/// where x, y and z lie packed, 3 or 4 floats a point, else in plain C++; the bytes are the same.
+/// `bytes` must have cloud.size() elements. Packed points of 3 or 4 floats are processed with the
+/// active instruction set (core/simd_target.hpp), other layouts with plain C++. The result is the
+/// same.
 void read_baseline(CloudView cloud, std::span<std::uint8_t> bytes) noexcept;
 
 }  // namespace flagstone::bench

@@ -86,7 +86,7 @@ Json to_json(const Results& results) {
 
 namespace {
 
-/// A number in a column; "-" where there is none.
+/// A number in a column; "-" if it is not finite.
 std::string cell(double value, int width, int digits) {
   if (!std::isfinite(value)) return fmt::format("{:>{}}", "-", width);
   return fmt::format("{:>{}.{}f}", value, width, digits);

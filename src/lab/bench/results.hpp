@@ -16,31 +16,31 @@
 
 namespace flagstone::bench {
 
-/// What a candidate took and found.
+/// Times and results of a candidate.
 struct Measured {
   explicit Measured(std::size_t scans) : times(scans), ground(scans) {}
 
   SampleTimes times;
-  /// Points of each scan that it found ground; none of those it did not come to.
+  /// Number of points labelled ground per scan; unset for scans that were not processed.
   std::vector<std::optional<std::size_t>> ground;
 };
 
-/// A program of other people's.
+/// Result of an external tool.
 struct ExternalToolResult {
   std::string name;
   Measured measured;
-  std::string left_out;  ///< why it was not measured, or not to the end; else empty
+  std::string left_out;  ///< why it was not measured completely; otherwise empty
 };
 
-/// What a stage of the method took.
+/// Times of one stage of the method.
 struct StageResult {
   Stage stage;
   SampleTimes times;
 };
 
-/// What came of a benchmark.
+/// Results of a benchmark.
 struct Results {
-  /// `name` is one of `timed_methods`.
+  /// `name` must be one of `timed_methods`.
   Results(std::string_view name, std::vector<std::size_t> points_of_scans)
       : method(name),
         points(std::move(points_of_scans)),
@@ -52,33 +52,33 @@ struct Results {
     }
   }
 
-  std::string method;               ///< its name
-  std::vector<std::size_t> points;  ///< of each scan
-  std::size_t rounds = 0;           ///< that were begun, after warming up
+  std::string method;               ///< name of the method
+  std::vector<std::size_t> points;  ///< points per scan
+  std::size_t rounds = 0;           ///< number of rounds begun after warm-up
   std::string target;               ///< instruction set
   unsigned threads = 1;
-  std::optional<int> core;  ///< that everything ran on; none where it was free to move
+  std::optional<int> core;  ///< core that everything ran on; unset if not pinned
   Measured segment;
-  Measured floor;                   ///< the read baseline
+  Measured floor;                   ///< the read-only baseline
   Measured scalar;                  ///< the method without vectors
-  std::vector<StageResult> stages;  ///< those that the method has, in order
+  std::vector<StageResult> stages;  ///< stages of the method, in order
   std::vector<ExternalToolResult> external_tools;
-  std::optional<std::size_t> allocations;  ///< most in one scan; none where nobody counts
-  std::optional<std::size_t> bytes_held;   ///< by segmenter and result, once warm
+  std::optional<std::size_t> allocations;  ///< maximum per scan; unset if not counted
+  std::optional<std::size_t> bytes_held;   ///< by segmenter and result, after warm-up
 };
 
-/// Share of the points that were found ground, 0 to 1, over all scans it came to; not a number
-/// where there is none.
+/// Fraction of the points labelled ground, 0 to 1, over all processed scans; NaN if there are none.
 [[nodiscard]] double ground_share(const Results& results, const Measured& measured);
 
-/// Results as one object. `method` is the name of the one timed. Times are milliseconds a scan;
-/// ratios are medians over scans and rounds: `ratio_to_floor` and `ratio_to_scalar` of segment's
-/// time to the read baseline's and the scalar build's, `ratio` of a stage's time to the read
-/// baseline's and of an external tool's to segment's. What was not measured is null, and an
-/// external tool that is not there has `left_out`, the reason.
+/// Results as one JSON object. `method` is the name of the timed method. Times are in milliseconds
+/// per scan. Ratios are medians over scans and rounds: `ratio_to_floor` and `ratio_to_scalar` are
+/// the time of `segment` relative to the read-only baseline and to the scalar build; `ratio` is the
+/// time of a stage relative to the read-only baseline, or of an external tool relative to
+/// `segment`. Values that were not measured are null. An excluded external tool has the reason in
+/// `left_out`.
 [[nodiscard]] nlohmann::ordered_json to_json(const Results& results);
 
-/// Results as tables, with what they were measured on above them.
+/// Results as tables, with the machine and the scans in the heading.
 [[nodiscard]] std::string to_text(const Results& results);
 
 }  // namespace flagstone::bench

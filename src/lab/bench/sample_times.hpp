@@ -8,37 +8,38 @@
 
 namespace flagstone::bench {
 
-/// What one candidate took for each scan of each round, in milliseconds; there are rounds, or
-/// parts of them, in which it was not asked.
+/// Times of one candidate for each scan of each round, in milliseconds. Rounds, or parts of rounds,
+/// can be missing.
 class SampleTimes {
  public:
-  /// `scans`: how many there are in a round, at least 1.
+  /// `scans`: number of scans per round, at least 1.
   explicit SampleTimes(std::size_t scans) : scans_(scans) {}
 
-  /// What it took for a scan, below the number given above, in a round.
+  /// Records the time of a scan in a round; `scan` must be less than the number of scans per round.
   void add(std::size_t round, std::size_t scan, double milliseconds);
 
-  /// How many times there are.
+  /// Number of recorded times.
   [[nodiscard]] std::size_t count() const;
 
-  /// Over all times; not a number where there is none.
+  /// Median of all times; NaN if there are none.
   [[nodiscard]] double median() const;
 
-  /// The 99th percentile by nearest rank: the smallest time that 99 % of them do not exceed.
+  /// The 99th percentile by nearest rank: the smallest time that at least 99 % of the times do not
+  /// exceed.
   [[nodiscard]] double percentile_99() const;
 
-  /// The median over rounds and scans of this time by the other's of the same round and scan; not a
-  /// number where they share none.
+  /// Median ratio of these times to the times of `other` for the same round and scan; NaN if no
+  /// round and scan is in both.
   [[nodiscard]] double ratio_to(const SampleTimes& other) const;
 
-  /// The median of points a second, where `points` are those of each scan.
+  /// Median of points per second. `points` contains the number of points per scan.
   [[nodiscard]] double points_per_second(std::span<const std::size_t> points) const;
 
  private:
   [[nodiscard]] std::vector<double> known() const;
 
   std::size_t scans_;
-  std::vector<double> times_;  // round by round; not a number where it was not asked
+  std::vector<double> times_;  // round by round; NaN for missing times
 };
 
 }  // namespace flagstone::bench

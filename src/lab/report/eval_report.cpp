@@ -190,8 +190,8 @@ std::string worst_scans(const Json& methods) {
 std::string failed_scans(const Json& failed) {
   if (failed.empty()) return {};
   std::string html =
-      "<section>\n<h2>Failures</h2>\n<p>A scan that cannot be read is excluded from all results. A "
-      "scan on which a method fails is excluded from the results of that method.</p>\n"
+      "<section>\n<h2>Failures</h2>\n<p>Scans that cannot be read are excluded from all results. "
+      "If a method fails on a scan, that scan is excluded from the results of the method.</p>\n"
       "<ul class=\"failed\">\n";
   for (const Json& scan : failed)
     html +=

@@ -152,7 +152,7 @@ std::string canvases() {
   return html + "</div>\n</section>\n";
 }
 
-// The shade shows the rank of a setting: 0 for the lowest mean, 1 for the highest.
+// The shade increases linearly from 0 for the lowest mean to 1 for the highest.
 std::string heat_table(const SweepGrid& grid, const Metric& metric) {
   const auto [low, high] = grid.bounds(metric.name);
   std::string html = fmt::format(
