@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The C++ reference: a page for each public header, in the order of the header, from what its comments say.
+"""The C++ reference: one page per public header, in the order of the header, from its comments.
 
-What doxygen has to complain about (something public without a comment, a name in a comment that is not there) is a
-warning of the site, and so fails a strict build. The pages and their groups are those of `reference/cpp/` in mkdocs.yml's `nav`;
-a header that is missing there is a warning too.
+Each complaint of doxygen (a public name without a comment, a comment with an unknown name) is a warning of the site, and
+so fails a strict build. The groups of pages are in the `nav` of mkdocs.yml, below `reference/cpp/`. A header that is
+missing there is a warning too.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
 
 @dataclass
 class Item:
-    """What a header declares, or a class: `name` is without the library's namespace."""
+    """A declaration of a header, or a member of a class. `name` is without the library's namespace."""
 
     element: Element
     name: str
@@ -71,7 +71,7 @@ class Item:
 
 
 class Reference:
-    """Every header with what it declares, and where each of these stands."""
+    """Every header with its declarations, and the anchor of each declaration."""
 
     def __init__(self, compounds: list[Element]) -> None:
         self.headers: dict[str, list[Item]] = defaultdict(list)
@@ -105,13 +105,13 @@ class Reference:
     def index(self, groups: dict[str, list[str]]) -> str:
         lines = [
             "# C++ reference\n",
-            "A page for each header of `include/flagstone`. `#include <flagstone/flagstone.hpp>` brings all but",
-            "`make_segmenter.hpp` and the baselines. The target is `flagstone::flagstone`, of the baselines",
+            "One page per header of `include/flagstone`. `#include <flagstone/flagstone.hpp>` includes all headers except",
+            "`make_segmenter.hpp` and the baselines. Link the target `flagstone::flagstone`; for the baselines, link",
             "`flagstone::baselines`.",
         ]
         headers = {page_of(header): header for header in self.headers}
         for group, pages in groups.items():
-            lines += [f"\n## {group}\n", "| name | what it is | header |", "|---|---|---|"]
+            lines += [f"\n## {group}\n", "| name | meaning | header |", "|---|---|---|"]
             for page in pages:
                 items = [item for item in self.headers[headers[page]] if item.name != "to_string"]
                 for name, same in groupby(items, key=lambda item: item.name):
@@ -179,7 +179,7 @@ class Reference:
 
 
 def members_of(compound: Element, scope: str) -> list[Item]:
-    """What is public in a compound and has a comment, in its order."""
+    """The public members of a compound that have a comment, in the order of the header."""
     members = [
         Item(member, scope + plain(member.find("name")), member.get("kind", ""))
         for member in compound.iterfind("sectiondef/memberdef")
@@ -189,7 +189,7 @@ def members_of(compound: Element, scope: str) -> list[Item]:
 
 
 def signature(item: Item) -> str:
-    """The declaration, with a line for each parameter where it is too long for one."""
+    """The declaration, with one parameter per line if it is too long for one line."""
     element, name = item.element, item.short_name
     if item.kind == "define":
         return f"#define {name} {plain(element.find('initializer'))}"
@@ -228,12 +228,12 @@ def tidy(code: str) -> str:
 
 
 def in_cell(markdown: str) -> str:
-    """The same for the cell of a table, which has one line."""
+    """Markdown on one line, for the cell of a table."""
     return markdown.replace("\n\n", "<br>").replace("\n", " ")
 
 
 def first_sentence(markdown: str) -> str:
-    """For an overview."""
+    """The first sentence, for an overview."""
     return re.split(r"(?<=\.)\s", markdown.partition("\n\n")[0], maxsplit=1)[0]
 
 
@@ -243,7 +243,7 @@ def page_of(header: str) -> str:
 
 
 def groups_of_nav(nav: list[Any]) -> dict[str, list[str]]:
-    """Those sections of the navigation that hold pages of `reference/cpp/`, with the names of these pages."""
+    """The sections of the navigation that contain pages of `reference/cpp/`, with the names of these pages."""
     groups: dict[str, list[str]] = {}
     for entry in nav:
         for title, below in entry.items() if isinstance(entry, dict) else ():

@@ -33,17 +33,17 @@ SORT_MEMBER_DOCS = NO
 WARN_FORMAT = "$file:$line: $text"
 """
 
-# What no comment is asked for: moves, copies, destructors and default constructors do what they always do.
+# Members that need no comment: moves, copies, destructors and default constructors.
 SPECIAL_MEMBER = re.compile(
     r"Member (~\w+\(\)|operator=\((const )?\w+ &&?\)|(?P<name>\w+)\((const )?((?P=name) &&?)?\).*::(?P=name) is not)"
 )
 
 
 def run_doxygen(include: Path) -> tuple[list[Element], list[str]]:
-    """All compounds that the headers declare, and what doxygen complains about, a line each."""
+    """All compounds that the headers declare, and the complaints of doxygen, one line each."""
     doxygen = shutil.which("doxygen")
     if doxygen is None:
-        raise PluginError("doxygen is not there, the C++ reference needs it: sudo apt-get install doxygen")
+        raise PluginError("doxygen is not installed, and the C++ reference needs it (run apt-get install doxygen)")
     with tempfile.TemporaryDirectory() as output:
         doxyfile = DOXYFILE.format(include=include, output=output)
         run = subprocess.run([doxygen, "-"], input=doxyfile, text=True, capture_output=True, check=False)
@@ -56,12 +56,12 @@ def run_doxygen(include: Path) -> tuple[list[Element], list[str]]:
 
 
 def plain(element: Element | None) -> str:
-    """The text of an element without its marks, on one line."""
+    """The text of an element on one line, without markup."""
     return "" if element is None else " ".join("".join(element.itertext()).split())
 
 
 def description(element: Element, link: Callable[[str], str | None]) -> str:
-    """Everything a comment says, as Markdown. `link` gives the address of what has a doxygen id."""
+    """A whole comment as Markdown. `link` returns the address that belongs to an id of doxygen."""
     parts = [element.find("briefdescription"), element.find("detaileddescription")]
     blocks = [block for part in parts if part is not None for para in part for block in paragraph(para, link)]
     return "\n\n".join(blocks)
@@ -90,7 +90,7 @@ def paragraph(para: Element, link: Callable[[str], str | None]) -> list[str]:
 
 
 def inline(element: Element, link: Callable[[str], str | None]) -> str:
-    """Code, emphasis or a name that links to where it stands."""
+    """Code, emphasis, or a name with a link to its declaration."""
     refs = [element] if element.tag == "ref" else list(element.iter("ref"))
     address = link(refs[0].get("refid", "")) if refs else None
     if element.tag in ("ref", "computeroutput"):
@@ -103,6 +103,6 @@ def inline(element: Element, link: Callable[[str], str | None]) -> str:
 
 
 def escape(text: str) -> str:
-    """Text as Markdown that says just this."""
+    """Text as Markdown, with special characters escaped."""
     text = re.sub(r"([\\`*\[\]])", r"\\\1", re.sub(r"\s+", " ", text))
     return text.replace("&", "&amp;").replace("<", "&lt;").replace("|", "&#124;")

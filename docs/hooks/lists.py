@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""A list right below a paragraph is a list on code hosts, but a part of the paragraph here: that is a warning."""
+"""Warns about a list directly below a paragraph: code hosts show a list, MkDocs makes it part of the paragraph."""
 
 from __future__ import annotations
 
@@ -17,6 +17,6 @@ LIST_IN_PARAGRAPH = re.compile(r"<p>(?:(?!</p>).)*?\n(?P<item>(?:[-*]|1\.) [^\n]
 
 
 def on_page_content(html: str, *, page: Page, **_: Any) -> None:
-    """Warns of such a list."""
+    """Warns about each such list."""
     for found in LIST_IN_PARAGRAPH.finditer(html):
         log.warning("%s: an empty line is missing before the list at '%s'", page.file.src_uri, found["item"])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The site asks no other server for anything: whatever a page would load from elsewhere is a warning."""
+"""Warns if a page of the site loads anything from another server."""
 
 from __future__ import annotations
 
@@ -17,6 +17,6 @@ LOADED = re.compile(r"<(?!a\b)\w+\b[^>]*?\b(?:src|href|srcset|data)=[\"']?(?P<ad
 
 
 def on_post_page(output: str, *, page: Page, **_: Any) -> None:
-    """Warns of what is not a link but loaded with the page."""
+    """Warns about resources that load with the page; links are fine."""
     for found in LOADED.finditer(output):
         log.warning("%s loads %s from another server", page.file.src_uri, found["address"])
