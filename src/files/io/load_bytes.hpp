@@ -21,7 +21,7 @@ inline constexpr std::size_t max_file_size = std::size_t{8} << 30U;
 /// `out` is empty.
 Status load_bytes(const std::filesystem::path& path, std::vector<std::byte>& out);
 
-/// Asks the system to prefetch a file that will be read soon; does not wait. This is only a hint:
+/// Prefetches a file that will be read soon, without waiting. This is only a hint:
 /// if the file cannot be opened, nothing happens, and load_bytes() reports the reason later.
 void read_ahead(const std::filesystem::path& path) noexcept;
 

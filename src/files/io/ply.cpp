@@ -321,7 +321,7 @@ const char* ply_type(FieldType type) {
   return "double";
 }
 
-/// Where one number of each point is copied from (a row of the cloud) and to (a row of the file).
+/// Source (in a row of the cloud) and destination (in a row of the file) of one number per point.
 struct Column {
   const Field* from = nullptr;
   std::size_t element = 0;

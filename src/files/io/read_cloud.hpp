@@ -26,7 +26,7 @@ Status adopt_raw_points(std::vector<std::byte> bytes, std::size_t floats_per_poi
 /// first three fields; out_of_memory. Never throws.
 Status write_raw_points(const Cloud& cloud, std::vector<std::byte>& out);
 
-/// The point cloud formats. docs/reference/file-formats.md says what each may hold.
+/// The point cloud formats, described in docs/reference/file-formats.md.
 enum class CloudFormat {
   raw,  ///< 32-bit floats and nothing else
   pcd,

@@ -21,12 +21,13 @@ namespace {
 
 Status check_sizes(CloudView cloud, const Segmentation& result, const BirdsEye& options) {
   if (cloud.data() == nullptr && !cloud.empty())
-    return refuse(fmt::format("the cloud claims {} points and has no memory", cloud.size()));
+    return refuse(fmt::format("the cloud has {} points but no memory", cloud.size()));
   if (result.labels().size() != cloud.size())
-    return refuse(fmt::format("{} labels for {} points; pass the result of segmenting this cloud",
-                              result.labels().size(), cloud.size()));
+    return refuse(
+        fmt::format("{} labels for {} points (expected the result of segmenting this cloud)",
+                    result.labels().size(), cloud.size()));
   if (!options.reference.empty() && options.reference.size() != cloud.size())
-    return refuse(fmt::format("the reference has {} entries for {} points; it needs one per point",
+    return refuse(fmt::format("the reference has {} entries for {} points (expected one per point)",
                               options.reference.size(), cloud.size()));
   return {};
 }
@@ -36,14 +37,14 @@ Status check_options(const BirdsEye& options) {
   constexpr int largest = 8192;
   for (const int size : {options.width, options.height})
     if (size < smallest || size > largest)
-      return refuse(fmt::format("size {} x {} pixels; each may be {} to {}", options.width,
+      return refuse(fmt::format("size {} x {} pixels (expected {} to {} each)", options.width,
                                 options.height, smallest, largest));
   const bool asks_for_a_range = options.range >= 1 && options.range <= 1000;
   if (!asks_for_a_range && options.range != 0)
-    return refuse(
-        fmt::format("range {} m; it may be 1 to 1000, or 0 for a suitable one", options.range));
+    return refuse(fmt::format("range {} m (expected 1 to 1000, or 0 to choose a suitable one)",
+                              options.range));
   if (options.tint_patches && options.zones == nullptr)
-    return refuse("tint_patches needs the zones that the scan was segmented with");
+    return refuse("tint_patches requires the zones that the scan was segmented with");
   return {};
 }
 

@@ -14,25 +14,26 @@
 
 namespace flagstone::render {
 
-/// What goes into a bird's-eye picture besides the points.
+/// Options of a bird's-eye view image.
 struct BirdsEye {
-  /// First and second line above the picture, UTF-8; what does not fit is cut out of the middle.
+  /// First and second line above the view, UTF-8; a text that is too long is cut in its middle.
   std::string title;
   std::string subtitle;
 
-  /// Draws the zones, rings and sectors of the configuration the scan was segmented with, if given;
-  /// else circles at round distances.
+  /// The configuration that the scan was segmented with: its zones, rings and sectors are drawn.
+  /// Null: circles at round distances.
   const PatchworkConfig* zones = nullptr;
 
-  /// Fills each bin of result.patches() with the colour of its verdict. Needs `zones`.
+  /// Fills each bin of result.patches() with the colour of its status. Requires `zones`.
   bool tint_patches = false;
 
-  /// One entry per point: colours tell right from wrong instead of the label. Empty for none.
-  /// As in the evaluation protocols, whatever is not labelled ground counts as not ground.
+  /// Ground truth, one entry per point: colours then show correct and wrong labels instead of the
+  /// labels. May be empty. As in the evaluation protocols, every label except ground counts as
+  /// non-ground.
   std::span<const Truth> reference;
 
-  /// Half of the picture's shorter side, metres, 1 to 1,000. 0 takes the radius that holds 98 % of
-  /// the points, rounded up to 10 m, and at most the last ring's where `zones` are given.
+  /// Half of the shorter side of the view, metres, 1 to 1,000. 0: the radius that contains 98 % of
+  /// the points, rounded up to 10 m, and at most the last ring of `zones` if given.
   float range = 0;
 
   /// Pixels, each 320 to 8,192.
@@ -40,14 +41,14 @@ struct BirdsEye {
   int height = 1780;
 };
 
-/// Draws the scan from above and writes it as a PNG file: x, forward, points up and y, left, points
-/// left. Points of label `invalid` cannot be drawn and are only counted; nor are points beyond the
-/// frame. `result` is what segmenting `cloud` gave. The same input gives the same bytes on the same
-/// machine; fonts are the system's.
+/// Draws a bird's-eye view of the scan as a PNG file: x (forward) points up, y (left) points left.
+/// `result` is the result of segmenting `cloud`. Points labelled `invalid` and points outside the
+/// view are counted but not drawn. Output is deterministic on one machine; fonts come from the
+/// system.
 ///
-/// Fails with `invalid_argument` for options or zones out of range and for labels, patches or a
-/// reference that do not belong to the cloud; with `unwritable` where the file cannot be written,
-/// and then nothing is left behind; with `out_of_memory`.
+/// `invalid_argument` if options or zones are out of range, or if labels, patches or a reference do
+/// not belong to the cloud; `unwritable` if the file cannot be written, which leaves no file
+/// behind; `out_of_memory`.
 [[nodiscard]] Status draw_birds_eye(const std::filesystem::path& png, CloudView cloud,
                                     const Segmentation& result, const BirdsEye& options) noexcept;
 

@@ -49,7 +49,7 @@ void Canvas::end_pixels() const noexcept { cairo_surface_mark_dirty(surface_.get
 
 std::vector<std::byte> Canvas::png() const {
   std::vector<std::byte> file;
-  // Cairo keeps the first error of a context; all that can have happened here is lack of memory.
+  // Cairo keeps the first error of a context, which here can only be a lack of memory.
   if (cairo_status(context_.get()) != CAIRO_STATUS_SUCCESS ||
       cairo_surface_write_to_png_stream(surface_.get(), append, &file) != CAIRO_STATUS_SUCCESS)
     throw std::bad_alloc();
@@ -126,7 +126,7 @@ PanelGrid arrange_panels(int width, std::size_t panels) {
 }
 
 Status refuse(std::string message) {
-  return Status(StatusCode::invalid_argument, "picture: " + std::move(message));
+  return Status(StatusCode::invalid_argument, "image: " + std::move(message));
 }
 
 }  // namespace flagstone::render

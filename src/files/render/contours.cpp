@@ -21,8 +21,9 @@
 namespace flagstone::render {
 namespace {
 
-/// Sides of squares, each between two neighbouring samples. The first half of them run along rows,
-/// each named by its left sample, the others along columns, named by the upper one.
+/// A side of a square, between two adjacent samples. The first half of the values are sides along
+/// rows, numbered by their left sample; the others are along columns, numbered by their upper
+/// sample.
 using Side = std::uint32_t;
 constexpr Side none = std::numeric_limits<Side>::max();
 
@@ -41,7 +42,7 @@ class Tracer {
 
   std::vector<ContourLine> trace() {
     std::vector<ContourLine> lines;
-    // From the ends first: what is left then are closed lines.
+    // Follow open lines from their ends first; the remaining lines are closed.
     for (Side side = 0; side < links_.size(); ++side) {
       if (links_[side][0] != none && links_[side][1] == none) lines.push_back(follow(side));
     }
@@ -54,7 +55,7 @@ class Tracer {
  private:
   [[nodiscard]] bool is_above(Side sample) const { return heights_[sample] >= level_; }
 
-  /// Joins the sides of the square right of and below `sample` that the level passes.
+  /// Links the sides that the level crosses, in the square to the right of and below `sample`.
   void link_square(Side sample) {
     const std::array corners = {sample, sample + 1, sample + width_, sample + width_ + 1};
     if (!std::ranges::all_of(corners, [&](Side s) { return std::isfinite(heights_[s]); })) return;
@@ -74,7 +75,7 @@ class Tracer {
     if (lower_left != lower_right) passed[count++] = lower;
     if (count == 2) link(passed[0], passed[1]);
     if (count < 4) return;
-    // Two lines pass a saddle on the same side of it as the bilinear surface does.
+    // At a saddle, the lines are connected as in the bilinear surface.
     if (upper_left == (saddle_height(corners) >= level_)) {
       link(upper, right);
       link(left, lower);
@@ -97,7 +98,7 @@ class Tracer {
     links_[other][links_[other][0] == none ? 0 : 1] = one;
   }
 
-  /// Takes the link from one side to the next away.
+  /// Removes the link from one side to another.
   void unlink(Side from, Side to) {
     auto& [first, second] = links_[from];
     if (first == to) first = second;
@@ -116,7 +117,7 @@ class Tracer {
     return line;
   }
 
-  /// Where the level passes a side.
+  /// The position at which the level crosses a side.
   [[nodiscard]] GridPlace place(Side side) const {
     const bool is_along_row = side < samples_;
     const Side sample = is_along_row ? side : side - samples_;
@@ -133,7 +134,7 @@ class Tracer {
   Side width_;
   Side samples_;
   float level_;
-  std::vector<std::array<Side, 2>> links_;  // by side: the sides it is joined to
+  std::vector<std::array<Side, 2>> links_;  // for each side: the sides linked to it
 };
 
 }  // namespace
@@ -173,19 +174,19 @@ void stroke(cairo_t* context, const Path& path) noexcept {
   cairo_stroke(context);
 }
 
-/// Where a label may stand: in the middle of a piece of the line as long as the label is wide.
+/// A possible position of a label: the middle of a piece of the line as long as the label is wide.
 struct LabelPlace {
   Spot middle;
-  double angle;     // radians, that of the text
-  double straight;  // length of the chord by that of the piece, at most 1
+  double angle;     // of the text, radians
+  double straight;  // chord length / arc length of the piece, at most 1
 };
 
 class LabelPlacer {
  public:
   LabelPlacer(const Rectangle& panel, double unit) : panel_(panel), unit_(unit) {}
 
-  /// The straightest place for a label `width` pixels wide on this line, far from all others;
-  /// none where it bends too much everywhere.
+  /// The straightest position on this line for a label `width` pixels wide, far from all other
+  /// labels. Nothing if the line bends too much everywhere.
   std::optional<LabelPlace> place(const Path& path, double width) {
     std::optional<LabelPlace> best;
     std::size_t end = 0;
@@ -210,7 +211,7 @@ class LabelPlacer {
     const Spot& from = path[begin];
     const Spot& to = path[end];
     double angle = std::atan2(to.y - from.y, to.x - from.x);
-    // Upright, whichever way the line runs.
+    // Keep the text upright for either direction of the line.
     if (std::abs(angle) > std::numbers::pi / 2) angle -= std::copysign(std::numbers::pi, angle);
     return {path[begin + (end - begin) / 2], angle, distance(from, to) / piece};
   }
@@ -243,7 +244,7 @@ void draw_label(cairo_t* context, const LabelPlace& place, const std::string& te
 ContourStep suitable_step(double span) noexcept {
   constexpr double most_lines = 14;
   constexpr std::array<ContourStep, 3> round_steps = {{{1, 2}, {2, 5}, {5, 2}}};
-  constexpr double largest = 1000;  // metres; no more is between the highest and the lowest point
+  constexpr double largest = 1000;  // metres; more than any scan spans
   for (const ContourStep& step : {ContourStep{0.25, 2}, ContourStep{0.5, 2}}) {
     if (span <= most_lines * step.height) return step;
   }
@@ -260,7 +261,7 @@ std::string height_text(double height, const ContourStep& step) {
   std::string text = fmt::format("{:.{}f}", height, places);
   const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
   if (!text.starts_with('-')) return text;
-  return is_zero ? text.substr(1) : "\u2212" + text.substr(1);  // a true minus, wider than a hyphen
+  return is_zero ? text.substr(1) : "\u2212" + text.substr(1);  // a minus sign, wider than a hyphen
 }
 
 void draw_contours(const Canvas& canvas, const TopView& view, const HeightMap& map,
@@ -284,7 +285,7 @@ void draw_contours(const Canvas& canvas, const TopView& view, const HeightMap& m
     for (const ContourLine& line :
          contour_lines(map.heights, map.width, static_cast<float>(height))) {
       Path path = in_pixels(line, map, view);
-      if (length_of(path) < 24 * unit) continue;  // specks
+      if (length_of(path) < 24 * unit) continue;  // too short to draw
       if (number % step.per_index == 0) {
         indices.push_back({height_text(height, step), std::move(path)});
       } else {
@@ -295,7 +296,7 @@ void draw_contours(const Canvas& canvas, const TopView& view, const HeightMap& m
   set_color(context, contour_color, 0.8);
   cairo_set_line_width(context, bold_contour * unit);
   for (const Index& index : indices) stroke(context, index.path);
-  // The longest lines have the first choice.
+  // Label the longest lines first.
   std::ranges::sort(indices, std::greater(), [](const Index& i) { return length_of(i.path); });
   LabelPlacer placer(view.panel(), unit);
   for (const Index& index : indices) {

@@ -12,41 +12,41 @@
 
 namespace flagstone::render {
 
-/// A place on a grid of samples, in samples: (2, 0.5) lies between the first two of the third
-/// column.
+/// A position on a grid of samples, in samples: (2, 0.5) is between the first two samples of the
+/// third column.
 struct GridPlace {
   double column, row;
   friend bool operator==(const GridPlace&, const GridPlace&) = default;
 };
 
-/// A line along which heights are the same. A closed one has its first place again as its last.
+/// A line of equal height. A closed line ends with its first position.
 using ContourLine = std::vector<GridPlace>;
 
-/// Where heights between samples, bilinear in each square of four, pass `level`: marching squares,
-/// joined to lines as long as they can be. `heights` are rows of `width` samples; a square with a
-/// height that is not finite has no line. A line ends at the samples' edge, at such a square, or
-/// where it began. A height equal to `level` counts as above.
+/// Lines along which the bilinear interpolation of `heights` equals `level`: marching squares, with
+/// the segments joined to lines of maximum length. `heights` are rows of `width` samples. A square
+/// of four samples has no line if a height is not finite. Lines end at the edge of the grid or at
+/// such a square, or they are closed. A height equal to `level` counts as above.
 std::vector<ContourLine> contour_lines(std::span<const float> heights, std::size_t width,
                                        float level);
 
-/// Which heights have lines.
+/// The heights that have contour lines.
 struct ContourStep {
-  double height;  ///< from one line to the next, metres
-  int per_index;  ///< every so many-th line is an index contour: bold, with its height
+  double height;  ///< difference between adjacent lines, metres
+  int per_index;  ///< every line with a multiple of this number is an index contour: bold, labelled
 };
 
-/// Widths of the lines, pixels of the default picture.
+/// Widths of the lines, pixels of the default image size.
 inline constexpr double thin_contour = 1.2;
 inline constexpr double bold_contour = 2.4;
 
-/// The step that suits heights which span so many metres: about ten lines.
+/// A step that gives about ten lines for heights that span `span` metres.
 ContourStep suitable_step(double span) noexcept;
 
-/// A height as a multiple of `step` is written, in metres: "-1.75", "-12".
+/// A height in metres with the decimals that multiples of `step` need: "-1.75", "-12".
 std::string height_text(double height, const ContourStep& step);
 
-/// Draws the contour lines of `map` at these heights; index contours last, with labels where they
-/// run straight.
+/// Draws the contour lines of `map` within `heights`. Index contours are drawn last, with labels on
+/// their straight parts.
 void draw_contours(const Canvas& canvas, const TopView& view, const HeightMap& map,
                    const HeightRange& heights, const ContourStep& step, double unit);
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// What stands in for everything that draws where CMake finds no Cairo.
+// Replaces all drawing functions if CMake does not find Cairo.
 #include <new>
 
 #include "files/render/birds_eye.hpp"
@@ -19,9 +19,10 @@ Status refuse() noexcept try { return rendering_available(); } catch (const std:
 }  // namespace
 
 Status rendering_available() {
-  return Status(StatusCode::unwritable,
-                "this flagstone was built without Cairo and draws no pictures; install Cairo's "
-                "development files (Debian: pkg-config libcairo2-dev) and build it again");
+  return Status(
+      StatusCode::unwritable,
+      "images are not available: flagstone was built without Cairo (install Cairo's "
+      "development files, on Debian: pkg-config libcairo2-dev, and build flagstone again)");
 }
 
 Status draw_birds_eye(const std::filesystem::path&, CloudView, const Segmentation&,

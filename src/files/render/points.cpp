@@ -59,8 +59,8 @@ PointKinds kinds_by_label(std::span<const Label> labels) {
 
 PointKinds kinds_by_truth(std::span<const Label> labels, std::span<const Truth> reference) {
   PointKinds points;
-  // Errors are larger, so that they show among many right points and without telling red from
-  // green.
+  // Errors are larger, so that they are visible among many correct points and to readers who cannot
+  // distinguish red from green.
   points.kinds = {
       {.name = "true positive", .color = {44, 166, 96}, .size = 1, .drawn = true},
       {.name = "false negative", .color = {66, 140, 255}, .size = 1.5, .drawn = true},
@@ -77,7 +77,8 @@ PointKinds kinds_by_truth(std::span<const Label> labels, std::span<const Truth> 
 
 namespace {
 
-// The pixels points may change: columns and rows from `left` and `top` to before `right`, `bottom`.
+// The pixels that points may change: from `left` and `top` up to but excluding `right` and
+// `bottom`.
 struct Window {
   int left, top, right, bottom;
 };
@@ -89,7 +90,7 @@ Window window_of(const Rectangle& panel) noexcept {
           .bottom = static_cast<int>(std::floor(panel.bottom()))};
 }
 
-// Half-way values round up: all that matters is that it is the same everywhere.
+// Halves round up, which is the same on every platform.
 std::uint32_t mixed(std::uint32_t below, std::uint32_t above, std::uint32_t opacity) noexcept {
   return (below * (255 - opacity) + above * opacity + 127) / 255;
 }
@@ -101,7 +102,7 @@ std::uint32_t mixed(std::uint32_t pixel, Color color, std::uint32_t opacity) noe
   return red << 16 | green << 8 | blue;
 }
 
-// Few points are drawn larger, or they could not be seen. In pixels of the default picture.
+// In pixels of the default image size. Sparse scans get larger points, to keep them visible.
 double point_radius(std::size_t count) noexcept {
   constexpr double dense_scan = 120'000;
   const double sparseness = dense_scan / static_cast<double>(std::max<std::size_t>(count, 1));
@@ -113,7 +114,7 @@ class DiscPainter {
   DiscPainter(Canvas::Pixels pixels, const Window& window) noexcept
       : pixels_(pixels), window_(window) {}
 
-  // A disc with soft edges: a pixel's cover falls from 1 to 0 over the pixel that the edge crosses.
+  // A disc with soft edges: coverage decreases from 1 to 0 over one pixel at the edge.
   void paint(double column, double row, double radius, Color color) const noexcept {
     const double reach = radius + 0.5;
     const int first_row = std::max(window_.top, static_cast<int>(std::floor(row - reach)));
@@ -139,7 +140,7 @@ class DiscPainter {
   Window window_;
 };
 
-// False for what is not finite, too. Asked before any conversion to a whole number of pixels.
+// False also for values that are not finite, so check this before converting to integer pixels.
 bool contains(const Rectangle& panel, double column, double row) noexcept {
   return column >= panel.x && column < panel.right() && row >= panel.y && row < panel.bottom();
 }
@@ -203,7 +204,7 @@ std::vector<Entry> patch_entries(std::span<const Patch> patches) {
   return entries;
 }
 
-// A square in the colour that a tinted bin has on the panel, edged in the pure one.
+// A square in the colour of a tinted bin on the panel, with an edge in the pure colour.
 void draw_tint(cairo_t* context, const Rectangle& square, Color color, double unit) noexcept {
   add_rectangle(context, square, 3 * unit);
   set_color(context, panel_color);
@@ -276,7 +277,7 @@ void draw_beyond_note(const Canvas& canvas, const Layout& layout, std::size_t be
   const double unit = layout.unit;
   const Font font{.size = 20 * unit, .bold = false, .color = panel_text_color};
   const std::string note =
-      fmt::format("{} {} beyond the frame", grouped(beyond), beyond == 1 ? "point" : "points");
+      fmt::format("{} {} outside the view", grouped(beyond), beyond == 1 ? "point" : "points");
   const double width = text_width(context, note, font) + 32 * unit;
   const Rectangle box{layout.panel.center_x() - width / 2, layout.panel.bottom() - 56 * unit, width,
                       40 * unit};

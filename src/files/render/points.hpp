@@ -16,47 +16,47 @@
 
 namespace flagstone::render {
 
-/// Points that look alike in the picture and share an entry of the legend.
+/// Points that look alike in the image and share an entry of the legend.
 struct PointKind {
   const char* name;
   Color color;
-  double size;  ///< diameter relative to that of ordinary points
-  bool drawn;   ///< false: only counted
+  double size;  ///< diameter relative to ordinary points
+  bool drawn;   ///< false: counted only
   std::size_t count = 0;
 };
 
-/// Which kind each point of a scan is.
+/// The kind of each point of a scan.
 struct PointKinds {
-  /// In of_point: a point of label invalid, which has a kind and is counted, but has no place.
+  /// In of_point: a point labelled invalid. It is counted in its kind, but has no position.
   static constexpr std::uint8_t nowhere = 255;
 
-  std::vector<PointKind> kinds;             ///< in the legend's order
-  std::vector<std::uint8_t> drawing_order;  ///< indices into kinds; what comes later lies on top
+  std::vector<PointKind> kinds;             ///< in the order of the legend
+  std::vector<std::uint8_t> drawing_order;  ///< indices into kinds; later kinds are drawn on top
   std::vector<std::uint8_t> of_point;       ///< index into kinds, or nowhere; one per point
 };
 
 /// Kinds by label.
 PointKinds kinds_by_label(std::span<const Label> labels);
 
-/// Kinds by comparing label and reference, which has an entry per label.
+/// Kinds by comparing labels with the reference, which has one entry per label.
 PointKinds kinds_by_truth(std::span<const Label> labels, std::span<const Truth> reference);
 
-/// Draws the points as small discs straight into the canvas's pixels, kind after kind, cut off at
-/// the panel's edges. `unit` is the size of a pixel of the default picture. Returns how many points
-/// to be drawn lie beyond the panel (also: are not finite).
+/// Draws the points as small discs into the pixels of the canvas, one kind after another, clipped
+/// at the edges of the panel. `unit` is the size of a pixel of the default image size. Returns the
+/// number of points outside the panel, including points that are not finite.
 std::size_t draw_points(const Canvas& canvas, const TopView& view, CloudView cloud,
                         const PointKinds& points, double unit);
 
-/// Writes a row of colours, names, counts and shares of the points and, where the patches are
-/// tinted, a second one of their verdicts.
+/// Draws a row of colours, names, counts and percentages of the points and, if the patches are
+/// tinted, a second row for the status of the patches.
 void draw_legend(const Canvas& canvas, const Layout& layout, const PointKinds& points,
                  std::span<const Patch> patches, bool tinted);
 
-/// Writes a row of colours and names alone into `legend`, and `note` below.
+/// Draws a row of colours and names only into `legend`, and `note` below it.
 void draw_kind_names(const Canvas& canvas, const Rectangle& legend, double unit,
                      const PointKinds& points, const std::string& note);
 
-/// Writes at the panel's lower edge how many points do not show, if any.
+/// Writes the number of points outside the view at the lower edge of the panel, if there are any.
 void draw_beyond_note(const Canvas& canvas, const Layout& layout, std::size_t beyond);
 
 }  // namespace flagstone::render

@@ -6,8 +6,8 @@
 
 namespace flagstone::render {
 
-/// Ok where this build has Cairo. Without it, what to do about it; that is also what each function
-/// here that draws then returns, writing nothing.
+/// Ok if this build has Cairo. Otherwise an error with the packages to install; every drawing
+/// function then returns the same error and writes nothing.
 [[nodiscard]] Status rendering_available();
 
 }  // namespace flagstone::render

@@ -61,7 +61,7 @@ std::vector<double> circle_radii(double range, const PatchworkConfig* zones) {
 
 namespace {
 
-// Tenths of a metre for all of them where one needs it.
+// Decimals of the captions: 1 for all if any distance needs it.
 int decimals(std::span<const double> distances) noexcept {
   const auto is_whole = [](double distance) noexcept {
     return std::abs(distance - std::round(distance)) < 0.05;
@@ -69,8 +69,8 @@ int decimals(std::span<const double> distances) noexcept {
   return std::ranges::all_of(distances, is_whole) ? 0 : 1;
 }
 
-// Captions stand ahead and to the right, where a straight road leaves the fewest points; those that
-// would touch the sensor's mark, another caption or the panel's edge are left out.
+// Captions are ahead and to the right, where a straight road has the fewest points. Captions that
+// would touch the mark of the sensor, another caption or the edge of the panel are omitted.
 void draw_captions(cairo_t* context, const TopView& view, std::span<const double> radii,
                    double unit, const PanelInk& ink) {
   const Font font{.size = 22 * unit, .bold = false, .color = ink.ink};

@@ -12,28 +12,28 @@
 
 namespace flagstone::render {
 
-/// Half of the picture's shorter side in metres where the caller names none: the radius that holds
-/// 98 % of the points that can be drawn, rounded up to 10 m; at most the last ring's of `zones`,
-/// where given, and 1,000 m. Without points, that bound or 50 m.
+/// Default for half of the shorter side of the view, metres: the radius that contains 98 % of the
+/// drawable points, rounded up to 10 m; at most the last ring of `zones` if given, otherwise 1,000
+/// m. Without points, the last ring or 50 m.
 double suitable_range(CloudView cloud, std::span<const Label> labels, const PatchworkConfig* zones);
 
-/// Distance between range rings, metres: 1, 2 or 5 times a power of ten, such that at least three
+/// Distance between range rings, metres: 1, 2 or 5 times a power of ten, so that at least three
 /// rings fit into `range`.
 double ring_step(double range) noexcept;
 
-/// Radii of the circles to caption, ascending, metres: multiples of ring_step() as far as they
-/// reach into the panel's corners, or the zones' ends where zones are drawn.
+/// Radii of the circles with captions, ascending, metres: multiples of ring_step() up to the
+/// corners of the panel or, if zones are drawn, the limits of the zones.
 std::vector<double> circle_radii(double range, const PatchworkConfig* zones);
 
-/// Dashed circles of these radii, metres, around the sensor.
+/// Draws dashed circles of these radii, metres, around the sensor.
 void draw_range_rings(const Canvas& canvas, const TopView& view, std::span<const double> radii,
                       double unit) noexcept;
 
-/// An arrowhead at the origin that points forward.
+/// Draws an arrowhead at the origin that points forward.
 void draw_sensor(const Canvas& canvas, const TopView& view, double unit) noexcept;
 
-/// What tells place, size and direction, on top of the points: the circles' captions in metres, the
-/// mark of the sensor, the axes (lower left) and the scale bar (lower right). `radii` ascend.
+/// Draws the scale on top of the points: captions of the circles in metres, the mark of the sensor,
+/// the axes (lower left) and the scale bar (lower right). `radii` must be ascending.
 void draw_scale(const Canvas& canvas, const TopView& view, double range,
                 std::span<const double> radii, double unit, const PanelInk& ink = dark_panel_ink);
 

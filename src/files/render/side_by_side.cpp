@@ -19,16 +19,17 @@ namespace {
 Status check_sizes(CloudView cloud, std::span<const Truth> truth, std::span<const Panel> panels) {
   constexpr std::size_t most_panels = 30;
   if (panels.empty() || panels.size() > most_panels)
-    return refuse(fmt::format("{} panels; there may be 1 to {}", panels.size(), most_panels));
+    return refuse(fmt::format("{} panels (expected 1 to {})", panels.size(), most_panels));
   if (cloud.data() == nullptr && !cloud.empty())
-    return refuse(fmt::format("the cloud claims {} points and has no memory", cloud.size()));
+    return refuse(fmt::format("the cloud has {} points but no memory", cloud.size()));
   if (truth.size() != cloud.size())
-    return refuse(fmt::format("the truth has {} entries for {} points; it needs one per point",
-                              truth.size(), cloud.size()));
+    return refuse(
+        fmt::format("the ground truth has {} entries for {} points (expected one per point)",
+                    truth.size(), cloud.size()));
   for (const Panel& panel : panels)
     if (panel.labels.size() != cloud.size())
-      return refuse(fmt::format("{}: {} labels for {} points", printable(panel.title),
-                                panel.labels.size(), cloud.size()));
+      return refuse(fmt::format("{}: {} labels for {} points (expected one per point)",
+                                printable(panel.title), panel.labels.size(), cloud.size()));
   return {};
 }
 
@@ -37,16 +38,16 @@ Status check_options(const SideBySide& options) {
   constexpr int widest = 8192;
   if (options.width < narrowest || options.width > widest)
     return refuse(
-        fmt::format("width {} pixels; it may be {} to {}", options.width, narrowest, widest));
+        fmt::format("width {} pixels (expected {} to {})", options.width, narrowest, widest));
   const bool asks_for_a_range = options.range >= 1 && options.range <= 1000;
   if (!asks_for_a_range && options.range != 0)
-    return refuse(
-        fmt::format("range {} m; it may be 1 to 1000, or 0 for a suitable one", options.range));
+    return refuse(fmt::format("range {} m (expected 1 to 1000, or 0 to choose a suitable one)",
+                              options.range));
   return {};
 }
 
-// Nothing but the points, the circles and the sensor: what would tell the scale on top of the
-// points hides errors. Returns how many points lie beyond the panel.
+// Draws only the points, the circles and the sensor: a scale on top of the points would hide
+// errors. Returns the number of points outside the panel.
 std::size_t draw_panel(const Canvas& canvas, const TopView& view, CloudView cloud,
                        const PointKinds& points, double range, double text_unit) {
   static const BirdsEye single;
@@ -68,13 +69,13 @@ void write_caption(const Canvas& canvas, const Rectangle& panel, const Panel& te
             fitted(context, texts.subtitle, subtitle, panel.width), subtitle);
 }
 
-// What draw_scale() says in a picture of one panel.
+// Replaces draw_scale(), which is used in images with one panel.
 std::string scale_note(double range, std::size_t beyond) {
   std::string note =
-      fmt::format("Circles every {:g} m around the sensor; x, forward, is up.", ring_step(range));
+      fmt::format("Circles every {:g} m around the sensor; x (forward) is up.", ring_step(range));
   if (beyond != 0)
-    note += fmt::format(" {} {} beyond the frame.", grouped(beyond),
-                        beyond == 1 ? "point lies" : "points lie");
+    note += fmt::format(" {} {} outside the view.", grouped(beyond),
+                        beyond == 1 ? "point is" : "points are");
   return note;
 }
 

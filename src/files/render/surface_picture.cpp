@@ -25,19 +25,19 @@
 
 namespace flagstone::render {
 
-/// How ground is coloured.
+/// Colours and shading of the ground.
 struct ReliefLook {
-  HeightRange heights;      ///< what lies below has the first colour, what lies above the last
-  double exaggeration = 1;  ///< how much steeper than it is ground is shaded
+  HeightRange heights;      ///< range of the colours; heights outside have the first or last colour
+  double exaggeration = 1;  ///< factor by which slopes are multiplied for shading
 };
 
 namespace {
 
-/// The colour of a height before shading, from `share` 0, the lowest, to 1, the highest.
+/// The colour of a height before shading; `share` is 0 for the lowest height and 1 for the highest.
 Color height_color(double share) noexcept;
 
-/// Draws the ground within `range` metres of the sensor: by height, shaded as if light fell from
-/// the upper left, paler where the surface is less sure, nothing where it is not known.
+/// Draws the ground within `range` metres of the sensor: coloured by height, shaded with light from
+/// the upper left, paler at low confidence, and blank where the ground is unknown.
 void draw_relief(const Canvas& canvas, const TopView& view, const GroundSurface& surface,
                  double range, const ReliefLook& look);
 
@@ -50,14 +50,14 @@ Tone mixed(const Tone& a, const Tone& b, double share_of_b) noexcept {
           std::lerp(a.blue, b.blue, share_of_b)};
 }
 
-// Greens, yellows and browns of atlases, all of them light, so that shade and lines stand out.
+// Greens, yellows and browns as in atlases, all light, so that shading and lines are visible.
 constexpr std::array<Tone, 6> tones = {{{0.53, 0.70, 0.61},
                                         {0.69, 0.81, 0.64},
                                         {0.89, 0.89, 0.68},
                                         {0.93, 0.82, 0.60},
                                         {0.83, 0.66, 0.49},
                                         {0.73, 0.55, 0.46}}};
-constexpr Tone shadow = {0.16, 0.17, 0.30};  // bluish, as under an open sky
+constexpr Tone shadow = {0.16, 0.17, 0.30};  // bluish, as under a clear sky
 constexpr Tone sunlight = {1, 0.99, 0.93};
 
 Tone tone_of(double share) noexcept {
@@ -66,21 +66,21 @@ Tone tone_of(double share) noexcept {
   return mixed(tones[first], tones[first + 1], place - static_cast<double>(first));
 }
 
-/// How bright ground of these slopes, metres a metre along x and y, is; 1: as bright as level
-/// ground. The light stands 45 degrees high over the upper left, where both x and y grow.
+/// Brightness of ground with these slopes along x and y, m/m, relative to level ground. The light
+/// comes from the upper left (positive x and y), 45 degrees above the horizon.
 double brightness(double along_x, double along_y) noexcept {
   return (1 - (along_x + along_y) / std::numbers::sqrt2) / std::hypot(along_x, along_y, 1.0);
 }
 
 Tone shaded(const Tone& tone, double bright) noexcept {
-  constexpr double darkest = 0.72;   // share of shadow in what no light falls on
-  constexpr double brightest = 1.5;  // share of sunlight a unit above level ground
+  constexpr double darkest = 0.72;   // fraction of shadow colour at brightness 0
+  constexpr double brightest = 1.5;  // fraction of sunlight colour per unit of brightness above 1
   return bright < 1 ? mixed(tone, shadow, darkest * (1 - std::max(bright, 0.0)))
                     : mixed(tone, sunlight, std::min(1.0, brightest * (bright - 1)));
 }
 
-/// Slope at a place from heights a cell of the surface to either side of it, so that it changes
-/// smoothly over cells of any size. To one side alone at the rim of what is known.
+/// Slope from the heights one cell of the surface away on both sides, so that it changes smoothly
+/// for cells of any size. One-sided at the edge of known ground.
 double slope(float before, float here, float after, float cell) noexcept {
   if (std::isnan(before) && std::isnan(after)) return 0;
   if (std::isnan(before)) return (after - here) / cell;
@@ -89,7 +89,7 @@ double slope(float before, float here, float after, float cell) noexcept {
 }
 
 std::uint32_t pixel(const Tone& tone, double opacity) noexcept {
-  const auto part = [opacity](double value) noexcept {  // Cairo wants colour times opacity
+  const auto part = [opacity](double value) noexcept {  // Cairo requires premultiplied colours
     return static_cast<std::uint32_t>(std::lround(255 * value * opacity));
   };
   return static_cast<std::uint32_t>(std::lround(255 * opacity)) << 24U | part(tone.red) << 16U |
@@ -121,7 +121,7 @@ Color height_color(double share) noexcept {
 
 void draw_relief(const Canvas& canvas, const TopView& view, const GroundSurface& surface,
                  double range, const ReliefLook& look) {
-  // Every second pixel along both axes; Cairo fills in between.
+  // Computes every second pixel along both axes; Cairo interpolates between them.
   const double step = 2 / view.pixels_per_metre();
   const auto width = static_cast<std::size_t>(std::ceil(2 * range / step));
   std::vector<std::uint32_t> pixels(width * width);
@@ -169,7 +169,7 @@ void draw_colors(cairo_t* context, const Rectangle& bar, double unit) {
   cairo_stroke(context);
 }
 
-/// Heights below the bar: multiples of a round step, a few.
+/// Draws a few round heights below the bar.
 void draw_heights(cairo_t* context, const Rectangle& bar, const HeightRange& heights,
                   const ContourStep& step, double unit) {
   const Font font{.size = 22 * unit, .bold = false, .color = muted_text_color};
@@ -201,7 +201,7 @@ void draw_surface_legend(const Canvas& canvas, const Rectangle& legend, const Re
   const double number_line = legend.y + 56 * unit;
 
   draw_text(context, legend.x, name_line, "Height", bold_font);
-  draw_text(context, legend.x, number_line, "z, metres", number_font);
+  draw_text(context, legend.x, number_line, "z in metres", number_font);
   const Rectangle bar{legend.x + 150 * unit, legend.y + 6 * unit, legend.width * 0.4, 24 * unit};
   draw_colors(context, bar, unit);
   draw_heights(context, bar, look.heights, step, unit);
@@ -222,43 +222,44 @@ void draw_surface_legend(const Canvas& canvas, const Rectangle& legend, const Re
             name_font);
 
   x += 196 * unit;
-  const std::string shading =
-      look.exaggeration > 1 ? fmt::format("shaded as if {:g} times as steep", look.exaggeration)
-                            : std::string("shaded as steep as it is");
+  const std::string shading = look.exaggeration > 1
+                                  ? fmt::format("shading: slopes times {:g}", look.exaggeration)
+                                  : std::string("shading: true slopes");
   for (const auto& [text, line] :
-       {std::pair{std::string("pale: less sure, blank: not known"), name_line},
+       {std::pair{std::string("pale: low confidence, blank: unknown"), name_line},
         std::pair{shading, number_line}}) {
     draw_text(context, x, line, text, shrunk(context, text, name_font, legend.right() - x));
   }
 }
 
 Status refuse_surface(std::string message) {
-  return Status(StatusCode::invalid_argument, "surface picture: " + std::move(message));
+  return Status(StatusCode::invalid_argument, "surface image: " + std::move(message));
 }
 
 Status check(const GroundSurface& surface, const SurfacePicture& options) {
   constexpr int smallest = 320;
   constexpr int largest = 8192;
-  if (surface.empty()) return refuse_surface("there is no surface; its method makes none");
+  if (surface.empty())
+    return refuse_surface("there is no surface (the method does not provide one)");
   for (const int size : {options.width, options.height}) {
     if (size < smallest || size > largest) {
-      return refuse_surface(fmt::format("size {} x {} pixels; each may be {} to {}", options.width,
-                                        options.height, smallest, largest));
+      return refuse_surface(fmt::format("size {} x {} pixels (expected {} to {} each)",
+                                        options.width, options.height, smallest, largest));
     }
   }
   const bool asks_for_a_range = options.range >= 1 && options.range <= 1000;
   if (!asks_for_a_range && options.range != 0) {
-    return refuse_surface(
-        fmt::format("range {} m; it may be 1 to 1000, or 0 for a suitable one", options.range));
+    return refuse_surface(fmt::format(
+        "range {} m (expected 1 to 1000, or 0 to choose a suitable one)", options.range));
   }
   return {};
 }
 
-/// Known ground, sampled evenly; each sample weighs as much as the surface is sure of it.
+/// An evenly spaced sample of known ground, weighted by its confidence.
 struct Sample {
   double distance;   // from the sensor, the larger of |x| and |y|, metres
   double height;     // metres
-  double steepness;  // metres a metre
+  double steepness;  // m/m
   double weight;
 };
 
@@ -271,7 +272,7 @@ std::vector<Sample> samples_of(const GroundSurface& surface, double range) {
       const double y = range * ((2 * row + 1.0) / per_side - 1);
       const GroundSample ground = surface.at(static_cast<float>(x), static_cast<float>(y));
       if (!std::isfinite(ground.height) || !std::isfinite(ground.slope)) continue;
-      constexpr double least = 1e-3;  // so that ground nobody is sure of has a weight, too
+      constexpr double least = 1e-3;  // ground without any confidence has a weight too
       samples.push_back({std::max(std::abs(x), std::abs(y)), ground.height, std::tan(ground.slope),
                          least + ground.confidence});
     }
@@ -279,7 +280,8 @@ std::vector<Sample> samples_of(const GroundSurface& surface, double range) {
   return samples;
 }
 
-/// The least value that `share` of the weight lies at or below; `none` without samples.
+/// The weighted quantile: the smallest value with at least `share` of the weight at or below it.
+/// `none` if there are no samples.
 double quantile(std::vector<Sample>& samples, double Sample::* value, double share, double none) {
   if (samples.empty()) return none;
   std::ranges::sort(samples, {}, value);
@@ -305,19 +307,19 @@ struct Look {
   ContourStep step;
 };
 
-/// Colours from the first to the last contour line around nearly all of the heights, and shading
-/// that shows gentle slopes.
+/// Colours that span nearly all heights, from contour line to contour line, and shading that shows
+/// gentle slopes.
 Look suitable_look(const GroundSurface& surface, double range) {
   std::vector<Sample> samples = samples_of(surface, range);
   const double lowest = quantile(samples, &Sample::height, 0.02, -1);
   const double highest = quantile(samples, &Sample::height, 0.98, 1);
   const ContourStep step = suitable_step(highest - lowest);
   const double middle = (lowest + highest) / 2;
-  constexpr double least_span = 1;  // metres; colours do not make mountains of a level road
+  constexpr double least_span = 1;  // metres, so that colours do not exaggerate a level road
   const double half = std::max(highest - lowest, least_span) / 2;
   const HeightRange heights{step.height * std::floor((middle - half) / step.height),
                             step.height * std::ceil((middle + half) / step.height)};
-  constexpr double well_shaded = 0.3;  // metres a metre
+  constexpr double well_shaded = 0.3;  // m/m
   constexpr double most_exaggeration = 5;
   const double steep = quantile(samples, &Sample::steepness, 0.85, 0);
   const double exaggeration =
@@ -334,7 +336,7 @@ std::vector<std::byte> picture(const GroundSurface& surface, const SurfacePictur
 
   fill(canvas, {0, 0, static_cast<double>(options.width), static_cast<double>(options.height)},
        page_color);
-  // The panel is seldom a square: what is drawn reaches to its longer sides.
+  // The panel is usually not square: draw up to its longer sides.
   const double reach =
       std::min<double>(surface.extent(), std::max(layout.panel.width, layout.panel.height) /
                                              (2 * view.pixels_per_metre()));

@@ -10,14 +10,14 @@
 
 namespace flagstone::render {
 
-/// What goes into a picture of the ground besides the ground.
+/// Options of an image of the ground surface.
 struct SurfacePicture {
-  /// First and second line above the picture, UTF-8; what does not fit is cut out of the middle.
+  /// First and second line above the map, UTF-8; a text that is too long is cut in its middle.
   std::string title;
   std::string subtitle;
 
-  /// Half of the picture's shorter side, metres, 1 to 1,000. 0 takes what holds 98 % of the
-  /// surface's confidence, rounded up to 10 m.
+  /// Half of the shorter side of the map, metres, 1 to 1,000. 0: the range that contains 98 % of
+  /// the confidence of the surface, rounded up to 10 m.
   float range = 0;
 
   /// Pixels, each 320 to 8,192.
@@ -25,14 +25,13 @@ struct SurfacePicture {
   int height = 1780;
 };
 
-/// Draws the ground as a map and writes it as a PNG file: x, forward, up and y, left, to the left;
-/// shaded as if light fell from the upper left, coloured by height, with contour lines, paler where
-/// the surface is less sure, blank where it is not known. The same input gives the same bytes on
-/// the same machine; fonts are the system's.
+/// Draws the ground as a map and writes it as a PNG file: x (forward) points up, y (left) points
+/// left. The map is coloured by height, shaded with light from the upper left, and has contour
+/// lines. It is paler at low confidence, and blank where the ground is unknown. Output is
+/// deterministic on one machine; fonts come from the system.
 ///
-/// Fails with `invalid_argument` for options out of range and for a surface that is empty; with
-/// `unwritable` where the file cannot be written, and then nothing is left behind; with
-/// `out_of_memory`.
+/// `invalid_argument` if options are out of range or the surface is empty; `unwritable` if the file
+/// cannot be written, which leaves no file behind; `out_of_memory`.
 [[nodiscard]] Status draw_surface(const std::filesystem::path& png, const GroundSurface& surface,
                                   const SurfacePicture& options) noexcept;
 

@@ -14,8 +14,8 @@ namespace {
 
 bool continues(unsigned char byte) noexcept { return (byte & 0xC0u) == 0x80u; }
 
-// Length of the well-formed UTF-8 character that `text` begins with, 0 if there is none. RFC 3629,
-// section 4: neither overlong forms nor surrogates nor anything above U+10FFFF.
+// Length of the well-formed UTF-8 character at the start of `text`, or 0 if there is none. RFC
+// 3629, section 4: no overlong forms, no surrogates, nothing above U+10FFFF.
 std::size_t character_length(std::string_view text) noexcept {
   const auto byte = [text](std::size_t i) noexcept {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : static_cast<unsigned char>(0);
@@ -46,7 +46,7 @@ void select(cairo_t* context, const Font& font) noexcept {
   cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          font.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context, font.size);
-  // Grey edges and unhinted widths, whatever the desktop's settings say.
+  // Grey edges and unhinted widths, independent of desktop settings.
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -55,8 +55,8 @@ void select(cairo_t* context, const Font& font) noexcept {
   cairo_font_options_destroy(options);
 }
 
-// Where the system has no font, Cairo writes with strokes of its own, which only ASCII has. `room`
-// holds the text then; where there is no memory for it, boxes stand for other characters.
+// If the system has no font, Cairo uses its built-in stroke font, which supports only ASCII. `room`
+// then stores the replaced text. Without memory for it, other characters appear as boxes.
 const char* shown(cairo_t* context, const std::string& text, std::string& room) noexcept try {
   if (cairo_scaled_font_get_type(cairo_get_scaled_font(context)) != CAIRO_FONT_TYPE_USER) {
     return text.c_str();
@@ -83,7 +83,7 @@ double aligned_left(cairo_t* context, double x, const std::string& text, const F
   return x;
 }
 
-// The first `head` and the last `tail` bytes, widened to whole characters.
+// The first `head` and last `tail` bytes, reduced to whole characters.
 std::string without_middle(const std::string& text, std::size_t head, std::size_t tail) {
   while (head > 0 && continues(static_cast<unsigned char>(text[head]))) --head;
   std::size_t resume = text.size() - tail;
@@ -118,7 +118,7 @@ double text_width(cairo_t* context, const std::string& text, const Font& font) n
 }
 
 std::string fitted(cairo_t* context, std::string_view text, const Font& font, double width) {
-  // No picture has room for more; it bounds the search below.
+  // More does not fit into any image; the limit bounds the search below.
   constexpr std::size_t longest = 4096;
   std::string whole = printable(text.substr(0, longest));
   if (text_width(context, whole, font) <= width) return whole;

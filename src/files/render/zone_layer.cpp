@@ -26,15 +26,15 @@ double inner_radius(const PatchworkConfig& config, std::size_t zone, std::size_t
   return zone > 0 ? config.zones[zone - 1].ring_radii.back() : config.min_range;
 }
 
-// Angle at which a sector begins, radians counter-clockwise from x.
+// Start angle of a sector, radians counter-clockwise from x.
 double sector_begin(const PatchworkConfig& config, const Zone& zone, int sector) noexcept {
   const FieldOfView& view = config.field_of_view;
   const double share = static_cast<double>(sector) / zone.sectors;
   return (view.begin + share * view.width) * std::numbers::pi / 180;
 }
 
-// Appends one bin to the path, in metres. All bins turn the same way, so that together they fill
-// without a seam where they touch.
+// Appends one bin to the path, in metres. All bins have the same orientation, so that adjacent bins
+// are filled without a seam.
 void add_bin(cairo_t* context, const PatchworkConfig& config, const Patch& patch) noexcept {
   const Zone& zone = config.zones[patch.zone];
   const double begin = sector_begin(config, zone, patch.sector);
@@ -45,7 +45,7 @@ void add_bin(cairo_t* context, const PatchworkConfig& config, const Patch& patch
   cairo_close_path(context);
 }
 
-// A circle, or what the field of view leaves of it.
+// Appends a circle, or the arc of it within the field of view.
 void add_circle(cairo_t* context, const PatchworkConfig& config, double radius) noexcept {
   const Zone& zone = config.zones.front();
   cairo_new_sub_path(context);
@@ -91,10 +91,10 @@ Status check_bins(std::span<const Patch> patches, const PatchworkConfig& config)
   if (stranger == patches.end()) return {};
   return Status(
       StatusCode::invalid_argument,
-      fmt::format(
-          "picture: patch {} is zone {}, ring {}, sector {}, which the configuration does not "
-          "have; pass the one that the scan was segmented with",
-          stranger - patches.begin(), stranger->zone, stranger->ring, stranger->sector));
+      fmt::format("image: patch {} is zone {}, ring {}, sector {}, which the configuration does "
+                  "not contain "
+                  "(expected the configuration that the scan was segmented with)",
+                  stranger - patches.begin(), stranger->zone, stranger->ring, stranger->sector));
 }
 
 void tint_bins(const Canvas& canvas, const TopView& view, std::span<const Patch> patches,

@@ -11,28 +11,29 @@
 
 namespace flagstone::render {
 
-/// Name of a verdict in the legend, and the colour its bins are filled with.
+/// Name of a patch status in the legend, and the colour of its bins.
 struct VerdictLook {
   Verdict verdict;
   const char* name;
   Color color;
 };
 
-/// All verdicts on bins of zones in the legend's order: those that `surface` alone gives are not
-/// among them.
+/// Every status that a bin of zones can have, in the order of the legend. Statuses that only
+/// `surface` uses are not included.
 std::span<const VerdictLook> verdict_looks() noexcept;
 
-/// How much of what lies below a tinted bin its colour covers, 0 to 1.
+/// Opacity of the colour of a tinted bin, 0 to 1.
 inline constexpr double tint_opacity = 0.42;
 
-/// Whether every patch is a bin of these zones: `invalid_argument` with the first that is not.
+/// Checks that every patch is a bin of these zones: `invalid_argument` with the first that is not.
 Status check_bins(std::span<const Patch> patches, const PatchworkConfig& config);
 
-/// Fills the bins of the patches, which check_bins has passed, by verdict.
+/// Fills the bins of the patches with the colours of their status. check_bins() must have accepted
+/// the patches.
 void tint_bins(const Canvas& canvas, const TopView& view, std::span<const Patch> patches,
                const PatchworkConfig& config) noexcept;
 
-/// Draws the edges of all bins; those between zones stand out.
+/// Draws the edges of all bins; edges between zones are emphasized.
 void draw_zone_lines(const Canvas& canvas, const TopView& view, const PatchworkConfig& config,
                      double unit) noexcept;
 

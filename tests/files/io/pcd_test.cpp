@@ -349,7 +349,8 @@ const Header binary{.width = "WIDTH 2\n", .points = "POINTS 2\n", .data = "DATA 
 
 TEST(PcdBinary, RejectsATruncatedFile) {
   EXPECT_THAT(error_of(binary, std::string(23, 'a')),
-              is_bad_at(binary.end() + 23, "2 points of 12 bytes, but the remaining 23 bytes contain only 1"));
+              is_bad_at(binary.end() + 23,
+                        "2 points of 12 bytes, but the remaining 23 bytes contain only 1"));
 }
 
 TEST(PcdBinary, RejectsHugeCounts) {

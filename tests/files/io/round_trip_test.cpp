@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What is written reads the same, whatever the fields.
+// Every format reads back what it writes, for clouds with any fields.
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

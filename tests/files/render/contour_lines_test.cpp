@@ -39,7 +39,7 @@ double length_of(const ContourLine& line) {
   return length;
 }
 
-/// Neither of two lines is traced from any particular end.
+/// Equality of lines, traced from either end.
 ContourLine from_the_left(ContourLine line) {
   if (line.back().column < line.front().column) std::ranges::reverse(line);
   return line;
@@ -101,7 +101,7 @@ TEST(ContourLines, PassASaddleOnTheSameSideAsTheSurface) {
   ASSERT_EQ(below.size(), 2U);  // around the low corners
   EXPECT_THAT(below[0], UnorderedElementsAre(GridPlace{0.75, 0}, GridPlace{1, 0.25}));
   EXPECT_THAT(below[1], UnorderedElementsAre(GridPlace{0, 0.75}, GridPlace{0.25, 1}));
-  ASSERT_EQ(above.size(), 2U);  // around the high ones
+  ASSERT_EQ(above.size(), 2U);  // around the high corners
   EXPECT_THAT(above[0], UnorderedElementsAre(GridPlace{0.25, 0}, GridPlace{0, 0.25}));
   EXPECT_THAT(above[1], UnorderedElementsAre(GridPlace{1, 0.75}, GridPlace{0.75, 1}));
 }
@@ -127,12 +127,12 @@ TEST(ContourLines, EndAtInfiniteHeights) {
   EXPECT_THAT(lines[0], UnorderedElementsAre(GridPlace{1, 0.5}, GridPlace{2, 0.5}));
 }
 
-/// A place on a side of a square is passed once if its ends are on two sides of the level and a
-/// known square lies at it: so many places there are, counting those of a closed line once.
+/// Counts the sides that contour lines must cross: both ends known, one above and one below the
+/// level, and next to a known square. A closed line crosses each side once.
 std::size_t passed_sides(const std::vector<float>& heights, std::size_t width, float level) {
   const std::size_t rows = heights.size() / width;
   const auto known = [&](std::size_t column, std::size_t row) {
-    // Before the first is, by unsigned numbers, beyond the last.
+    // Unsigned wrap-around: a sample before the first is beyond the last.
     if (column >= width - 1 || row >= rows - 1) return false;
     const std::size_t i = row * width + column;
     return std::isfinite(heights[i] + heights[i + 1] + heights[i + width] + heights[i + width + 1]);

@@ -50,7 +50,7 @@ TEST_F(BirdsEyeErrors, RejectsACloudWithoutMemory) {
   const Status status = draw_birds_eye(png_, CloudView(nullptr, 1), scan_.result, options_);
 
   EXPECT_EQ(status.code(), StatusCode::invalid_argument);
-  EXPECT_THAT(status.message(), HasSubstr("has no memory"));
+  EXPECT_THAT(status.message(), HasSubstr("but no memory"));
 }
 
 TEST_F(BirdsEyeErrors, RejectsAReferenceOfAnotherLength) {
@@ -62,7 +62,7 @@ TEST_F(BirdsEyeErrors, RejectsAReferenceOfAnotherLength) {
 
 TEST_F(BirdsEyeErrors, ReportsTheLimitsOfTheSize) {
   options_.width = 319;
-  EXPECT_THAT(refusal(), HasSubstr("319 x 890 pixels; each may be 320 to 8192"));
+  EXPECT_THAT(refusal(), HasSubstr("319 x 890 pixels (expected 320 to 8192 each)"));
   options_.width = 800;
   options_.height = 8193;
   EXPECT_THAT(refusal(), HasSubstr("800 x 8193 pixels"));
@@ -79,7 +79,7 @@ TEST_F(BirdsEyeErrors, ReportsTheLimitsOfTheRange) {
 TEST_F(BirdsEyeErrors, RejectsTintedPatchesWithoutZones) {
   options_.tint_patches = true;
 
-  EXPECT_THAT(refusal(), HasSubstr("needs the zones"));
+  EXPECT_THAT(refusal(), HasSubstr("requires the zones"));
 }
 
 TEST_F(BirdsEyeErrors, ReportsAnInvalidConfiguration) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// Built with what stands in for drawing where there is no Cairo.
+// Built with the functions that replace drawing without Cairo.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -19,12 +19,12 @@ namespace flagstone::render {
 bool operator==(const Color& a, const Color& b) noexcept;
 void PrintTo(const Color& color, std::ostream* out);
 
-/// Points that are rightly ground, wrongly not ground, wrongly ground.
+/// Colours of true positives, false negatives and false positives.
 inline constexpr Color green{44, 166, 96};
 inline constexpr Color blue{66, 140, 255};
 inline constexpr Color red{255, 72, 56};
 
-/// A PNG file read back with Cairo; without pixels where it is no valid picture.
+/// A PNG file read back with Cairo. It has no pixels if the file is not a valid image.
 class Picture {
  public:
   explicit Picture(const std::filesystem::path& png);
@@ -33,10 +33,10 @@ class Picture {
   [[nodiscard]] int height() const noexcept { return height_; }
   [[nodiscard]] Color at(double column, double row) const;
 
-  /// How many pixels of `part` have exactly this colour.
+  /// Number of pixels of `part` with exactly this colour.
   [[nodiscard]] std::size_t count(const Rectangle& part, Color color) const;
 
-  /// Middle of the pixels of `part` that have exactly this colour; there must be some.
+  /// Mean position of the pixels of `part` with exactly this colour. At least one must exist.
   struct Place {
     double column, row;
   };
@@ -51,7 +51,7 @@ class Picture {
   std::vector<Color> pixels_;
 };
 
-/// Points with the labels a segmenter would have given them.
+/// Points with labels, as from a segmenter.
 struct LabelledScan {
   std::vector<Point> points;
   Segmentation result;
@@ -63,7 +63,7 @@ struct LabelledScan {
   std::vector<Label> labels_;
 };
 
-/// Draws into a folder of its own, which goes with the test.
+/// Draws into a temporary directory, which is removed after the test.
 class PictureTest : public testing::Test {
  public:
   PictureTest(const PictureTest&) = delete;
@@ -73,10 +73,10 @@ class PictureTest : public testing::Test {
   PictureTest();
   ~PictureTest() override;
 
-  /// Draws the scan, expects success and reads the picture back.
+  /// Draws the scan, expects success and reads the image back.
   Picture draw(const LabelledScan& scan);
 
-  /// Where points are drawn in pictures of the options' size.
+  /// Positions of points in images of the size in the options.
   [[nodiscard]] Rectangle panel() const noexcept;
 
   std::filesystem::path folder_;
@@ -84,7 +84,7 @@ class PictureTest : public testing::Test {
   BirdsEye options_;
 };
 
-/// A file's bytes; empty where there is none.
+/// The bytes of a file; empty if it does not exist.
 std::string bytes_of(const std::filesystem::path& file);
 
 }  // namespace flagstone::render

@@ -13,7 +13,7 @@ constexpr Color faint{70, 77, 87};
 
 class BirdsEyeComparison : public PictureTest {
  protected:
-  // A picture of one point with this label and truth.
+  // An image of one point with this label and ground truth.
   Picture draw_one(Label label, Truth truth) {
     LabelledScan scan;
     scan.add(20, 10, 0, label);

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Pictures of one point, which is ground, at x = 20 m, y = 10 m.
+// Images of one ground point at x = 20 m, y = 10 m.
 class SideBySideImage : public PictureTest {
  protected:
   SideBySideImage() {
@@ -34,7 +34,7 @@ class SideBySideImage : public PictureTest {
     return render_side_by_side(scan_.cloud(), truth_, panels_, side_by_side_, bytes_);
   }
 
-  // Renders, expects success and reads the picture back.
+  // Renders, expects success and reads the image back.
   Picture draw_panels() {
     const Status status = render();
     EXPECT_TRUE(status.ok()) << status.message();
@@ -44,7 +44,7 @@ class SideBySideImage : public PictureTest {
     return Picture(png_);
   }
 
-  // Renders, expects invalid_argument and no picture, and returns the message.
+  // Renders, expects invalid_argument and no image, and returns the message.
   std::string refusal() {
     const Status status = render();
     EXPECT_EQ(status.code(), StatusCode::invalid_argument);
@@ -136,7 +136,7 @@ TEST_F(SideBySideImage, AcceptsAScanWithoutPoints) {
 }
 
 TEST_F(SideBySideImage, RejectsNoPanelsAndTooManyPanels) {
-  EXPECT_THAT(refusal(), HasSubstr("0 panels; there may be 1 to 30"));
+  EXPECT_THAT(refusal(), HasSubstr("0 panels (expected 1 to 30)"));
   for (int panel = 0; panel < 31; ++panel) add_panel(found_);
   EXPECT_THAT(refusal(), HasSubstr("31 panels"));
 }

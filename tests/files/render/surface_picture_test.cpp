@@ -36,12 +36,12 @@ class SurfaceImage : public testing::Test {
     return {arrange(options_.width, options_.height, 1).panel, options_.range};
   }
 
-  /// The colour at metres (x, y).
+  /// The colour at (x, y), metres.
   [[nodiscard]] Color color(const Picture& picture, double x, double y) const {
     return picture.at(view().column(y), view().row(x));
   }
 
-  /// Whether a contour line or a bold one passes within two pixels ahead or behind of (x, y).
+  /// Whether a thin or bold contour line is within two pixels ahead of or behind (x, y).
   [[nodiscard]] bool has_line(const Picture& picture, double x, double y) const {
     const double ground = lightness(color(picture, x + 0.5, y));
     double darkest = 255;
@@ -86,7 +86,7 @@ TEST_F(SurfaceImage, BrightensSlopesThatDescendToTheUpperLeft) {
 
   const Picture picture = draw(tests::random_surface(ridge));
 
-  // Of the same height, ahead to the left and behind to the right.
+  // Two points of the same height: ahead to the left, and behind to the right.
   EXPECT_GT(lightness(color(picture, 3.1, 3.2)), lightness(color(picture, -3.1, -3.2)) + 30);
 }
 
@@ -101,7 +101,7 @@ TEST_F(SurfaceImage, IsPalerWhereConfidenceIsLower) {
 }
 
 TEST_F(SurfaceImage, DrawsALineAtEachContourHeight) {
-  // From -4 m behind to 0 m ahead: lines half a metre, that is 5 m, apart.
+  // Heights from -4 m behind to 0 m ahead, a line per 0.5 m: lines are 5 m apart.
   const Picture picture = draw(tests::random_surface([](float x, float) { return -2 + 0.1f * x; }));
 
   for (const double x : {-15.0, -10.0, -5.0, 0.0, 5.0, 10.0, 15.0})
@@ -152,7 +152,8 @@ TEST_F(SurfaceImage, RejectsAnEmptySurface) {
   const Status status = draw_surface(png_, GroundSurface(), options_);
 
   EXPECT_EQ(status.code(), StatusCode::invalid_argument);
-  EXPECT_EQ(status.message(), "surface picture: there is no surface; its method makes none");
+  EXPECT_EQ(status.message(),
+            "surface image: there is no surface (the method does not provide one)");
   EXPECT_FALSE(std::filesystem::exists(png_));
 }
 
@@ -160,7 +161,7 @@ TEST_F(SurfaceImage, RejectsSizesAndRangesOutOfLimits) {
   const GroundSurface surface = tests::random_surface([](float, float) { return 0.0f; });
   options_.width = 100;
   EXPECT_EQ(draw_surface(png_, surface, options_).message(),
-            "surface picture: size 100 x 890 pixels; each may be 320 to 8192");
+            "surface image: size 100 x 890 pixels (expected 320 to 8192 each)");
   options_.width = 800;
   options_.range = nan;
   EXPECT_EQ(draw_surface(png_, surface, options_).code(), StatusCode::invalid_argument);

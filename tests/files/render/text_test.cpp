@@ -26,9 +26,9 @@ TEST(PrintableText, KeepsUtf8) {
 TEST(PrintableText, ReplacesControlCharacters) { EXPECT_EQ(printable("a\nb\tc\x7f"), "a?b?c?"); }
 
 TEST(PrintableText, ReplacesEveryByteThatIsNotUtf8) {
-  EXPECT_EQ(printable("a\x80z"), "a?z");             // no first byte
-  EXPECT_EQ(printable("\xc3"), "?");                 // cut short
-  EXPECT_EQ(printable("\xe2\x82z"), "??z");          // cut short
+  EXPECT_EQ(printable("a\x80z"), "a?z");             // not a first byte
+  EXPECT_EQ(printable("\xc3"), "?");                 // truncated
+  EXPECT_EQ(printable("\xe2\x82z"), "??z");          // truncated
   EXPECT_EQ(printable("\xc0\xaf"), "??");            // overlong
   EXPECT_EQ(printable("\xe0\x80\xaf"), "???");       // overlong
   EXPECT_EQ(printable("\xf0\x80\x80\xaf"), "????");  // overlong
@@ -47,7 +47,7 @@ TEST(Text, UsesOnlyAsciiWithoutFonts) {
     const auto width = [&](const char* text) { return text_width(canvas.context(), text, font); };
     return width("\u22121.5") == width("-1.5") && width("a\u2026") == width("a...");
   };
-  GTEST_FLAG_SET(death_test_style, "threadsafe");  // fonts are looked for once a process
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // fonts are loaded once per process
   EXPECT_EXIT(std::_Exit(is_ascii_without_fonts() ? 0 : 1), testing::ExitedWithCode(0), "");
 }
 
@@ -84,7 +84,7 @@ TEST_F(FittedText, IsNotCutWithinACharacter) {
 
 class BirdsEyeHeading : public PictureTest {
  protected:
-  // Pixels above the panel that are not blank, and of them those in the right margin.
+  // Number of pixels above the panel that are not blank, and of these in the right margin.
   std::pair<std::size_t, std::size_t> ink(const std::string& title) {
     options_.title = title;
     const Picture picture = draw({});

@@ -16,7 +16,7 @@
 namespace flagstone::render {
 namespace {
 
-constexpr Color teal{9, 77, 62};  // that of ground patches on the panel
+constexpr Color teal{9, 77, 62};  // colour of ground patches on the panel
 
 class BirdsEyeZones : public PictureTest {
  protected:
@@ -28,7 +28,7 @@ class BirdsEyeZones : public PictureTest {
     options_.height = 1780;
   }
 
-  // The colour at a distance, metres, in a direction, degrees counter-clockwise from x.
+  // The colour at a distance in metres and a direction in degrees counter-clockwise from x.
   Color at(const Picture& picture, double distance, double degrees) const {
     const TopView view(panel(), options_.range);
     const double angle = degrees * std::numbers::pi / 180;
