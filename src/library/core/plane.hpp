@@ -21,8 +21,8 @@ struct PrincipalAxes {
 /// do not depend on a mathematical library.
 ///
 /// If the points do not determine a plane, the plane with the most upright normal is used. For
-/// points on a line (lambda_2 - lambda_3 at most 1e-6 of the trace), it is the least tilted plane
-/// that contains the line. For points at a single position, it is horizontal.
+/// points on a line (lambda_2 - lambda_3 at most 1e-6 of the trace), it is the plane with the
+/// smallest tilt that contains the line. For points at a single position, it is horizontal.
 ///
 /// A normal with z within 1e-6 of 0 is made horizontal, and the larger of its x and y is made
 /// positive. Otherwise rounding would decide which side is up.

@@ -12,7 +12,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/patchwork/bin_labels.cpp"
 #include <hwy/foreach_target.h>
-// The above includes this file once for each instruction set.
+// foreach_target.h includes this file once per instruction set.
 #include "library/plane_fits/ground_set-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,8 +23,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 using namespace flagstone::plane_fits::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): sets
 
-/// Eq. (12): labels of the points of a bin in their packed order, one byte for each place; ground
-/// if in the final ground set.
+/// Eq. (12): writes the labels of the points of a bin in packed order, one byte per element. Points
+/// in the final ground set are ground.
 LabelCounts label_bin(const plane_fits::BinBatch& batch, std::size_t bin,
                       const plane_fits::GroundSet& set, std::uint8_t* HWY_RESTRICT labels) {
   const FloatTag d;
@@ -52,8 +52,8 @@ LabelCounts label_bin(const plane_fits::BinBatch& batch, std::size_t bin,
 
 #if HWY_TARGET <= HWY_AVX3
 
-/// Copies a run's labels, up to 64 at once. No byte outside of it is touched: a neighbour may
-/// belong to another thread.
+/// Copies the labels of a run, up to 64 at once. Never writes a byte outside the run, because its
+/// neighbours may belong to another thread.
 HWY_INLINE void copy_run(const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
   const hn::ScalableTag<std::uint8_t> d;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
@@ -69,7 +69,7 @@ HWY_INLINE void copy_ends(const std::uint8_t* from, std::size_t count, std::uint
   std::memcpy(to + count - size, from + count - size, size);
 }
 
-/// Copies a run's labels. Most are few, and memcpy of an unknown size costs more than they.
+/// Copies the labels of a run. Most runs are short, and a memcpy of unknown size is slow for them.
 HWY_INLINE void copy_run(const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
   if (count >= 16) {
     for (std::size_t i = 0; i + 16 <= count; i += 16) std::memcpy(to + i, from + i, 16);
@@ -103,8 +103,8 @@ namespace {
 HWY_EXPORT(label_bin);
 HWY_EXPORT(copy_runs);
 
-/// Of the points of a bin that are noise, makes those ground that lie in a plane of their own;
-/// returns how many. In double precision: few bins have such points.
+/// Labels noise points of a bin that form a separate plane as ground. Returns their number. Uses
+/// double precision, because few bins have such points.
 std::uint32_t label_lower_ground(const plane_fits::BinBatch& batch, std::size_t bin,
                                  std::uint8_t* labels) {
   const auto each_deep = [&](const auto& work) {

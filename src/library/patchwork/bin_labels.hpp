@@ -16,11 +16,12 @@
 
 namespace flagstone::patchwork {
 
-/// How many points of a bin got these labels.
+/// Number of points of a bin per label.
 struct LabelCounts {
   std::uint32_t ground = 0;
   std::uint32_t noise = 0;
-  std::uint32_t lower_ground = 0;  ///< of the ground, points in a separate plane below the set
+  std::uint32_t lower_ground =
+      0;  ///< ground points in a separate plane below; included in `ground`
 };
 
 /// Labels the points of bins, in the order of the cloud.
@@ -30,22 +31,21 @@ class BinLabels {
       : depth_(config.lower_plane_margin + config.distance_margin),
         finds_lower_ground_(std::isfinite(config.lower_plane_margin)) {}
 
-  /// Makes room for bins of `points` points; may throw std::bad_alloc.
+  /// Reserves memory for bins with up to `points` points. May throw std::bad_alloc.
   void reserve(std::size_t points) { packed_.reserve(points + 128); }
 
-  /// Labels the points of bin `i` of the batch: those in its final ground set are ground, eq. (12),
-  /// those above it nonground. Points farther below the plane than the lower plane margin are
-  /// ground if they form a separate plane, otherwise noise.
+  /// Labels the points of bin `i` of the batch. Points in its final ground set are `ground`, eq.
+  /// (12); points above it are `nonground`. Points farther below the plane than the lower plane
+  /// margin are `ground` if they form a separate plane, otherwise `noise`.
   LabelCounts write(const plane_fits::BinBatch& batch, std::size_t i, plane_fits::GroundSet set,
                     const plane_fits::BinGroups& groups, std::span<Label> labels) noexcept;
 
-  /// Gives all points of a bin one label.
-  /// Returns how many they are.
+  /// Gives all points of a bin the same label. Returns the number of points.
   static std::uint32_t fill(const plane_fits::BinGroups& groups, std::uint32_t bin, Label label,
                             std::span<Label> labels) noexcept;
 
  private:
-  float depth_;  ///< of the final ground set, from its top, metres
+  float depth_;  ///< depth of the final ground set below its top, metres
   bool finds_lower_ground_;
   Buffer<std::uint8_t> packed_;  ///< labels of one bin, in the order of its points
 };

@@ -14,7 +14,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/patchwork/concentric_zones.cpp"
 #include <hwy/foreach_target.h>
-// The above includes this file once for each instruction set.
+// foreach_target.h includes this file once per instruction set.
 #include "library/core/simd/lanes-inl.hpp"
 #include "library/plane_fits/read_slice-inl.hpp"
 
@@ -25,15 +25,15 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// theta of eq. (3) as a share of a full turn, counted from -pi: 0 to 1, within 1e-7; exact on the
-/// axes and diagonals, which sectors begin at, NaN at the origin. By + - * / alone, so that every
-/// instruction set has the same bits.
+/// theta of eq. (3), counted from -pi, as a fraction of a full turn: 0 to 1, with an error of at
+/// most 1e-7. Exact on the axes and diagonals, where sectors begin; NaN at the origin. Uses only +
+/// - * /, so that results are bit-identical on every instruction set.
 HWY_INLINE FloatVector turn_of(FloatVector x, FloatVector y) {
   const FloatTag d;
   const FloatVector ax = hn::Abs(x);
   const FloatVector ay = hn::Abs(y);
-  // arctan(t) / 2 pi on [0, 1]: odd polynomial of small greatest error, 6e-8 before rounding,
-  // and 1/8 at 1 to the last bit.
+  // arctan(t) / 2 pi on [0, 1]: odd polynomial with a maximum error of 6e-8 before rounding, and
+  // exactly 1/8 at t = 1.
   const FloatVector t = hn::Div(hn::Min(ax, ay), hn::Max(ax, ay));
   const FloatVector t2 = hn::Mul(t, t);
   FloatVector p = hn::Set(d, 0.001084128f);
@@ -49,8 +49,8 @@ HWY_INLINE FloatVector turn_of(FloatVector x, FloatVector y) {
   return hn::Add(hn::Set(d, 0.5f), hn::CopySignToAbs(half, y));
 }
 
-/// Ring i of zone m, eqs. (2) and (3): which one holds rho^2, by a walk down the tree. `few`: at
-/// most 16 rings, all tables in registers.
+/// The ring that contains rho^2, eqs. (2) and (3), found by descending the tree. `few`: there are
+/// at most 16 rings, so that all tables fit into registers.
 template <bool few>
 HWY_INLINE IntVector ring_of(FloatVector squared_range, const RingTree& tree) {
   const FloatTag d;
@@ -64,7 +64,7 @@ HWY_INLINE IntVector ring_of(FloatVector squared_range, const RingTree& tree) {
   IntVector node = step(hn::Zero(di), hn::Set(d, level[0][0]));
   for (std::size_t l = 1; l < 4; ++l) node = step(node, lookup_8(level[l].data(), node));
   if constexpr (!few) {
-    node = step(node, lookup_16(level[4].data(), node));  // 17 rings and more have a fifth level
+    node = step(node, lookup_16(level[4].data(), node));  // 17 or more rings have a fifth level
     for (std::size_t l = 5; l < tree.boundaries.size(); ++l) {
       node = step(node, hn::GatherIndex(d, level[l].data(), node));
     }
@@ -85,7 +85,7 @@ HWY_INLINE IntVector all_lanes(std::uint32_t bin) {
   return hn::Set(IntTag(), static_cast<std::int32_t>(bin));
 }
 
-/// The bins of points some of which may have none: these are out_of_range() or invalid().
+/// Replaces the bins of points without a bin by out_of_range() or invalid().
 HWY_INLINE IntVector with_binless(IntVector bins, FloatVector squared_range, FloatVector x,
                                   FloatVector y, FloatVector z, const ConcentricZones& zones) {
   const FloatTag d;
@@ -100,40 +100,41 @@ HWY_INLINE IntVector with_binless(IntVector bins, FloatVector squared_range, Flo
   return hn::IfThenElse(hn::RebindMask(di, hn::And(in_range, valid)), bins, binless);
 }
 
-/// How far into the field of view, as a share of it: below 1 within, 1 or more outside. `turn` as
-/// of turn_of.
+/// Position within the field of view, as a fraction of its width: below 1 inside, 1 or more
+/// outside. `turn` is a result of turn_of.
 HWY_INLINE FloatVector share_of_view(FloatVector turn, const ConcentricZones& zones) {
   const FloatTag d;
   const FloatVector one = hn::Set(d, 1.0f);
-  const FloatVector once = hn::IfThenElseZero(hn::Lt(turn, one), turn);  // theta = pi is -pi
+  const FloatVector once = hn::IfThenElseZero(hn::Lt(turn, one), turn);  // theta = pi counts as -pi
   const FloatVector beyond = hn::Sub(once, hn::Set(d, zones.begin_turn()));
-  // Just before where it begins is a full turn after it, which rounding must not reach.
+  // Directions just before the start are almost a full turn after it; rounding must not reach 1.
   const FloatVector before = hn::Min(hn::Add(beyond, one), hn::Set(d, 1 - 0x1p-24f));
   const FloatVector from_begin = hn::IfThenElse(hn::Lt(beyond, hn::Zero(d)), before, beyond);
   return hn::Div(from_begin, hn::Set(d, zones.turns()));
 }
 
-/// Sector j of eq. (3); theta = pi itself counts as -pi.
+/// Sector j of eq. (3); theta = pi counts as -pi.
 HWY_INLINE IntVector sector_of(FloatVector turn, FloatVector sectors) {
   const FloatVector turns = hn::Mul(turn, sectors);
   return whole_part(hn::IfThenElseZero(hn::Lt(turns, sectors), turns));
 }
 
-/// The same of a field of view; rounding must not lead from the last sector to the first.
+/// Sector within a field of view. Rounding must not lead past the last sector.
 HWY_INLINE IntVector sector_of_view(FloatVector share, FloatVector sectors) {
   const FloatVector last = hn::Sub(sectors, hn::Set(FloatTag(), 1.0f));
   const FloatVector sector = hn::Mul(share, sectors);
   return whole_part(hn::IfThenElse(hn::Lt(sector, sectors), sector, last));
 }
 
-/// The bins of points, each a bin, noise(), out_of_range() or invalid(). Takes any bit pattern.
-/// `in_view`: the zones have a field of view of their own; else sector 0 begins at theta = -pi.
+/// The bins of points: each is a bin, noise(), out_of_range() or invalid(). Coordinates may have
+/// any value, including NaN, infinity and denormals. `in_view`: the zones have a limited field of
+/// view; otherwise sector 0 begins at theta = -pi.
 template <bool few, bool in_view>
 HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z,
                             const ConcentricZones& zones) {
   const FloatTag d;
   const IntTag di;
-  const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));  // infinite if too far
+  const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));  // can be infinite
   const IntVector ring = ring_of<few>(squared_range, zones.tree());
 
   const FloatVector sectors = of_ring<few>(zones.sectors(), ring);
@@ -150,7 +151,7 @@ HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z,
     bins = hn::IfThenElse(hn::RebindMask(di, seen), bins, all_lanes(zones.out_of_range()));
   }
 
-  // Points straight above or below the sensor are looked at closely, too.
+  // Points straight above or below the sensor also take this slow path.
   const auto in_range =
       hn::And(hn::And(hn::Ge(squared_range, hn::Set(d, zones.least_squared_range())),
                       hn::Lt(squared_range, hn::Set(d, zones.max_squared_range()))),
@@ -218,7 +219,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace flagstone::patchwork {
 
-static_assert(most_bins + 3 < 1U << plane_fits::bin_bits);  // noise and the like included
+static_assert(most_bins + 3 <
+              1U << plane_fits::bin_bits);  // bins and the values for points without a bin
 
 namespace {
 HWY_EXPORT(locate_points);
@@ -228,10 +230,10 @@ float squared(float radius) {
   return static_cast<float>(static_cast<double>(radius) * static_cast<double>(radius));
 }
 
-/// M_h * h_s, metres. If the origin is not in the sensor, as far below the ground as it would be
-/// then.
+/// M_h * h_s, metres. If the origin is not at the sensor, the height at the same depth below the
+/// ground.
 double seed_floor(double margin, float sensor_height) {
-  if (std::isinf(margin)) return margin;  // none, whatever the height
+  if (std::isinf(margin)) return margin;  // no limit, whatever the height
   if (sensor_height > 0) return margin * sensor_height;
   return -double{sensor_height} + (margin + 1) * mounting_height(sensor_height);
 }
@@ -250,7 +252,7 @@ ConcentricZones::ConcentricZones(const PatchworkConfig& config) {
     }
   }
   least_squared_range_ = std::max(squared_radii_.front(), std::numeric_limits<float>::min());
-  // Where rho^2 is infinite the tree leads to its last leaf, ring or not.
+  // If rho^2 is infinite, the tree leads to its last leaf, even if that is not a ring.
   const std::size_t table_size = std::max(std::bit_ceil(rings_.size()), RingTree::few);
   for (std::vector<float>* table : {&sectors_, &first_bins_, &noise_heights_}) {
     table->resize(table_size);
@@ -258,7 +260,7 @@ ConcentricZones::ConcentricZones(const PatchworkConfig& config) {
   grow_tree();
 }
 
-/// Eq. (2): the zones are their rings, from the inside out.
+/// Eq. (2): adds the rings of the zones from the inside out.
 void ConcentricZones::add_ring(const PatchworkConfig& config, std::size_t zone, std::size_t ring) {
   const float inner = std::sqrt(squared_radii_.back());
   const float outer = config.zones[zone].ring_radii[ring];
@@ -282,7 +284,7 @@ void ConcentricZones::grow_tree() {
   for (std::size_t width = leaves; width > 1; width /= 2) {
     std::vector<float>& level = tree_.boundaries.emplace_back();
     for (std::size_t begin = 0; begin < leaves; begin += width) {
-      const std::size_t ring = begin + width / 2;  // the first one of the right half
+      const std::size_t ring = begin + width / 2;  // the first ring of the right half
       level.push_back(ring < rings_.size() ? squared_radii_[ring]
                                            : std::numeric_limits<float>::infinity());
     }

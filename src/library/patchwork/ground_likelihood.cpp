@@ -11,15 +11,15 @@
 namespace flagstone::patchwork {
 namespace {
 
-/// exp(x) that stays away from 0 and infinity, so that a very small scale gives a step, and a
-/// product of two such steps is never 0 * infinity.
+/// exp(x) with x clamped to -300 to 300. A very small scale then gives a step, and the product of
+/// two such steps is never 0 * infinity.
 double bounded_exp(double x) { return exponential(std::clamp(x, -300.0, 300.0)); }
 
 }  // namespace
 
 GroundLikelihood::GroundLikelihood(const PatchworkConfig& config, const std::vector<Ring>& rings)
     : uprightness_(config.uprightness),
-      // In single precision, so that what mathematics libraries differ by is rounded away.
+      // Single precision rounds away the differences between mathematical libraries.
       smallest_normal_z_(static_cast<float>(
           std::cos(std::numbers::pi / 2 - config.uprightness.angle * std::numbers::pi / 180))),
       elevation_scale_(config.elevation.scale),
@@ -68,7 +68,7 @@ void GroundLikelihood::judge(const Plane& plane, std::size_t ring, Patch& patch)
   patch.flatness = static_cast<float>(std::min(varphi, 1e30));
   patch.likelihood = static_cast<float>(std::min(f, 1e30));
   patch.surface_variable = static_cast<float>(sigma);
-  if (f > 0.5) {  // eq. (12): the patch's ground set is part of the ground
+  if (f > 0.5) {  // eq. (12): the ground set of the patch is part of the ground
     patch.verdict = psi < 0.5 ? Verdict::ground_flat : Verdict::ground;
   } else {
     patch.verdict = phi == 0 ? Verdict::not_upright : Verdict::too_high;

@@ -12,13 +12,14 @@
 
 namespace flagstone::patchwork {
 
-/// Ground Likelihood Estimation, section III-D, eqs. (7) to (12): is a fitted patch ground?
-/// The likelihood of a scan, eq. (7), is the product over its patches; each is decided by itself.
+/// Ground Likelihood Estimation, section III-D, eqs. (7) to (12): decides whether a fitted patch is
+/// ground. The likelihood of a scan, eq. (7), is a product over its patches, so each patch is
+/// evaluated separately.
 class GroundLikelihood {
  public:
   GroundLikelihood(const PatchworkConfig& config, const std::vector<Ring>& rings);
 
-  /// Fills the patch's terms and verdict. `plane` exists; `ring` counts over all zones.
+  /// Sets the terms and the status of the patch. `plane` must exist; `ring` counts over all zones.
   void judge(const Plane& plane, std::size_t ring, Patch& patch) const noexcept;
 
  private:

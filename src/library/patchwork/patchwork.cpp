@@ -32,8 +32,8 @@ using plane_fits::FitSettings;
 using plane_fits::ScanPoints;
 using plane_fits::StageClock;
 
-/// Patchwork, top to bottom: points into bins, a plane for each bin, a verdict for each plane,
-/// labels.
+/// Patchwork from top to bottom: sort points into bins, fit a plane to each bin, decide which
+/// planes are ground, write labels.
 struct Patchwork::Pipeline {
   Pipeline(PatchworkConfig given, unsigned threads);
 
@@ -43,7 +43,7 @@ struct Patchwork::Pipeline {
   /// A bin with enough points for a plane.
   struct FittedBin {
     std::uint32_t bin;
-    std::uint32_t patch;  ///< its index
+    std::uint32_t patch;  ///< index of its patch
     std::uint32_t ring;   ///< counted over all zones
   };
 
@@ -77,7 +77,7 @@ LabelTotals Patchwork::Pipeline::segment(CloudView cloud, Segmentation& result,
   std::vector<Patch>& patches = result.mutable_patches();
   fitters.clear_totals();
 
-  // Concentric Zone Model (III-B): every point into its bin, eqs. (2) and (3)
+  // Concentric Zone Model (III-B): find the bin of each point, eqs. (2) and (3)
   pool.run(ScanPoints::chunk_count(cloud.size()), [&](std::size_t, std::size_t chunk) {
     patchwork::read_chunk(cloud, chunk, zones, scan);
   });
@@ -104,7 +104,7 @@ LabelTotals Patchwork::Pipeline::segment(CloudView cloud, Segmentation& result,
     }
     clock.end(Stage::solve);
 
-    // The ground, eq. (12): the final ground sets of the patches that are likely to be ground
+    // The ground, eq. (12): the final ground sets of the patches that the likelihood accepts
     for (std::size_t i = 0; i < bins.size(); ++i) {
       Patch& patch = patches[bins[i].patch];
       if (!patch.is_ground()) continue;
@@ -166,7 +166,7 @@ void Patchwork::Pipeline::label_points_without_bin(std::span<Label> labels) noex
   fill(zones.invalid(), Label::invalid, labels);
 }
 
-/// Gives all points of a bin one label; returns how many they are.
+/// Gives all points of a bin the same label. Returns the number of points.
 std::uint32_t Patchwork::Pipeline::fill(std::uint32_t bin, Label label,
                                         std::span<Label> labels) noexcept {
   const std::uint32_t count = BinLabels::fill(groups, bin, label, labels);
@@ -174,7 +174,7 @@ std::uint32_t Patchwork::Pipeline::fill(std::uint32_t bin, Label label,
   return count;
 }
 
-/// Adds one patch for each bin with points; returns the bins that have enough points for a plane.
+/// Adds one patch per bin with points. Returns the bins with enough points for a plane.
 std::span<Patchwork::Pipeline::FittedBin> Patchwork::Pipeline::list_patches(
     std::vector<Patch>& patches, std::span<Label> labels) noexcept {
   std::size_t count = 0;
@@ -191,7 +191,7 @@ std::span<Patchwork::Pipeline::FittedBin> Patchwork::Pipeline::list_patches(
       } else if (config.sparse_bins_are_ground) {
         patch.ground_count = fill(bin, Label::ground, labels);
       }
-      patches.push_back(patch);  // within what was reserved
+      patches.push_back(patch);  // within the reserved memory
     }
   }
   return {fitted_bins.data(), count};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// The rule of docs/reference/sensors.md: Patchwork's settings from where a sensor's beams meet flat
-// ground.
+// Derives the settings of Patchwork from the positions where the beams of a sensor meet flat
+// ground. docs/reference/sensors.md describes the rule.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -18,55 +18,56 @@
 namespace flagstone {
 namespace {
 
-/// A ring around a sensor, and the points that it has on flat ground there.
+/// A ring around a sensor, and the number of its points on flat ground.
 struct GroundRing {
   double inner = 0;   ///< metres
   double outer = 0;   ///< metres
-  int beams = 0;      ///< that meet flat ground between them; 0 beyond the last
-  double points = 0;  ///< in one full turn; of one beam beyond the last
+  int beams = 0;      ///< beams that meet flat ground in the ring; 0 beyond the last beam
+  double points = 0;  ///< points per full turn; beyond the last beam, the points of one beam
 
   [[nodiscard]] double length() const noexcept { return outer - inner; }
   [[nodiscard]] double middle() const noexcept { return (inner + outer) / 2; }
 };
 
-/// Where the beams of a sensor meet flat ground `height` metres below it, and how many points each
-/// of them has in a full turn. A rosette counts as beams that share out its points evenly over its
-/// field of view.
+/// The positions where the beams of a sensor meet flat ground at its height, and the number of
+/// points per beam and full turn. A rosette is treated as beams that distribute its points evenly
+/// over its field of view.
 class GroundBeams {
  public:
   explicit GroundBeams(const Sensor& sensor);
 
-  /// Distances from the point below the sensor, metres, ascending: height / tan(-elevation). Beams
-  /// that meet no ground within the sensor's range are not among them.
+  /// Distances from the point below the sensor, metres, ascending: height / tan(-elevation).
+  /// Excludes beams that do not meet ground within the range of the sensor.
   [[nodiscard]] const std::vector<double>& radii() const noexcept { return radii_; }
 
-  /// How far the beams meet ground that rises by `slope`, metres a metre, up to the sensor's range;
-  /// metres.
+  /// Maximum distance at which beams meet sloped ground, up to the range of the sensor; metres.
+  /// `slope` is in m/m.
   [[nodiscard]] double reach(double slope) const noexcept;
 
-  /// Points of a beam in a full turn; a narrow field of view holds its share of them.
+  /// Number of points per beam and full turn; a narrow field of view contains a part of them.
   [[nodiscard]] double points_a_turn() const noexcept { return points_a_turn_; }
 
  private:
   std::vector<double> radii_;
-  double least_fall_ = 0;  ///< of the flattest beam, metres a metre; negative where it rises
+  double least_fall_ = 0;  ///< downward slope of the highest beam, m/m; negative if it points up
   double height_ = 0;
   double max_range_ = 0;
   double points_a_turn_ = 0;
 };
 
-/// How long rings are to be.
+/// Minimum lengths of rings.
 struct RingLengths {
-  double first = 0;     ///< shortest length of the first ring, metres
-  double shortest = 0;  ///< of the others, metres
-  double one_beam = 0;  ///< of rings that hold one beam only, metres
-  double growth = 0;    ///< of the others as a share of the distance of their middle
-  double beyond = 0;    ///< of rings beyond the last beam, as a share of the distance they begin at
+  double first = 0;     ///< minimum for the first ring, metres
+  double shortest = 0;  ///< minimum for the other rings, metres
+  double one_beam = 0;  ///< minimum for rings with only one beam, metres
+  double growth = 0;    ///< minimum for the other rings, as a fraction of their mean radius
+  double beyond = 0;  ///< length of rings beyond the last beam, as a fraction of their inner radius
 };
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// Elevations of as many beams as would draw the same number of points one angle apart both ways.
+/// Elevations of beams that give the same number of points with equal horizontal and vertical
+/// spacing.
 std::vector<double> beams_of_rosette(const Sensor& sensor) {
   const double height = sensor.elevations.front() - sensor.elevations.back();
   const double width = sensor.azimuth_end - sensor.azimuth_begin;
@@ -91,7 +92,7 @@ bool is_long_enough(const GroundRing& ring, bool is_first, const RingLengths& le
   return ring.length() >= (is_first ? lengths.first : std::max(lengths.shortest, least));
 }
 
-/// Rings of those beams that meet flat ground.
+/// Rings of the beams that meet flat ground.
 std::vector<GroundRing> rings_of_beams(const GroundBeams& beams, double begin,
                                        const RingLengths& lengths) {
   const std::vector<double>& radii = beams.radii();
@@ -107,7 +108,7 @@ std::vector<GroundRing> rings_of_beams(const GroundBeams& beams, double begin,
     ring = {.inner = ring.outer};
   }
   if (ring.beams == 0) return rings;
-  // What is left is too short for a ring of its own.
+  // The rest is too short for a separate ring.
   if (rings.empty()) return {ring};
   rings.back().outer = ring.outer;
   rings.back().beams += ring.beams;
@@ -134,13 +135,13 @@ GroundBeams::GroundBeams(const Sensor& sensor)
 }
 
 double GroundBeams::reach(double slope) const noexcept {
-  const double fall = least_fall_ - slope;  // towards ground that rises beams fall less
+  const double fall = least_fall_ - slope;  // relative to sloped ground
   return fall * max_range_ <= height_ ? max_range_ : height_ / fall;
 }
 
-/// Rings from `begin` metres outward, each as short as `lengths` allow: while beams meet flat
-/// ground, edges halfway between them and no ring without one; then rings up to `reach` metres, for
-/// ground that rises. Empty where no beam meets flat ground beyond `begin`.
+/// Rings from `begin` metres outwards, each as short as `lengths` allow. As long as beams meet flat
+/// ground, edges are halfway between beams and every ring has a beam. Beyond them are rings up to
+/// `reach` metres, for sloped ground. Empty if no beam meets flat ground beyond `begin`.
 std::vector<GroundRing> ground_rings(const GroundBeams& beams, double begin, double reach,
                                      const RingLengths& lengths) {
   std::vector<GroundRing> rings = rings_of_beams(beams, begin, lengths);
@@ -153,61 +154,62 @@ std::vector<GroundRing> ground_rings(const GroundBeams& beams, double begin, dou
   return rings;
 }
 
-/// h_s that the settings of `default` were found at, metres. What is a distance seen at some angle
-/// from above is scaled with the height.
+/// h_s for which the settings of `default` were chosen, metres. Distances that correspond to an
+/// angle below the sensor scale with the height.
 constexpr double height_of_default = 1.73;
 
-/// Shortest rings. The first is long, for beams are dense there and what stands near the sensor
-/// hides much of a small bin.
-constexpr double first_length = 2.2;      // heights of the sensor
-constexpr double shortest_length = 1.04;  // heights of the sensor, and
-constexpr double one_beam_length = 1.8;   // metres: as much as a ring with one beam has to have
-constexpr double length_growth = 0.15;    // metres a metre
-constexpr double length_beyond = 0.2;     // metres a metre, beyond the last beam
-constexpr double rise_beyond = 0.1;       // of ground that is looked for there, metres a metre
+/// Minimum lengths of rings. The first ring is long, because beams are dense there and objects near
+/// the sensor occlude much of a small bin.
+constexpr double first_length = 2.2;      // in heights of the sensor
+constexpr double shortest_length = 1.04;  // in heights of the sensor
+constexpr double one_beam_length = 1.8;   // metres; also an upper limit of shortest_length
+constexpr double length_growth = 0.15;    // m/m
+constexpr double length_beyond = 0.2;     // m/m, beyond the last beam
+constexpr double rise_beyond = 0.1;       // slope of the ground beyond the last beam, m/m
 
-/// Points on flat ground that a bin has at least, where the sensor has that many.
+/// Minimum number of points of a bin on flat ground, if the sensor has that many.
 constexpr double fewest_points = 20;
-constexpr double fewest_sectors = 4;  // of a full turn: a bin sees ground to one side of the sensor
+constexpr double fewest_sectors = 4;  // per full turn, so that a bin is on one side of the sensor
 
-/// Neighbouring rings are one zone where the sector counts they ask for are within this factor.
+/// Neighbouring rings form one zone if their numbers of sectors are within this factor.
 constexpr double same_sectors = 1.3;
 constexpr std::size_t most_zones = 16;
 
-/// Where reflections below the ground are no seeds: Z_1 of `default`, heights of the sensor.
+/// Range in which reflections below the ground are not seeds, in heights of the sensor: Z_1 of
+/// `default`.
 constexpr double near_ground = 9.576 / height_of_default;
 
-constexpr double ground_roughness = 0.035;  // metres, rms, of ground that counts as even
-constexpr double view_margin = 1;           // degrees on both sides of a narrow field of view
+constexpr double ground_roughness = 0.035;  // RMS roughness of even ground, metres
+constexpr double view_margin = 1;           // degrees, on both sides of a narrow field of view
 
 constexpr double lowest_height = 0.01;  // metres
 
-/// To four digits: it reads well, and no difference between mathematics libraries shows.
+/// Rounds to four digits, for readability and to hide differences between mathematical libraries.
 float rounded(double value) {
   if (value == 0) return 0;
   const double unit = std::pow(10, std::floor(std::log10(value)) - 3);
   return static_cast<float>(std::round(value / unit) * unit);
 }
 
-/// Sectors that a full turn of this ring is cut into: bins as wide as long, wider where they would
+/// Number of sectors per full turn of this ring. Bins are as wide as long, or wider if they would
 /// have too few points.
 double sectors_of(const GroundRing& ring) {
   const double as_wide_as_long = 2 * std::numbers::pi * ring.middle() / ring.length();
   return std::max(fewest_sectors, std::min(as_wide_as_long, ring.points / fewest_points));
 }
 
-/// Rings first to last, and the sectors they ask for.
+/// Consecutive rings, and the range of their numbers of sectors.
 struct RingGroup {
   std::size_t first = 0;
   std::size_t last = 0;
   double fewest = 0;
   double most = 0;
 
-  /// Between both in ratio.
+  /// Geometric mean of both.
   [[nodiscard]] double sectors() const { return std::sqrt(fewest * most); }
 };
 
-/// Neighbouring rings whose sectors are within a factor of each other.
+/// Groups neighbouring rings whose numbers of sectors are within a factor of each other.
 std::vector<RingGroup> grouped(const std::vector<GroundRing>& rings, double factor) {
   std::vector<RingGroup> groups;
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -226,8 +228,8 @@ std::vector<RingGroup> grouped(const std::vector<GroundRing>& rings, double fact
   return groups;
 }
 
-/// M_h: a tenth of the height below the ground, at least the 17 cm that this is at 1.73 m, near the
-/// sensor, where reflections come from.
+/// M_h: a tenth of the sensor height below the ground, at least 17 cm (the value for 1.73 m). Only
+/// near the sensor, where reflections occur.
 float height_margin(double outer, double height) {
   if (outer > near_ground * height) return -std::numeric_limits<float>::infinity();
   return static_cast<float>(-1 - std::max(0.1, 0.17 / height));
@@ -240,8 +242,8 @@ FieldOfView view_of(const Sensor& sensor) {
           .width = static_cast<float>(width)};
 }
 
-/// sigma_tau: the flatness of a bin, evenly filled, whose points are off their plane by the range's
-/// noise and the roughness of even ground.
+/// sigma_tau: the surface variable of an evenly filled bin whose points deviate from their plane by
+/// the range noise and the roughness of even ground.
 float flatness_threshold(const GroundRing& ring, double sectors, double range_sigma) {
   const double width = 2 * std::numbers::pi * ring.middle() / sectors;
   const double spread = (ring.length() * ring.length() + width * width) / 12;
@@ -249,14 +251,15 @@ float flatness_threshold(const GroundRing& ring, double sectors, double range_si
   return rounded(std::min(0.3333, rough / spread));
 }
 
-/// L_min: what lies nearer is the own vehicle. As near as the sensor is high, 45 degrees below, or
-/// a little less far than ground is seen, half as near at least.
+/// L_min: closer points belong to the ego vehicle. It is h_s (45 degrees below the sensor), or 0.9
+/// times the distance of the nearest ground if that is smaller, but at least h_s / 2 and the
+/// minimum range.
 double begin_of(const Sensor& sensor, const GroundBeams& beams) {
   const double nearest = beams.radii().empty() ? sensor.height : 0.9 * beams.radii().front();
   return std::max(sensor.min_range, std::clamp(nearest, sensor.height / 2, sensor.height));
 }
 
-/// kappa and L_tau as seen from the sensor's height.
+/// kappa and L_tau, scaled to the height of the sensor.
 ElevationTerm scaled(ElevationTerm term, double height) {
   const double scale = height / height_of_default;
   term.base = rounded(term.base * scale);

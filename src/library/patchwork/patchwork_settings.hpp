@@ -9,7 +9,8 @@
 
 namespace flagstone {
 
-/// All settings of `config` but the zones, in the order they are printed; they point into it.
+/// All settings of `config` except the zones, in the order in which they are printed. They point
+/// into `config`.
 std::vector<Setting> settings_of(PatchworkConfig& config);
 
 }  // namespace flagstone

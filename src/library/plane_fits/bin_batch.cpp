@@ -9,34 +9,34 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/plane_fits/bin_batch.cpp"
 #include <hwy/foreach_target.h>
-// The above includes this file once for each instruction set.
+// foreach_target.h includes this file once per instruction set.
 #include "library/core/simd/lanes-inl.hpp"
 
 #ifndef FLAGSTONE_PLANE_FITS_BIN_BATCH_ONCE
 #define FLAGSTONE_PLANE_FITS_BIN_BATCH_ONCE
 namespace flagstone::plane_fits {
 
-/// Where the points of one bin go. What lies behind them may be written up to the next multiple of
-/// 16, and 16 places beyond.
+/// Destination of the points of one bin. Elements after them can be written up to the next multiple
+/// of 16, and 16 elements beyond.
 struct PackedBin {
   BinBatch::Origin origin;
   float *x, *y, *z;
 };
 
-/// Some of many points, spread evenly over them.
+/// A sample of points, spread evenly over all of them.
 struct Sample {
   Sample(std::span<const MovedPoint> points, std::size_t count)
       : first(points.data()),
         size(count),
         stride(((std::uint64_t{points.size()} << 32U) + count - 1) / count) {}
 
-  /// Number j * n / size of n points: that the stride is rounded up changes none while size is less
-  /// than 2^16.
+  /// Point j * n / size of n points. Rounding up the stride has no effect if size is less than
+  /// 2^16.
   const MovedPoint& operator[](std::uint64_t j) const { return first[j * stride >> 32U]; }
 
   const MovedPoint* first;
   std::size_t size;
-  std::uint64_t stride;  ///< n / size, in 2^-32
+  std::uint64_t stride;  ///< n / size, in units of 2^-32
 };
 
 }  // namespace flagstone::plane_fits
@@ -58,7 +58,7 @@ HWY_INLINE void pad(const PackedBin& bin, std::size_t size) {
   }
 }
 
-/// Sixteen points a step, the rest of a step being overwritten by the next run.
+/// Copies sixteen points per step. The next run overwrites the excess of the last step.
 void gather_runs(const ScanPoints& scan, std::span<const Run> runs, const PackedBin& bin) {
   const FloatTag d;
   const FloatVector origin_x = hn::Set(d, bin.origin.x);
@@ -82,7 +82,7 @@ void gather_runs(const ScanPoints& scan, std::span<const Run> runs, const Packed
   pad(bin, size);
 }
 
-/// Packs points from place `first` on.
+/// Packs points, starting at element `first`.
 HWY_INLINE void pack(const MovedPoint* points, std::size_t count, const PackedBin& bin,
                      std::size_t first) {
   const FloatTag d;
@@ -103,8 +103,8 @@ void gather_points(std::span<const MovedPoint> points, const PackedBin& bin) {
   pad(bin, points.size());
 }
 
-/// Records are copied in rounds of which the first have long been written when they are read as
-/// vectors: from single stores a vector cannot be loaded before they are in the cache.
+/// Copies records in rounds, so that the first records of a round are already in the cache when
+/// they are read as vectors. A vector load cannot be forwarded from several separate stores.
 void gather_sample(const Sample& sample, const PackedBin& bin) {
   HWY_ALIGN std::array<MovedPoint, 4 * lanes> round{};
   for (std::size_t begin = 0; begin < sample.size; begin += round.size()) {

@@ -14,20 +14,21 @@
 
 namespace flagstone::plane_fits {
 
-/// Up to sixteen bins S_n that are fitted together, their points packed so that every pass of the
-/// fit reads contiguous memory. All are added by add() and then gathered, or all by add_sample().
+/// Up to sixteen bins S_n that are fitted together. Their points are packed so that every pass of
+/// the fit reads contiguous memory. Add all bins by add() and then call gather(), or add all by
+/// add_sample().
 ///
-/// A bin takes a multiple of 16 places. Behind its points z is infinite: such places are above any
-/// plane and need no special case.
+/// The number of elements per bin is a multiple of 16. After the last point z is infinite: such
+/// elements are above any plane and need no special case.
 class BinBatch {
  public:
-  /// Makes room for bins of `points` points together; may throw std::bad_alloc.
+  /// Reserves memory for bins with up to `points` points in total. May throw std::bad_alloc.
   void reserve(std::size_t points);
 
-  /// No bins.
+  /// Removes all bins.
   void clear() noexcept { count_ = 0; }
 
-  /// Adds a bin that has points. At most batch_size of them.
+  /// Adds a bin, which must have points. At most batch_size bins.
   void add(std::uint32_t bin, std::uint32_t size) noexcept {
     bins_[count_] = bin;
     sizes_[count_] = size;
@@ -35,33 +36,33 @@ class BinBatch {
     ++count_;
   }
 
-  /// Packs the points of the bins: x and y as seen from `origin(i)`, z as it is.
+  /// Packs the points of the bins: x and y relative to `origin(i)`, z unchanged.
   void gather(const ScanPoints& scan, const BinGroups& groups) noexcept;
 
-  /// Adds a bin, without its number, that has these points and packs them likewise. Of n points,
-  /// where those are more than `most`, 1 to 65,535, it takes numbers j * n / most for all j < most.
-  /// 16 points behind the last may be read.
+  /// Adds a bin with these points, without its number, and packs them as gather() does. If there
+  /// are n > `most` points, it uses the points j * n / most for all j < most. `most` is 1 to
+  /// 65,535. May read 16 points after the last one.
   void add_sample(std::span<const MovedPoint> points, std::size_t most) noexcept;
 
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
-  /// Number of bin `i`, as add() was given it.
+  /// Number of bin `i`, as passed to add().
   [[nodiscard]] std::uint32_t bin(std::size_t i) const noexcept { return bins_[i]; }
 
-  /// Points of bin `i` of the batch.
+  /// Number of points of bin `i` of the batch.
   [[nodiscard]] std::size_t size(std::size_t i) const noexcept { return sizes_[i]; }
-  /// The places they take.
+  /// Number of elements of bin `i`: the number of points, rounded up to a multiple of 16.
   [[nodiscard]] std::size_t places(std::size_t i) const noexcept {
     return (std::size_t{sizes_[i]} + 15) / 16 * 16;
   }
 
-  /// Midway between the first and the last point packed, metres; near all of them, so that single
-  /// precision is enough for what is seen from there.
+  /// The middle between the first and the last packed point, metres. It is near all points, so that
+  /// single precision is enough for coordinates relative to it.
   struct Origin {
     float x, y;
   };
   [[nodiscard]] Origin origin(std::size_t i) const noexcept { return origins_[i]; }
 
-  /// Packed coordinates of bin `i`, metres; aligned to a vector.
+  /// Packed coordinates of bin `i`, metres, aligned to a vector.
   [[nodiscard]] float* x(std::size_t i) noexcept { return x_.data() + firsts_[i]; }
   [[nodiscard]] float* y(std::size_t i) noexcept { return y_.data() + firsts_[i]; }
   [[nodiscard]] float* z(std::size_t i) noexcept { return z_.data() + firsts_[i]; }

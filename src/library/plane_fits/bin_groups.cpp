@@ -8,7 +8,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/plane_fits/bin_groups.cpp"
 #include <hwy/foreach_target.h>
-// The above includes this file once for each instruction set.
+// foreach_target.h includes this file once per instruction set.
 #include "library/core/simd/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,10 +17,10 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Writes the points of the runs one after another; 16 more may be overwritten.
+/// Writes the points of the runs one after another. May overwrite 16 more elements.
 ///
-/// Eight points a step, the rest of a step being overwritten by the next run: most runs within a
-/// small cell take one step, and so no mispredicted branch.
+/// Copies eight points per step; the next run overwrites the excess. Most runs within a small cell
+/// take one step, which avoids mispredicted branches.
 void move_runs(const ScanPoints& scan, std::span<const Run> runs, MovedPoint* points) {
   constexpr std::size_t step = 8;
   const hn::CappedTag<float, step> d;
@@ -55,13 +55,12 @@ namespace flagstone::plane_fits {
 namespace {
 HWY_EXPORT(move_runs);
 
-/// Runs of fewer points than this on average are not worth sorting, to be kept or to move points
-/// by.
+/// Minimum mean number of points per run for which sorting runs is faster than sorting points.
 constexpr std::uint64_t shortest_mean_run(Listing listing) {
   return listing == Listing::runs ? 4 : 2;
 }
 
-/// How far ahead of the next moved point memory is asked for: two cache lines.
+/// Prefetch distance in points: two cache lines.
 constexpr std::size_t prefetch_distance = 8;
 
 /// Calls `work(bin, first point, number of points)` for every run, in input order.
@@ -107,7 +106,7 @@ void BinGroups::group(const ScanPoints& scan, std::size_t point_count,
     sort(scan, chunks, [&](Tally place, std::uint32_t begin, std::uint32_t length) {
       MovedPoint* to = points_.data() + place.points();
       for (std::uint32_t i = begin; i < begin + length; ++i) {
-        // Every bin is a stream of its own, more than the processor follows by itself.
+        // Each bin is a separate stream, more streams than the hardware prefetcher can follow.
         __builtin_prefetch(to + prefetch_distance, 1);
         *to++ = {scan.x()[i], scan.y()[i], scan.z()[i], i};
       }
@@ -138,10 +137,10 @@ void BinGroups::list_begins(std::uint32_t begin, std::uint32_t end,
   }
 }
 
-/// Counts what each bin holds, and marks the blocks that hold anything.
+/// Counts the points and runs of each bin, and marks the blocks that contain any.
 void BinGroups::tally(const ScanPoints& scan, std::size_t chunks) noexcept {
   Tally* tallies = tallies_.data();
-  for (std::size_t block = 0; block < used_blocks_; ++block) {  // what the scan before left
+  for (std::size_t block = 0; block < used_blocks_; ++block) {  // counts of the previous scan
     if (is_empty(block)) continue;
     std::fill_n(tallies + block * block_size, block_size, Tally{});
   }
@@ -152,7 +151,8 @@ void BinGroups::tally(const ScanPoints& scan, std::size_t chunks) noexcept {
   });
 }
 
-/// From what each bin holds to what precedes it; returns what all hold.
+/// Replaces the tally of each bin by the sum over the bins before it. Returns the sum over all
+/// bins.
 BinGroups::Tally BinGroups::sum_up(std::uint32_t groups) noexcept {
   used_blocks_ = groups / block_size + 1;
   Tally sum;
@@ -169,8 +169,8 @@ BinGroups::Tally BinGroups::sum_up(std::uint32_t groups) noexcept {
   return sum;
 }
 
-/// Puts each run in its place; what preceded the next run of a bin in the end precedes the bin
-/// after it.
+/// Calls `place` for each run with its position. Each bin starts with the tally before it and ends
+/// with the tally up to and including it.
 template <class Place>
 void BinGroups::sort(const ScanPoints& scan, std::size_t chunks, const Place& place) noexcept {
   Tally* next = tallies_.data();

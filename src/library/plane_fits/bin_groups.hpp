@@ -17,61 +17,62 @@ struct Run {
   std::uint32_t length;  ///< number of points, at least 1
 };
 
-/// A point that was moved to its bin.
+/// A point that was copied to its bin.
 struct MovedPoint {
   float x, y, z;
-  std::uint32_t index;  ///< in the cloud
+  std::uint32_t index;  ///< index in the cloud
 };
 
-/// What groups are to list.
+/// The form in which groups list points.
 enum class Listing : std::uint8_t {
-  runs,    ///< the runs of each bin; its points, moved together, where runs are short
-  points,  ///< the points of each bin, moved together
+  runs,    ///< the runs of each bin, or its points if runs are short
+  points,  ///< the points of each bin, copied next to each other
 };
 
 /// The points of a scan grouped by bin: a counting sort of their runs.
 ///
-/// Sorting runs is a tenth of the work of sorting points. Points that are to lie together are then
-/// moved in the order of their bins. Where a cloud comes in no order, runs are hardly longer than a
-/// point and not worth sorting: the points are, at once.
+/// Sorting runs is a tenth of the work of sorting points. If points must be next to each other,
+/// they are then copied in the order of their bins. In an unordered cloud, runs are hardly longer
+/// than one point; the points are then sorted directly.
 ///
-/// Most bins may be empty: they cost next to nothing where sixteen neighbours are.
+/// Most bins can be empty: sixteen empty neighbours take almost no time.
 class BinGroups {
  public:
   explicit BinGroups(Listing listing = Listing::runs) noexcept : listing_(listing) {}
 
-  /// Makes room for scans of `points` points over `bins` bins; may throw std::bad_alloc.
+  /// Reserves memory for scans with up to `points` points in `bins` bins. May throw std::bad_alloc.
   void reserve(std::size_t points, std::size_t bins);
 
-  /// Groups the runs of a scan of `point_count` points over `groups` bins, the last of which may
-  /// stand for points without one. No more than was reserved for.
+  /// Groups the runs of a scan of `point_count` points into `groups` bins, the last of which can be
+  /// for points without a bin. Enough memory must be reserved.
   void group(const ScanPoints& scan, std::size_t point_count, std::uint32_t groups) noexcept;
 
-  /// Points in a bin.
+  /// Number of points in a bin.
   [[nodiscard]] std::uint32_t size(std::uint32_t bin) const noexcept {
     return end(bin).points() - first(bin).points();
   }
 
-  /// Whether points() lists the points that were moved; otherwise runs() lists where they are.
+  /// True if points() lists the copied points; otherwise runs() lists their runs.
   [[nodiscard]] bool moved() const noexcept { return moved_; }
 
-  /// The runs of a bin in input order; unless moved.
+  /// The runs of a bin in input order. Only if not moved().
   [[nodiscard]] std::span<const Run> runs(std::uint32_t bin) const noexcept {
     return {runs_.data() + first(bin).runs(), runs_.data() + end(bin).runs()};
   }
 
-  /// The points of a bin in input order; if moved. 16 more may be read and are meaningless.
+  /// The points of a bin in input order. Only if moved(). 16 more elements can be read; their
+  /// values are unspecified.
   [[nodiscard]] std::span<const MovedPoint> points(std::uint32_t bin) const noexcept {
     return points(bin, bin + 1);
   }
-  /// The same of the bins from `begin` on, less than `end`, one bin after another.
+  /// The points of the bins `begin` to `end` - 1, one bin after another. Only if moved().
   [[nodiscard]] std::span<const MovedPoint> points(std::uint32_t begin,
                                                    std::uint32_t end) const noexcept {
     return {points_.data() + first(begin).points(), points_.data() + first(end).points()};
   }
 
-  /// Where the points of the bins from `begin` to `end` begin in points(0, ...): as many numbers as
-  /// bins, and where those of the last one end.
+  /// Writes the index in points(0, ...) of the first point of each of the bins `begin` to `end` -
+  /// 1, and the index after the last point of the last bin.
   void list_begins(std::uint32_t begin, std::uint32_t end, std::uint32_t* begins) const noexcept;
 
  private:
@@ -89,14 +90,14 @@ class BinGroups {
     [[nodiscard]] std::uint32_t runs() const noexcept { return static_cast<std::uint32_t>(word); }
   };
 
-  /// Bins come in blocks of so many.
+  /// Number of bins per block.
   static constexpr std::uint32_t block_size = 16;
 
-  /// What precedes a bin. `bin` may be the number of groups.
+  /// Tally of all bins before `bin`, which can be the number of groups.
   [[nodiscard]] Tally first(std::uint32_t bin) const noexcept {
     return bin % block_size == 0 ? block_firsts_.data()[bin / block_size] : end(bin - 1);
   }
-  /// What precedes the bin after it.
+  /// Tally of all bins up to and including `bin`.
   [[nodiscard]] Tally end(std::uint32_t bin) const noexcept {
     const std::uint32_t block = bin / block_size;
     return is_empty(block) ? block_firsts_.data()[block] : tallies_.data()[bin];
@@ -112,13 +113,13 @@ class BinGroups {
 
   Listing listing_;
   bool moved_ = false;
-  std::size_t blocks_ = 0;       ///< there is room for
-  std::size_t used_blocks_ = 0;  ///< by the scan before
-  /// By bin: what it holds; then what precedes its next run; in the end what precedes the bin after
-  /// it. In blocks without points 0 throughout.
+  std::size_t blocks_ = 0;       ///< number of blocks with reserved memory
+  std::size_t used_blocks_ = 0;  ///< number of blocks that the previous scan used
+  /// Per bin: at first the tally of the bin, then the tally before its next run, in the end the
+  /// tally up to and including the bin. All 0 in blocks without points.
   Buffer<Tally> tallies_;
-  Buffer<Tally> block_firsts_;        ///< by block: what precedes it
-  Buffer<std::uint8_t> block_marks_;  ///< by block: does it hold points? 0 between scans
+  Buffer<Tally> block_firsts_;        ///< per block: tally of all bins before it
+  Buffer<std::uint8_t> block_marks_;  ///< per block: 1 if it contains points; 0 between scans
   Buffer<Run> runs_;
   Buffer<MovedPoint> points_;
 };

@@ -19,7 +19,7 @@ namespace flagstone::plane_fits {
 struct Fitter {
   explicit Fitter(const FitSettings& settings) noexcept : fit(settings) {}
 
-  /// Makes room for bins of `points` points together; may throw std::bad_alloc.
+  /// Reserves memory for bins with up to `points` points in total. May throw std::bad_alloc.
   void reserve(std::size_t points) {
     batch.reserve(points);
     fit.reserve(points);
@@ -29,10 +29,10 @@ struct Fitter {
   Seeds seeds{};
   PlaneFit fit;
   PlaneFit::Result fitted;
-  LabelTotals totals{};  ///< points that this thread has labelled
+  LabelTotals totals{};  ///< points that this thread labelled
 };
 
-/// One fitter per thread: `Fitter`, or what a method derives from it.
+/// One fitter per thread: `Fitter` or a class derived from it.
 template <class OneFitter>
 class Fitters {
  public:
@@ -46,7 +46,7 @@ class Fitters {
   }
 
   /// Calls `work(bins, fitter, clock)` with up to sixteen of `bins` at a time, from all threads of
-  /// the pool. Only the caller's thread has a clock that runs.
+  /// the pool. Only the clock of the caller's thread measures time.
   template <class Bin, class Work>
   void run(ThreadPool& pool, std::span<Bin> bins, StageClock& clock, const Work& work) noexcept {
     const std::size_t batches = (bins.size() + batch_size - 1) / batch_size;
@@ -58,7 +58,7 @@ class Fitters {
     });
   }
 
-  /// The label totals of a worker, to add to.
+  /// The label totals of a worker.
   [[nodiscard]] LabelTotals& totals_of(std::size_t worker) noexcept {
     return fitters_[worker].totals;
   }
@@ -67,7 +67,7 @@ class Fitters {
     for (OneFitter& fitter : fitters_) fitter.totals = {};
   }
 
-  /// Points labelled by all threads since clear_totals().
+  /// Number of points per label, over all threads, since clear_totals().
   [[nodiscard]] LabelTotals totals() const noexcept {
     LabelTotals sum{};
     for (const OneFitter& fitter : fitters_) {

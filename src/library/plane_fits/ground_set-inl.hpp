@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Which points belong to a ground set, eqs. (5) and (6). Included once for each instruction set.
+// Tests whether points belong to a ground set, eqs. (5) and (6). Included once per instruction set.
 
 // clang-format off
 #if defined(FLAGSTONE_PLANE_FITS_GROUND_SET_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -22,7 +22,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// n . p for points of any vector length.
+/// n . p for vectors of any length.
 template <class D>
 HWY_INLINE hn::Vec<D> height(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> z, const GroundSet& set) {
   return hn::Add(

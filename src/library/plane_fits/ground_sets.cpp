@@ -8,7 +8,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/plane_fits/ground_sets.cpp"
 #include <hwy/foreach_target.h>
-// The above includes this file once for each instruction set.
+// foreach_target.h includes this file once per instruction set.
 #include "library/core/simd/lanes-inl.hpp"
 #include "library/plane_fits/ground_set-inl.hpp"
 
@@ -22,12 +22,12 @@ using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespac
 /// Sums x, y, z, xx, xy, xz, yy, yz, zz, in the order of Moments.
 inline constexpr std::size_t sum_count = 9;
 
-/// Each of them in 16 lanes.
+/// Each of these sums in 16 lanes.
 template <class T>
 using LaneTable = std::array<std::array<T, lanes>, sum_count>;
 
-// A point outside of the set adds nothing: its coordinates count as 0, or, where an addition can
-// have a mask for free, it is not added. Both give the same sums.
+// Points outside the set add nothing: their coordinates count as 0, or a masked addition skips them
+// on targets where masks are free. Both give the same sums.
 
 template <class M, class V>
 HWY_INLINE DoubleVector widen_if(DoubleTag d, M inside, V v) {
@@ -58,7 +58,7 @@ HWY_INLINE FloatVector add_if(FloatTag /*d*/, M /*inside*/, FloatVector sum, Flo
 }
 #endif
 
-/// Sums of one vector of lanes.
+/// The sums of one vector of lanes.
 template <class SumTag>
 class LaneSums {
  public:
@@ -101,9 +101,9 @@ class LaneSums {
   Sum x_, y_, z_, xx_, xy_, xz_, yy_, yz_, zz_;
 };
 
-// The sum of sixteen lanes is always that of halves: l + (l + 8), then + 4, + 2, + 1.
+// Sixteen lanes are always added in halves: lane l and lane l + 8, then + 4, + 2, + 1.
 
-/// The quarters of sixteen lanes added up.
+/// The sum of the four quarters of sixteen lanes.
 template <class D>
 HWY_INLINE hn::Vec<D> sum_of_quarters(D d, const hn::TFromD<D>* sums) {
   const auto quarter = [&](std::size_t k) HWY_ATTR { return hn::LoadU(d, sums + 4 * k); };
@@ -125,7 +125,7 @@ HWY_INLINE void add_lanes(const LaneTable<T>& sums, std::array<double, sum_count
 
 #if HWY_TARGET != HWY_SCALAR
 
-/// The same, four sums at a time.
+/// Adds the sums of the lanes to the totals, four sums at a time.
 HWY_INLINE void add_lanes(const LaneTable<float>& sums, std::array<double, sum_count>& totals) {
   const hn::CappedTag<float, 4> d;
   std::array<float, 12> sums_of_lanes;
@@ -133,7 +133,7 @@ HWY_INLINE void add_lanes(const LaneTable<float>& sums, std::array<double, sum_c
     const auto of = [&](std::size_t i) HWY_ATTR {
       return sum_of_quarters(d, sums[std::min(k + i, sum_count - 1)].data());
     };
-    const auto halves = [&](std::size_t i) HWY_ATTR {  // lanes: of(i), of(i + 1), and again
+    const auto halves = [&](std::size_t i) HWY_ATTR {  // lanes: of(i), of(i + 1), of(i), of(i + 1)
       const auto a = of(i);
       const auto b = of(i + 1);
       return hn::Add(hn::InterleaveLower(d, a, b), hn::InterleaveUpper(d, a, b));
@@ -148,8 +148,8 @@ HWY_INLINE void add_lanes(const LaneTable<float>& sums, std::array<double, sum_c
 
 #endif
 
-/// Moments of those points of a bin for which `inside(d, first place, x, y, z)` is set, in vectors
-/// of `SumTag`.
+/// Computes the moments of the points of a bin for which `inside(d, first element, x, y, z)` is
+/// true, in vectors of `SumTag`.
 template <class SumTag, class Inside>
 HWY_INLINE void sum_bin(const BinBatch& batch, std::size_t bin, MomentsBatch& moments,
                         const Inside& inside) {
@@ -158,7 +158,7 @@ HWY_INLINE void sum_bin(const BinBatch& batch, std::size_t bin, MomentsBatch& mo
   const float* HWY_RESTRICT x = batch.x(bin);
   const float* HWY_RESTRICT y = batch.y(bin);
   const float* z = batch.z(bin);
-  constexpr std::size_t most_places = 64 * lanes;  // of sums in single precision
+  constexpr std::size_t most_places = 64 * lanes;  // per sum in single precision
   const std::size_t places = batch.places(bin);
   std::size_t count = 0;
   std::array<double, sum_count> totals{};

@@ -7,17 +7,19 @@
 namespace flagstone::plane_fits {
 namespace {
 
-/// Of all points below so many must lie in the plane.
+/// Minimum fraction of the points below the patch that must be in the plane.
 constexpr double least_share = 0.6;
 
-/// Standard deviations along the plane's axes and across it, metres. Two beams at least have seen
-/// ground, or one has over a long way: between edges that hide the rest no other may meet it.
+/// Limits of the standard deviations along the axes of the plane and across it, metres. Ground is
+/// seen by at least two beams, or by one beam over a long distance if edges occlude it from all
+/// others.
 constexpr double least_length = 0.3;
 constexpr double least_width = 0.1;
 constexpr double least_length_of_one_beam = 0.5;
 constexpr double most_thickness = 0.05;
 
-/// Least z of the normal: the sides of a ditch are steep, up to 50 degrees, mirrored walls steeper.
+/// Minimum z of the normal: the sides of a ditch are steep, up to 50 degrees, and reflections of
+/// walls are steeper.
 constexpr double least_normal_z = 0.64;
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace flagstone::plane_fits {
 namespace {
 
-/// The least float that is not below `value`.
+/// The smallest float that is not below `value`.
 float round_up(double value) {
   const auto nearest = static_cast<float>(value);
   return nearest < value ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
@@ -29,8 +29,8 @@ void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
   seed_heights_.find(batch, floors, seeds.counts, initial_heights, settings_.height_without_seeds);
   clock.end(Stage::seed);
 
-  // G^0, eq. (5), with the points below the floor kept out where that is wanted. Heights are seen
-  // from z-bar_init from now on; where there was no seed, from the first point.
+  // G^0, eq. (5), without the points below the floor if the settings exclude them. Afterwards,
+  // heights are relative to z-bar_init, or to the first point if there was no seed.
   GroundSets& sets = result.sets;
   std::array<FirstSet, batch_size> first_sets{};
   for (std::size_t i = 0; i < batch.count(); ++i) {
@@ -47,8 +47,7 @@ void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
   }
   sum_first_moments(batch, first_sets, moments_);
 
-  // Planes, eq. (4), of sets that reach M_d above the plane before, eq. (6), and not so far below
-  // it that points there are noise.
+  // Planes, eq. (4), of sets from noise_margin below to M_d above the previous plane, eq. (6).
   PlaneBatch& planes = result.judged;
   result.exists = fit_sets(batch, sets, all_of(batch), clock, planes);
   for (int l = 1; l < settings_.iterations; ++l) {
@@ -63,7 +62,7 @@ void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
   }
 }
 
-/// Eq. (4) for the bins in `wanted`, whose moments are taken; returns those that have a plane.
+/// Eq. (4) for the bins in `wanted`, whose moments are known. Returns the bins with a plane.
 BinMask PlaneFit::fit_sets(const BinBatch& batch, const GroundSets& sets, BinMask wanted,
                            StageClock& clock, PlaneBatch& planes) noexcept {
   clock.end(Stage::moments);

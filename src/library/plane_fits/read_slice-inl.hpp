@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// The one pass over a cloud: its coordinates, and where the bin changes from one point to the next,
-// for any way of finding a point's bin. Included once for each instruction set.
+// The only pass over a cloud. It copies the coordinates and records where the bin changes from one
+// point to the next, for any function that finds the bin of a point. Included once per instruction
+// set.
 
 // clang-format off
 #if defined(FLAGSTONE_PLANE_FITS_READ_STRETCH_INL_HPP) == defined(HWY_TARGET_TOGGLE)
@@ -30,12 +31,12 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// Writes down where the bin changes from one point to the next.
+/// Records the points at which the bin changes.
 class RunWriter {
  public:
   RunWriter(RunStart* starts) : begin_(starts), end_(starts) {}
 
-  /// The bins of the next vector of points.
+  /// Adds the bins of the next vector of points.
   HWY_INLINE void add(IntVector bins) {
     const IntTag di;
     const auto starts = hn::Ne(bins, move_up(bins, previous_));
@@ -44,7 +45,7 @@ class RunWriter {
     places_ = hn::Add(places_, hn::Set(di, static_cast<std::int32_t>(hn::Lanes(di)) << bin_bits));
   }
 
-  /// Drops what begins at `count` or later, closes the list and returns how many runs there are.
+  /// Removes runs that begin at `count` or later, closes the list and returns the number of runs.
   std::size_t close(std::size_t count) {
     while (end_ > begin_ && (end_[-1] >> bin_bits) >= count) --end_;
     *end_ = static_cast<RunStart>(count) << bin_bits;
@@ -54,16 +55,16 @@ class RunWriter {
  private:
   RunStart* begin_;
   RunStart* end_;
-  IntVector previous_ = hn::Set(IntTag(), -1);  // no point's bin
-  /// Indices of the points << bin_bits.
+  IntVector previous_ = hn::Set(IntTag(), -1);  // not a bin
+  /// Indices of the next points, shifted left by bin_bits.
   IntVector places_ = hn::ShiftLeft<bin_bits>(hn::Iota(IntTag(), 0));
 };
 
-/// How far ahead of its use memory is asked for, in floats: one block takes long enough that the
-/// processor's own prefetching falls behind where scans are not in the cache.
+/// Prefetch distance in floats. The time per block is so long that the hardware prefetcher of the
+/// CPU is too late for scans that are not in the cache.
 inline constexpr std::size_t prefetch_distance = 512;
 
-/// Asks for the memory of a block that comes later; harmless behind the end of the cloud.
+/// Prefetches a later block. Addresses after the end of the cloud do no harm.
 template <std::size_t floats>
 HWY_INLINE void prefetch_block(const float* points) {
   for (std::size_t line = 0; line < floats; ++line) {  // a cache line is 16 floats
@@ -86,7 +87,7 @@ HWY_INLINE void read_block(const float* HWY_RESTRICT points, std::size_t index,
   }
 }
 
-/// Copies points into records of four floats, the last of which is meaningless.
+/// Copies points into records of four floats. The fourth float is not set.
 HWY_INLINE void copy_records(const CloudView& cloud, std::size_t begin, std::size_t end,
                              float* records) {
   for (std::size_t k = begin; k < end; ++k) {
@@ -95,7 +96,8 @@ HWY_INLINE void copy_records(const CloudView& cloud, std::size_t begin, std::siz
   }
 }
 
-/// The same where x, y and z lie together and four more bytes may be read behind z.
+/// Copies sixteen points into records of four floats, if x, y and z are adjacent and four more
+/// bytes can be read after z.
 HWY_INLINE void copy_records_at_once(const std::byte* points, std::ptrdiff_t stride,
                                      float* records) {
   for (std::size_t k = 0; k < lanes; ++k) {
@@ -104,12 +106,13 @@ HWY_INLINE void copy_records_at_once(const std::byte* points, std::ptrdiff_t str
   }
 }
 
-/// Reads a slice; returns how many runs it has. `locate(x, y, z)` gives the bins of a vector of
-/// points, each less than 1 << bin_bits, and takes any bit pattern; it is to be a struct whose
-/// operator() is HWY_INLINE, so that the tables it reads stay in registers.
+/// Reads a slice and returns its number of runs. `locate(x, y, z)` returns the bins of a vector of
+/// points, each less than 1 << bin_bits, for coordinates of any value, including NaN, infinity and
+/// denormals. It should be a struct whose operator() is HWY_INLINE, so that its tables stay in
+/// registers.
 ///
-/// Packed xyz and records of four floats are read where they lie, as long as no read can leave the
-/// cloud; all other layouts, and what the last point needs, by way of a copy.
+/// Packed xyz and records of four floats are read without copying, except for the last points of
+/// the cloud, where a read could leave it. All other layouts are copied first.
 template <class Locate>
 HWY_INLINE std::size_t read_slice(const PointSlice& slice, const Locate& locate) {
   const CloudView& cloud = slice.cloud;
@@ -120,7 +123,7 @@ HWY_INLINE std::size_t read_slice(const PointSlice& slice, const Locate& locate)
   const bool together = layout.y == layout.x + 4 && layout.z == layout.x + 8 && layout.stride >= 12;
   const bool aligned = std::bit_cast<std::uintptr_t>(first) % sizeof(float) == 0;
   const std::size_t count = slice.end - slice.begin;
-  // Blocks without the last point of the cloud.
+  // Number of points in blocks that do not contain the last point of the cloud.
   const std::size_t whole =
       together ? (std::min(slice.end, cloud.size() - 1) - slice.begin) / lanes * lanes : 0;
 

@@ -9,20 +9,20 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/plane_fits/seed_heights.cpp"
 #include <hwy/foreach_target.h>
-// The above includes this file once for each instruction set.
+// foreach_target.h includes this file once per instruction set.
 #include "library/core/simd/lanes-inl.hpp"
 
 #ifndef FLAGSTONE_PLANE_FITS_SEED_HEIGHTS_ONCE
 #define FLAGSTONE_PLANE_FITS_SEED_HEIGHTS_ONCE
 namespace flagstone::plane_fits {
 
-/// Up to this many candidates of sixteen bins are sorted side by side.
+/// Maximum number of candidates per bin for sorting sixteen bins in parallel.
 inline constexpr std::size_t most_candidates = 32;
 
-/// Row r holds the candidate r of each bin, metres; infinity where there is none.
+/// Row r contains candidate r of each bin, metres; infinity if there is none.
 struct alignas(64) Candidates : std::array<std::array<float, batch_size>, most_candidates> {};
 
-/// Batcher's odd-even merge sort: pairs of rows to compare, and exchange if the first is greater.
+/// Batcher's odd-even merge sort: pairs of rows to compare, and to exchange if the first is larger.
 struct Comparison {
   std::uint8_t low, high;
 };
@@ -42,7 +42,7 @@ inline constexpr auto sorting_network = [] {
   }
   return network;
 }();
-static_assert(sorting_network.back().high != 0);  // it is that long
+static_assert(sorting_network.back().high != 0);  // all elements are set
 
 }  // namespace flagstone::plane_fits
 #endif
@@ -54,7 +54,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// Sorts every column.
+/// Sorts each column.
 void sort_columns(Candidates& rows) {
   const FloatTag d;
   for (std::size_t lane = 0; lane < batch_size; lane += hn::Lanes(d)) {
@@ -69,7 +69,7 @@ void sort_columns(Candidates& rows) {
   }
 }
 
-/// The two lowest heights of each of the 16 lanes that are not below `floor`.
+/// Finds, in each of the 16 lanes, the two lowest heights that are not below `floor`.
 void lowest_of_lanes(const float* HWY_RESTRICT z, std::size_t places, float floor,
                      float* HWY_RESTRICT lowest) {
   const FloatTag d;
@@ -89,7 +89,8 @@ void lowest_of_lanes(const float* HWY_RESTRICT z, std::size_t places, float floo
   }
 }
 
-/// Copies the heights from `floor` to `ceiling`; returns how many they are. May write 16 more.
+/// Copies the heights from `floor` to `ceiling` and returns their number. May write 16 more
+/// elements.
 std::size_t copy_between(const float* HWY_RESTRICT z, std::size_t places, float floor,
                          float ceiling, float* HWY_RESTRICT heights) {
   const FloatTag d;
@@ -104,8 +105,8 @@ std::size_t copy_between(const float* HWY_RESTRICT z, std::size_t places, float 
   return count;
 }
 
-/// Means of the first `seed_counts[i]` rows of each column, where they are heights. `most` is the
-/// largest of these counts.
+/// Computes the mean of the finite heights in the first `seed_counts[i]` rows of each column.
+/// `most` is the largest of these counts.
 void mean_of_rows(const Candidates& rows, const Batch& seed_counts, std::size_t most,
                   Batch& means) {
   const DoubleTag d;
@@ -157,16 +158,16 @@ double mean_of_lowest(float* heights, std::size_t count, std::size_t seed_count)
 
 }  // namespace
 
-/// The two lowest points of every lane are candidates. The N_seed-th lowest candidate is a bound
-/// for the N_seed-th lowest point, and few points lie below it: these are sorted, sixteen bins side
-/// by side. Where they are not few, or N_seed is large, bins are sorted one by one.
+/// The two lowest points of each lane are candidates. The N_seed-th lowest candidate is an upper
+/// bound for the N_seed-th lowest point, and few points are below it. These points are sorted,
+/// sixteen bins in parallel. If there are many, or N_seed is large, bins are sorted one by one.
 void SeedHeights::find(const BinBatch& batch, const std::array<float, batch_size>& floors,
                        const std::array<std::uint32_t, batch_size>& counts, Batch& means,
                        double height_without_seeds) noexcept {
   means = {};
   float* heights = heights_.data();
   Candidates rows{};
-  Batch few{};  // N_seed where that is not large
+  Batch few{};  // N_seed of the bins where it is not large
   std::size_t most = 0;
   for (std::size_t i = 0; i < batch.count(); ++i) {
     if (counts[i] > most_candidates) continue;

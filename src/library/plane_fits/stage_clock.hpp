@@ -9,15 +9,15 @@
 
 namespace flagstone::plane_fits {
 
-/// Books the time that passes on stages; does nothing where nobody asked for it.
+/// Measures the time per stage. Does nothing if timing is off.
 class StageClock {
  public:
-  /// Starts now. `times` may be null.
+  /// Starts the clock. If `times` is null, timing is off.
   explicit StageClock(StageTimes* times) noexcept : times_(times) {
     if (times_ != nullptr) last_ = Clock::now();
   }
 
-  /// What passed since the last call belongs to `stage`.
+  /// Adds the time since the previous call to `stage`.
   void end(Stage stage) noexcept {
     if (times_ == nullptr) return;
     const Clock::time_point now = Clock::now();
