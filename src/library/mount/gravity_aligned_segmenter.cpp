@@ -23,14 +23,15 @@ namespace flagstone::mount {
 /// The state that `estimate` and `track` keep from scan to scan.
 class MountTrack {
  public:
-  /// `mount` is in use until the first scan that tells one; its `up` has unit length.
+  /// `mount` is used until the first accepted estimate. Its `up` must have unit length.
   MountTrack(const Mount& mount, bool finds_height, bool finds_tilt, const MountTracking& tracking);
 
-  /// Has any scan told the mount?
+  /// True if an estimate was accepted.
   [[nodiscard]] bool is_told() const noexcept { return told_ > 0; }
 
-  /// An accepted decision about the next scan. It becomes an `outlier` if it is one, and is not
-  /// followed. Others are refused already and leave the state as it is.
+  /// Updates the state with the decision about the next scan. If an accepted estimate is an
+  /// outlier, its status becomes `outlier` and the state does not change. Rejected estimates are
+  /// ignored.
   void take(MountDecision& decision) noexcept;
 
   [[nodiscard]] const Mount& mount() const noexcept { return mount_; }
@@ -47,9 +48,9 @@ class MountTrack {
   bool finds_tilt_;
   MountTracking tracking_;
   Mount mount_;
-  int told_ = 0;  // scans that have told the mount, up to `window`
+  int told_ = 0;  // number of accepted estimates, up to `window`
   Mount last_outlier_{};
-  int outliers_ = 0;  // on end, each close to the one before
+  int outliers_ = 0;  // consecutive outliers, each close to the previous one
 };
 
 MountTrack::MountTrack(const Mount& mount, bool finds_height, bool finds_tilt,
@@ -107,23 +108,24 @@ void MountTrack::take(MountDecision& decision) noexcept {
   }
 }
 
-/// Brings clouds of a mount to where a method expects its ground, and results back.
+/// Transforms clouds to the frame that a method expects, and transforms the results back.
 class GravityAlignment {
  public:
   /// The method expects the ground below the sensor at z = -method_height.
   explicit GravityAlignment(float method_height) noexcept : method_height_(method_height) {}
 
-  /// From now on clouds stand like this. `mount.up` has unit length.
+  /// Sets the mounting pose of the next clouds. `mount.up` must have unit length.
   void set(const Mount& mount) noexcept;
 
-  /// Is there nothing to do?
+  /// True if clouds do not need to be transformed.
   [[nodiscard]] bool is_identity() const noexcept { return is_identity_; }
 
-  /// The cloud in the level frame, the ground where the method expects it. What is not finite stays
-  /// so, what is all zero too, and nothing else becomes either. May throw std::bad_alloc.
+  /// The cloud in the level frame, with the ground at the height that the method expects. Exactly
+  /// the points that were not finite, or all zero, are so afterwards. May throw std::bad_alloc.
   CloudView apply(CloudView cloud);
 
-  /// Patches back to the frame of the cloud, the surface to the sensor's height.
+  /// Transforms patches back to the frame of the cloud, and the ground surface to heights relative
+  /// to the sensor.
   void bring_back(Segmentation& result) const noexcept;
 
  private:
@@ -135,24 +137,23 @@ class GravityAlignment {
   Buffer<float> levelled_;  // x, y, z of each point
 };
 
-/// Coordinates are cut off here, metres: far beyond what any method looks at, so that products of
-/// finite numbers stay finite.
+/// Coordinates are clamped to this, metres, so that products of finite numbers stay finite. It is
+/// far beyond the range of any method.
 constexpr float farthest = 1e12f;
 
-/// Where a point goes that would land in the very place of the sensor, which means "no echo".
+/// x of a point that would be transformed to (0, 0, 0), metres. All zero means a missing return.
 constexpr float next_to_sensor = 1e-6f;
 
-/// All of the arithmetic is the same for every point, without branches, for the compiler to make
-/// vectors of.
+/// Transforms one point. The code has no branches, so that the compiler can vectorise it.
 struct ToLevel {
   Turn turn;
-  Vector3f origin;  // and what is subtracted after the turn
+  Vector3f origin;  // subtracted before the rotation
   float scale;
   float lift;
 
   void operator()(const Point& p, float* to) const noexcept {
     const bool is_zero = (p.x == 0) & (p.y == 0) & (p.z == 0);
-    // 0 for finite numbers, NaN for others, which a comparison in min or max could lose.
+    // 0 for finite numbers, otherwise NaN. Keeps the NaN that clamp could lose.
     const float trouble = (p.x - p.x) + (p.y - p.y) + (p.z - p.z);
     const float x = std::clamp(p.x * scale, -farthest, farthest) - origin[0];
     const float y = std::clamp(p.y * scale, -farthest, farthest) - origin[1];
@@ -169,7 +170,7 @@ struct ToLevel {
 
 namespace {
 
-/// `floats` a point, known when this is compiled.
+/// Transforms records of `floats` floats; the number is known at compile time.
 template <std::size_t floats>
 void level_packed(const float* from, std::size_t count, const ToLevel& to_level,
                   float* to) noexcept {
@@ -178,7 +179,8 @@ void level_packed(const float* from, std::size_t count, const ToLevel& to_level,
   }
 }
 
-/// Floats a point if x, y and z stand first in records of aligned floats, else 0.
+/// Number of floats per point if the points are records of aligned floats that begin with x, y and
+/// z; otherwise 0.
 std::ptrdiff_t floats_a_point(CloudView cloud) noexcept {
   constexpr std::ptrdiff_t size = sizeof(float);
   const CloudLayout& layout = cloud.layout();
@@ -242,7 +244,8 @@ namespace flagstone {
 using mount::GravityAlignment;
 using mount::MountTrack;
 
-/// How the sensor stands, the cloud made level, the method, its results brought back.
+/// Estimates the mounting pose, transforms the cloud, runs the method and transforms the results
+/// back.
 struct GravityAlignedSegmenter::Impl {
   Impl(std::unique_ptr<Segmenter> inner, float method_height, const MountSettings& given)
       : settings(given),
@@ -265,7 +268,7 @@ struct GravityAlignedSegmenter::Impl {
     alignment.set(track.mount());
   }
 
-  /// Asks the scan if it is to be asked.
+  /// Estimates the mounting pose from the scan if the settings require it.
   void decide(CloudView cloud) noexcept {
     if (estimator && (settings.tracks() || !track.is_told())) {
       decision = estimator->estimate(cloud);
@@ -280,7 +283,7 @@ struct GravityAlignedSegmenter::Impl {
 
   MountSettings settings;
   std::unique_ptr<Segmenter> method;
-  std::optional<MountEstimator> estimator;  // where the settings ask for estimates
+  std::optional<MountEstimator> estimator;  // only if the settings require estimates
   MountTrack track;
   GravityAlignment alignment;
   MountDecision decision;
@@ -298,7 +301,7 @@ Status GravityAlignedSegmenter::segment(CloudView cloud, Segmentation& result) n
   Impl& w = *impl_;
   const bool is_readable = cloud.data() != nullptr || cloud.empty();
   const bool is_possible = is_readable && cloud.size() <= std::numeric_limits<std::uint32_t>::max();
-  if (!is_possible) return w.method->segment(cloud, result);  // which says what is wrong
+  if (!is_possible) return w.method->segment(cloud, result);  // returns the error
   w.decide(cloud);
   if (w.alignment.is_identity()) return w.method->segment(cloud, result);
   CloudView level;

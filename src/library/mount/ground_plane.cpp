@@ -11,39 +11,40 @@
 namespace flagstone::mount {
 namespace {
 
-/// Between directions of the first look: tangent of 5 degrees, which is half a metre of height 6 m
-/// away, as much as a level is thick.
+/// Step between the directions of the first test: tangent of 5 degrees. At a distance of 6 m this
+/// is half a metre of height, the thickness of a level.
 constexpr float direction_step = 0.0875f;
 
-/// Metres a level is thick, in two slices; both overlap with those above and below.
+/// Thickness of a slice, metres. A level consists of two slices and overlaps the levels above and
+/// below.
 constexpr float slice = 0.25f;
 
-/// What lies below a level counts against it so many times as what lies in it counts for it.
+/// Penalty for points below a level, relative to the weight of points in it.
 constexpr float cost_below = 2;
 
-/// Points looked at for every direction; all of them for the refinement of the best few.
+/// Maximum number of points in the first test of every direction. The refinement uses all points.
 constexpr std::size_t few = 2048;
 constexpr std::size_t most_candidates = 4;
 
-/// What a plane with this normal scores counts for so much, 0 to 1: with a `lean_cost` of 45 for
-/// nine tenths at 3 degrees from the expected up, for half at 8.5 and for a quarter at 14.5.
+/// Factor for the score of a plane with this normal, 0 to 1. With a `lean_cost` of 45 it is 0.9 at
+/// 3 degrees from the expected up direction, 0.5 at 8.5 degrees and 0.25 at 14.5 degrees.
 float belief_in(const Vector3f& up, float lean_cost) noexcept {
   const float cosine_square = up[2] * up[2];
   return cosine_square / (cosine_square + lean_cost * (1 - cosine_square));
 }
 
-/// The refinement believes points within these distances of the plane, one round after the other,
-/// metres, and half as far above it once the plane is nearly there: what stands on the ground is
-/// always above it.
+/// Distance from the plane within which each round of the refinement uses points, metres. In later
+/// rounds the distance above the plane is halved, because objects are always above the ground.
 constexpr std::array<float, 6> gates = {0.6f, 0.45f, 0.3f, 0.22f, 0.15f, 0.15f};
-constexpr float gate_per_metre = 0.015f;  // metres a metre of range
+constexpr float gate_per_metre = 0.015f;  // m/m
 constexpr std::size_t one_sided_from = 2;
 
-/// The ground is a plane in the first rounds and may bend in the last ones: over crests, in dips.
+/// The first rounds fit a plane; rounds from this one also fit quadratic terms, for crests and
+/// dips.
 constexpr std::size_t bends_from = 3;
 
-/// Points on a line, or far off to one side, do not tell how the ground lies below the vehicle. As
-/// if as much as this were seen level and even: metres^2 for the slope, metres^4 for the bend.
+/// Priors for level and even ground, because points on a line or far to one side do not determine
+/// the ground below the vehicle. In m^2 for the slope and m^4 for the quadratic terms.
 constexpr double level_prior = 0.3;
 constexpr double even_prior = 100;
 
@@ -64,11 +65,12 @@ class GroundFit {
     }
   }
 
-  /// The first `count` of the terms, 3 or 6, the others 0; nothing without any weight.
+  /// Solves for the first `count` terms, 3 or 6; the others are 0. Returns nothing without any
+  /// weight.
   [[nodiscard]] std::optional<Terms> solve(std::size_t count) const noexcept {
     const double weight = squares_[0][0];
     if (!(weight > 0)) return {};
-    // Cholesky: with the priors the matrix is positive definite.
+    // Cholesky decomposition. With the priors, the matrix is positive definite.
     std::array<Terms, terms> root = squares_;
     const Terms prior = {1e-9, level_prior, level_prior, even_prior, even_prior, even_prior};
     Terms solution = right_;
@@ -124,8 +126,8 @@ PlaneSearch::PlaneSearch(const MountLimits& limits, bool looks_for_tilt) : limit
 
 PlaneSearch::Candidate PlaneSearch::level_along(std::span<const NearPoint> points,
                                                 const Vector3f& up) noexcept {
-  // Slices are counted upward from below the lowest ground there can be; what is lower still is in
-  // the first.
+  // Slices are numbered upwards from below the lowest possible ground. Lower points are in the
+  // first slice.
   const auto count = levels_.size();
   const float lowest = -static_cast<float>(count - 1) * slice;
   std::ranges::fill(levels_, 0.0f);
@@ -202,7 +204,7 @@ GroundPlane refined(std::span<const NearPoint> points, GroundPlane plane) noexce
     std::array<float, GroundFit::terms> term{};
     std::ranges::transform(*solution, term.begin(), [](double v) { return static_cast<float>(v); });
     const auto [c, a, b, xx, xy, yy] = term;
-    // From z = a x + b y + c - height to a plane at right angles to its own up.
+    // Convert z = a x + b y + c - height to a normal and a distance along that normal.
     const float shorter = 1 / std::sqrt(1 + a * a + b * b);
     plane = {.up = unit(turn.undo({-a * shorter, -b * shorter, shorter})),
              .height = (plane.height - c) * shorter,
@@ -234,21 +236,21 @@ namespace {
 
 enum Kind : std::uint8_t { ground = 1, standing = 2, under = 4 };
 
-/// Ground lies within this of the plane, metres, and this much more for each metre of range.
+/// Maximum distance of ground from the plane, metres, and its increase per metre of range.
 constexpr float ground_gate = 0.2f;
 constexpr float ground_gate_growth = 0.02f;
 
-/// What lies so far above and no farther stands on the ground, metres: what hangs higher, such as
-/// crowns of trees, says nothing about it.
+/// Points between these heights above the plane belong to obstacles on the ground, metres. Higher
+/// points, such as the crowns of trees, are ignored.
 constexpr float standing_from = 0.4f;
 constexpr float standing_to = 2.0f;
 
-/// What lies farther below the plane than this may be a hole or falling ground, metres, and this
-/// much more for each metre of range.
+/// Points farther than this below the plane may be in a hole or on ground that slopes down, metres,
+/// with its increase per metre of range.
 constexpr float below_from = 0.35f;
 constexpr float below_growth = 0.08f;
 
-/// Sixteen directions, by comparisons alone.
+/// Index of one of sixteen directions, found with comparisons only.
 std::size_t direction_of(float x, float y) noexcept {
   const float ax = std::abs(x);
   const float ay = std::abs(y);
@@ -257,7 +259,7 @@ std::size_t direction_of(float x, float y) noexcept {
   return (std::size_t{x < 0} * 2 + std::size_t{y < 0}) * 4 + within;
 }
 
-/// 0 at `none` and beyond, 1 at `all` and beyond, a straight line between.
+/// 0 at or beyond `none`, 1 at or beyond `all`, linear in between.
 float share(float value, float none, float all) noexcept {
   return std::clamp((value - none) / (all - none), 0.0f, 1.0f);
 }
@@ -288,7 +290,7 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
     std::uint8_t& cell = cells_[index_of(place[1]) * width + index_of(place[0])];
     if (std::abs(z) < ground_gate + ground_gate_growth * range) {
       cell |= ground;
-      if (z < 0) {  // above it grass makes it thicker than it is
+      if (z < 0) {  // only below: grass increases the distances above
         squares += double{p.weight} * z * z;
         below_weight += double{p.weight};
       }
@@ -303,8 +305,8 @@ Agreement AgreementCount::of(std::span<const NearPoint> points, const GroundPlan
     }
   }
 
-  std::array<int, 16> seen{};   // cells with anything in them, by direction
-  std::array<int, 16> shows{};  // those with ground
+  std::array<int, 16> seen{};   // number of cells with points, per direction
+  std::array<int, 16> shows{};  // number of cells with ground, per direction
   float free = 0;
   float below = 0;
   Agreement agreement;

@@ -14,27 +14,27 @@
 
 namespace flagstone::mount {
 
-/// The ground that near points agree on: a plane below the sensor, and how the ground bends away
-/// from it. In the frame turned so that `up` is z: z = -height + xx * x^2 + xy * x * y + yy * y^2.
+/// The ground fitted to near points: a plane below the sensor with quadratic terms. In the frame
+/// rotated so that `up` is z, the ground is z = -height + xx * x^2 + xy * x * y + yy * y^2.
 struct GroundPlane {
   Vector3f up{0, 0, 1};          ///< normal of the plane in the frame of the points, unit length
   float height = 0;              ///< metres from the sensor to the plane
-  float xx = 0, xy = 0, yy = 0;  ///< one over metres
+  float xx = 0, xy = 0, yy = 0;  ///< quadratic terms, 1/m
 
-  /// How far a place in the turned frame lies above the ground, metres.
+  /// Height of a position in the rotated frame above the ground, metres.
   [[nodiscard]] float above(float x, float y, float z) const noexcept {
     return z + height - (xx * x * x + xy * x * y + yy * y * y);
   }
 };
 
-/// Searches the plane that most of the near points lie on and few below, all directions within the
-/// limit for its normal if it is to find the tilt, and refines it by the points close to it.
+/// Searches for the plane with the most near points on it and few below, and refines it with the
+/// points close to it. If the tilt is estimated, it tries all normals within the limit.
 class PlaneSearch {
  public:
   PlaneSearch(const MountLimits& limits, bool looks_for_tilt);
 
-  /// The more a lean costs, 0 to 100, the more must speak for one; see `belief_in`. Nothing if
-  /// there is no level at all.
+  /// Finds the plane. A higher `lean_cost`, 0 to 100, requires more evidence for a tilted plane;
+  /// see `belief_in`. Returns nothing if no plane has a positive score.
   std::optional<GroundPlane> find(std::span<const NearPoint> points, float lean_cost) noexcept;
 
  private:
@@ -50,43 +50,41 @@ class PlaneSearch {
 
   MountLimits limits_;
   std::vector<Vector3f> directions_;
-  std::vector<NearPoint> few_;   // of the points, for the first look at every direction
-  std::vector<float> levels_;    // weights by height
-  std::vector<Candidate> best_;  // the directions worth refining, best first
+  std::vector<NearPoint> few_;   // subset of the points, for the first test of every direction
+  std::vector<float> levels_;    // histogram of heights, with weights
+  std::vector<Candidate> best_;  // the candidates to refine, best first
 };
 
-/// What near points say of a plane that is taken for the ground.
+/// Values that describe how well near points support a ground plane.
 struct Agreement {
-  std::uint32_t cells = 0;  ///< see MountDecision
+  std::uint32_t cells = 0;  ///< this and the following values: see MountDecision
   float free = 0;
   float below = 0;
   float spread = 0;
   int directions = 0;
   int seen = 0;
-  float x = 0,
-        y = 0;      ///< where the ground is seen, on the average, metres in the frame of the points
-  float range = 0;  ///< and how far away, metres
+  float x = 0, y = 0;  ///< mean position of the ground points, metres, in the frame of the points
+  float range = 0;     ///< mean range of the ground points, metres
 };
 
-/// Counts, in cells seen from above, where there is ground, where something stands on it, and where
-/// something lies below.
+/// Counts the cells of a horizontal grid that contain ground, obstacles or points below the ground.
 class AgreementCount {
  public:
   AgreementCount();
 
-  /// Points no farther than `reach`, metres.
+  /// Evaluates a plane. All points must be within `reach` metres.
   [[nodiscard]] Agreement of(std::span<const NearPoint> points, const GroundPlane& plane,
                              float reach) noexcept;
 
  private:
-  static constexpr std::size_t width = 32;  // cells along a side
-  static constexpr float centre = 16;       // half of them
+  static constexpr std::size_t width = 32;  // number of cells along a side
+  static constexpr float centre = 16;       // half of `width`
 
-  std::vector<std::uint8_t> cells_;  // which kinds of points each has
+  std::vector<std::uint8_t> cells_;  // the kinds of points in each cell
 };
 
-/// A decision whose five numbers are filled: how much it is believed, 0 to 1, and, if it is not at
-/// all, for which of them. `accepted` where none speaks against it.
+/// Computes the confidence of a decision, 0 to 1, from its values. Sets the status to `accepted`,
+/// or to the reason with the lowest factor if the confidence is below `min_confidence`.
 void judge(MountDecision& decision, float min_confidence) noexcept;
 
 }  // namespace flagstone::mount

@@ -30,24 +30,26 @@ using mount::turn_to_z;
 
 namespace {
 
-/// Fewer places with a point do not make a ground.
+/// Minimum number of points for an estimate.
 constexpr std::size_t fewest_points = 40;
 
-/// Directions of sixteen: ground in so many surrounds the sensor, in so few lies on one side of it.
+/// Numbers of directions, of sixteen: with at least `all_round` of them, ground surrounds the
+/// sensor; with at most `narrow`, it is on one side.
 constexpr int all_round = 8;
 constexpr int narrow = 4;
 
-/// Ground seen on the average farther away than this share of the reach tells little of how it lies
-/// below the sensor: then it is asked for again within so many times the reach.
+/// If the mean range of the ground exceeds this fraction of the reach, the ground does not show its
+/// height below the sensor. The estimate is then repeated within `farther` times the reach.
 constexpr float far_share = 0.52f;
 constexpr float farther = 2.5f;
 
-/// From afar a lean is easily made up of walls and rows of cars, so that more must speak for one.
+/// Cost of a tilt in the distant pass: walls and rows of cars can form tilted planes, so that more
+/// evidence is required.
 constexpr float lean_cost_afar = 45;
 
 }  // namespace
 
-/// Points near the vehicle, a plane through them, what they say of that plane.
+/// Finds points near the vehicle, fits a plane to them and evaluates it.
 struct MountEstimator::Impl {
   explicit Impl(const MountSettings& given)
       : settings(checked(given)),
@@ -66,11 +68,12 @@ struct MountEstimator::Impl {
   MountSettings settings;
   bool looks_for_tilt;
   Mount expected;
-  Turn level;  // from the cloud's frame to one with the expected up along z
+  Turn level;  // from the frame of the cloud to a frame with the expected up direction along z
   NearPoints near;
   PlaneSearch search;
   AgreementCount agreement;
-  float ground_range = 0;  // of the last look, metres: its reach if it found no ground
+  float ground_range =
+      0;  // mean range of the ground in the last pass, metres; its reach if it found none
 };
 
 void MountEstimator::Impl::take_plane(const GroundPlane& plane, const Agreement& agreed,
@@ -80,8 +83,8 @@ void MountEstimator::Impl::take_plane(const GroundPlane& plane, const Agreement&
     decision.mount.up = mount::unit(level.undo(plane.up));
     decision.mount.sensor_height = plane.height;
   } else {
-    // Straight down; where ground is seen on one side only, there: nobody knows whether its slope
-    // goes on to the sensor or is the sensor's own.
+    // The height is measured straight down from the sensor. If ground is seen on one side only, it
+    // is measured there, because its slope may belong to the ground or to a tilted sensor.
     const float off = static_cast<float>(all_round - agreed.directions) / (all_round - narrow);
     const float to_seen = std::clamp(off, 0.0f, 1.0f);
     decision.mount.sensor_height = (plane.height + to_seen * (x * agreed.x + y * agreed.y)) / z;

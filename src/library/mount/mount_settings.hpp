@@ -10,15 +10,16 @@
 
 namespace flagstone {
 
-/// All settings of `settings` but the sensor's height, which every method has among its own, in the
-/// order they are printed, in the table `mount`; they point into it.
+/// All settings of the table `mount`, in the order in which they are printed. They point into
+/// `settings`. The sensor height is not included, because every method has that setting.
 std::vector<Setting> settings_of(MountSettings& settings);
 
 }  // namespace flagstone
 
 namespace flagstone::mount {
 
-/// The mount before any scan: the given one, `up` of unit length, or along z where tilt is off.
+/// The configured mounting pose, used before the first scan. `up` has unit length and is z if the
+/// tilt is off.
 inline Mount expected_mount(const MountSettings& settings) noexcept {
   Mount mount = settings.mount;
   mount.up = settings.tilt == TiltSource::off ? Vector3f{0, 0, 1} : unit(mount.up);

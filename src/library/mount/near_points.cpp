@@ -12,23 +12,23 @@
 namespace flagstone::mount {
 namespace {
 
-/// Ground may rise by this much ahead, degrees.
+/// Maximum upward slope of the ground, degrees.
 constexpr double steepest_slope = 20;
 
-/// Range at which a point weighs a quarter of what one at the vehicle does, as a share of the
-/// reach.
+/// Range at which the weight is a quarter of the weight at the vehicle, as a fraction of the reach.
 constexpr float weight_range = 5.0f / 16;
 
-/// A surface fills its cubes; ghosts of what mirrors, and dust, leave a few points in each. A cube
-/// with less than this share of the mean count at its range weighs so much less.
+/// A surface fills its cubes; ghost points and dust leave only a few points per cube. If the count
+/// of a cube is below this fraction of the mean count at its range, its weight is reduced in
+/// proportion.
 constexpr float dense_share = 0.5f;
 
-/// Scans are read in so many interleaved passes, so that any number of them covers all of a scan,
-/// and no further once this many points were looked at.
+/// Scans are read in this number of interleaved passes, so that after any pass the points read
+/// cover the whole scan. Reading stops after the pass that reaches this number of points.
 constexpr std::size_t passes = 8;
 constexpr std::size_t enough = 49152;
 
-/// Ranges over which counts are compared.
+/// Number of range intervals within which counts are compared.
 constexpr std::size_t shells = 16;
 
 }  // namespace
@@ -61,7 +61,7 @@ std::span<const NearPoint> NearPoints::find(CloudView cloud, const Mount& mount,
                                     p.y * mount.scale - mount.origin[1],
                                     p.z * mount.scale - mount.origin[2]};
       const float square = dot(from_sensor, from_sensor);
-      const bool is_near = square > nearest_square_ && square <= farthest_square;  // not if NaN
+      const bool is_near = square > nearest_square_ && square <= farthest_square;  // false for NaN
       if (!is_near || is_missing_return(p)) continue;
       const float z = dot(level.z, from_sensor);
       if (z > 0 && z * z > steepest_ * steepest_ * square) continue;

@@ -13,27 +13,28 @@
 
 namespace flagstone::mount {
 
-/// A place with a point, metres from the sensor, z along the up that is expected.
+/// A point, metres from the sensor, with z along the expected up direction.
 struct NearPoint {
   float x, y, z;
-  /// The nearer to the vehicle, the more it says about the ground it stands on; less where its cube
-  /// holds fewer points than those around the sensor do.
+  /// Larger near the vehicle, because these points determine the ground below it. Smaller if the
+  /// cube of the point contains fewer points than other cubes at the same range.
   float weight;
 };
 
-/// The points of a scan that can be ground near the vehicle: one in each of the cubes that the
-/// reach is divided into, so that places count and not the density of beams.
+/// The points of a scan that can be ground near the vehicle. Space within the reach is divided into
+/// cubes, with one point per cube, so that the density of beams has no influence.
 class NearPoints {
  public:
-  /// Cubes along a side; the cube that the reach fits in has 64 of them.
+  /// Number of cubes along a side of the cube that encloses the reach.
   static constexpr std::size_t cubes = 64;
-  static constexpr float centre = 32;  ///< half of them
+  static constexpr float centre = 32;  ///< half of `cubes`
   static constexpr std::size_t most = 16384;
 
-  /// Takes all its memory.
+  /// Allocates all memory.
   NearPoints(const MountLimits& limits, bool looks_for_tilt);
 
-  /// Of scale and origin of `mount` and an `up` of unit length; `reach` in metres.
+  /// Finds the points within `reach` metres of the sensor. Uses scale and origin of `mount`;
+  /// `level` brings the expected up direction to z. The span is valid until the next call.
   std::span<const NearPoint> find(CloudView cloud, const Mount& mount, const Turn& level,
                                   float reach) noexcept;
 
@@ -44,10 +45,10 @@ class NearPoints {
   void weigh(std::size_t found, float reach) noexcept;
 
   float nearest_square_;
-  float steepest_;                    // sine of the highest elevation that ground can be seen at
-  std::vector<std::uint16_t> slots_;  // where the point of each cube is
+  float steepest_;                    // sine of the maximum elevation of ground
+  std::vector<std::uint16_t> slots_;  // index of the point of each cube
   std::vector<NearPoint> points_;
-  std::vector<std::uint32_t> counts_;  // points in the cube of each
+  std::vector<std::uint32_t> counts_;  // number of points in the cube of each point
 };
 
 }  // namespace flagstone::mount

@@ -9,14 +9,14 @@
 
 namespace flagstone::mount {
 
-/// A direction or a place, metres.
+/// A direction, or a position in metres.
 using Vector3f = std::array<float, 3>;
 
 constexpr float dot(const Vector3f& a, const Vector3f& b) noexcept {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Of unit length. For lengths from 1e-30 to 1e30.
+/// Scales a vector to unit length. Its length must be 1e-30 to 1e30.
 inline Vector3f unit(const Vector3f& v) noexcept {
   const double x = v[0];
   const double y = v[1];
@@ -26,15 +26,15 @@ inline Vector3f unit(const Vector3f& v) noexcept {
           static_cast<float>(z / length)};
 }
 
-/// The angle between two directions of unit length.
+/// The angle between two unit vectors, degrees.
 inline float degrees_between(const Vector3f& a, const Vector3f& b) noexcept {
-  // By the chord: the cosine does not tell small angles apart.
+  // Computed from the chord, because the cosine is inaccurate for small angles.
   const Vector3f chord = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
   const float half = std::min(std::sqrt(dot(chord, chord)) / 2, 1.0f);
   return 2 * std::asin(half) * static_cast<float>(180 / std::numbers::pi);
 }
 
-/// The shortest turn that brings a direction to z, as rows.
+/// The shortest rotation that brings a direction to z, as rows of a matrix.
 struct Turn {
   Vector3f x{1, 0, 0};
   Vector3f y{0, 1, 0};
@@ -43,14 +43,14 @@ struct Turn {
   [[nodiscard]] Vector3f apply(const Vector3f& v) const noexcept {
     return {dot(x, v), dot(y, v), dot(z, v)};
   }
-  /// The turn back.
+  /// The inverse rotation.
   [[nodiscard]] Vector3f undo(const Vector3f& v) const noexcept {
     return {x[0] * v[0] + y[0] * v[1] + z[0] * v[2], x[1] * v[0] + y[1] * v[1] + z[1] * v[2],
             x[2] * v[0] + y[2] * v[1] + z[2] * v[2]};
   }
 };
 
-/// `up` has unit length. Straight down is turned about x.
+/// The rotation that brings the unit vector `up` to z. If `up` is -z, it rotates about x.
 inline Turn turn_to_z(const Vector3f& up) noexcept {
   const auto [ux, uy, uz] = up;
   if (uz < -0.999999f) return {.x = {1, 0, 0}, .y = {0, -1, 0}, .z = {0, 0, -1}};

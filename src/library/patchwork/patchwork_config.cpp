@@ -141,7 +141,7 @@ std::vector<Setting> settings_of(PatchworkConfig& c) {
       {"elevation.base",
        &c.elevation.base,
        "height above -h_s at which psi is 0.5, extrapolated to r = 0: "
-       "kappa(r) = -h_s + elevation.base * e^(elevation.growth r)",
+       "`kappa(r) = -h_s + base * exp(growth * r)`",
        {.low = 0, .high = 100, .unit = "m"}},
       {"elevation.growth",
        &c.elevation.growth,
