@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """The C++ reference: one page per public header, in the order of the header, from its comments.
 
-Each complaint of doxygen (a public name without a comment, a comment with an unknown name) is a warning of the site, and
-so fails a strict build. The groups of pages are in the `nav` of mkdocs.yml, below `reference/cpp/`. A header that is
+Each complaint of doxygen (a public name without a comment, a comment with an unknown name) is a warning of the site,
+and so fails a strict build. The groups of pages are in the `nav` of mkdocs.yml, below `reference/cpp/`. A header that is
 missing there is a warning too.
 """
 
@@ -105,8 +105,8 @@ class Reference:
     def index(self, groups: dict[str, list[str]]) -> str:
         lines = [
             "# C++ reference\n",
-            "One page per header of `include/flagstone`. `#include <flagstone/flagstone.hpp>` includes all headers except",
-            "`make_segmenter.hpp` and the baselines. Link the target `flagstone::flagstone`; for the baselines, link",
+            "One page per header of `include/flagstone`. `#include <flagstone/flagstone.hpp>` includes all headers",
+            "except `make_segmenter.hpp` and the baselines. Link the target `flagstone::flagstone`; for the baselines, link",
             "`flagstone::baselines`.",
         ]
         headers = {page_of(header): header for header in self.headers}

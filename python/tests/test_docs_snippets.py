@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Every snippet of README.md and of docs/ works.
+"""Every snippet of README.md and docs/ works.
 
-The Python of a page runs from top to bottom, in an empty folder or after the page's `flagstone demo`. C++ compiles.
-Commands run, but not on what they name: most of that is a data set, or hours of work. The data are one small simulated
-scan, whatever a command calls them, and what is simulated has one frame. So all options, their values and what goes
-with what are tested, but no figure. Commands for Ray, which may ask for a cluster, are only read.
+The Python code of a page runs from top to bottom, in an empty directory or after the page's `flagstone demo`. C++ code
+is compiled. Commands run on one small simulated scan instead of the data that they name, and simulate one frame: the
+data sets are large, and some commands take hours. So options, their values and their combinations are tested, but not
+the printed results. Commands for Ray are only parsed, because they may need a cluster.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from flagstone import _command
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
-# The first line of a block that the tests leave alone; it stays in the block, for the reader to see.
+# The first line of a block that is not tested. Readers see it too.
 NOT_RUN = re.compile(r"\s*# Not run by the tests: (?P<reason>.+)")
 
 
@@ -35,7 +35,7 @@ MISSING_PACKAGE = re.compile(r"ImportError: .*pip install 'flagstone\[.*|ModuleN
 
 @dataclass(frozen=True)
 class Block:
-    language: str  # "" where the page names none, or indents the block
+    language: str  # "" if the page names none, or indents the block
     first_line: int  # counted from 1
     lines: tuple[str, ...]
 
@@ -49,7 +49,7 @@ def name_of(page: Path) -> str:
 
 
 def blocks_of(page: Path) -> list[Block]:
-    """Fenced blocks, and indented ones after an empty line."""
+    """Fenced blocks, and indented blocks after an empty line."""
     lines = page.read_text(encoding="utf-8").splitlines()
     blocks: list[Block] = []
     at = 0
@@ -73,7 +73,7 @@ def blocks_of(page: Path) -> list[Block]:
 PYTHON = {page: [block for block in blocks_of(page) if block.language == "python" and block.is_run] for page in PAGES}
 CPP = [(page, block) for page in PAGES for block in blocks_of(page) if block.language == "cpp" and block.is_run]
 
-# What a C++ snippet may take for granted: the headers, and a scan of the reader's.
+# A C++ snippet may use the headers and the points of a scan without declaring them.
 CPP_HEADERS = ["#include <flagstone/flagstone.hpp>", "#include <flagstone/make_segmenter.hpp>"]
 CPP_FUNCTION = "[[maybe_unused]] void snippet([[maybe_unused]] const float* points, std::size_t count) {"
 
@@ -82,11 +82,11 @@ CPP_FUNCTION = "[[maybe_unused]] void snippet([[maybe_unused]] const float* poin
 def test_python_of_a_page_runs_from_top_to_bottom(page: Path, tmp_path: Path) -> None:
     last = PYTHON[page][-1].first_line
     if any("flagstone demo" in line for block in blocks_of(page) if block.first_line < last for line in block.lines):
-        run_command(["demo"], tmp_path)  # what the page begins with
+        run_command(["demo"], tmp_path)  # the first step of the page
     lines = [""] * len(page.read_text(encoding="utf-8").splitlines())
     for block in PYTHON[page]:
         lines[block.first_line - 1 : block.first_line - 1 + len(block.lines)] = block.lines
-    # With the page's own line numbers in what goes wrong.
+    # Error messages contain the line numbers of the page.
     program = f"exec(compile({chr(10).join(lines)!r}, {name_of(page)!r}, 'exec'))"
     run = subprocess.run(
         [sys.executable, "-c", program],
@@ -106,10 +106,10 @@ def test_python_of_a_page_runs_from_top_to_bottom(page: Path, tmp_path: Path) ->
 def test_cpp_of_a_page_compiles(page: Path, block: Block, tmp_path: Path) -> None:
     compiler = shutil.which(os.environ.get("CXX", "c++"))
     if compiler is None:
-        pytest.skip("no C++ compiler is there")
+        pytest.skip("no C++ compiler is installed")
     includes = [line for line in block.lines if line.startswith("#include")]
     body = ["" if line.startswith("#include") else line for line in block.lines]
-    line = f'#line {block.first_line} "{name_of(page)}"'  # for what the compiler says
+    line = f'#line {block.first_line} "{name_of(page)}"'  # for the messages of the compiler
     if any("int main(" in text for text in body):
         source = [*includes, line, *body]
     else:
@@ -125,14 +125,26 @@ def test_cpp_of_a_page_compiles(page: Path, block: Block, tmp_path: Path) -> Non
     assert run.returncode == 0, run.stderr
 
 
-# Words in capitals are the reader's to fill in.
+def test_numbers_of_the_readme_are_on_a_page_that_the_same_paragraph_links_to() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    measured = 0
+    for paragraph in re.split(r"\n(?=- |\n)", text):
+        numbers = re.findall(r"(?<![\w.])\d+\.\d+(?= ?(?:%|ms)| and )", re.sub(r"\s+", " ", paragraph))
+        pages = [ROOT / page for page in re.findall(r"\]\((docs/benchmarks/[^)#]+)", paragraph)]
+        known = "".join(page.read_text(encoding="utf-8") for page in pages)
+        assert [number for number in numbers if number not in known] == []
+        measured += len(numbers)
+    assert measured >= 6
+
+
+# Readers replace words in capitals.
 PLACEHOLDERS = {"METRES": "1.73", "PROTOCOL": "simulation", "METHOD": "surface", "NAME": "vlp-16", "SCENE": "park"}
 FLAGS = ("--json", "--compare", "--image", "--color-patches", "--heights", "--surface", "--speed")
 SHORTEST = {"simulate": ("--frames", "1"), "bench": ("--rounds", "1")}
 
 
 def commands(program: str) -> dict[str, str]:
-    """Each different command of a program, with the place it stands at first."""
+    """Each different command of a program, with its first position."""
     found: dict[str, str] = {}
     for page in PAGES:
         for block in blocks_of(page):
@@ -150,27 +162,29 @@ RAY_COMMANDS = commands("flagstone-ray")
 
 @pytest.fixture(scope="module")
 def stand_ins(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with all that a command may be run on."""
-    folder = tmp_path_factory.mktemp("stand-ins")
+    """A directory with the inputs of all commands."""
+    directory = tmp_path_factory.mktemp("stand-ins")
     scan = ["--scene", "flat_street", "--sensor", "vlp-16", "--sensor-height", "1.73", "--frames", "1"]
-    run_command(["simulate", *scan, "--output", "dataset"], folder)
-    sequences = folder / "dataset" / "sequences"
-    (folder / "labels").mkdir()
-    (folder / "labels" / "sequences").symlink_to(sequences)
+    run_command(["simulate", *scan, "--output", "dataset"], directory)
+    sequences = directory / "dataset" / "sequences"
+    (directory / "labels").mkdir()
+    (directory / "labels" / "sequences").symlink_to(sequences)
     (sequences / "00" / "predictions").symlink_to(sequences / "00" / "labels")
-    (folder / "scan.bin").symlink_to(sequences / "00" / "velodyne" / "000000.bin")
-    (folder / "scan.label").symlink_to(sequences / "00" / "labels" / "000000.label")
+    (directory / "scan.bin").symlink_to(sequences / "00" / "velodyne" / "000000.bin")
+    (directory / "scan.label").symlink_to(sequences / "00" / "labels" / "000000.label")
     for method in ("surface", "patchwork"):
-        (folder / f"{method}.toml").write_text(run_command(["config", "--method", method], folder), encoding="utf-8")
-    (folder / "sensor.toml").write_text(
+        (directory / f"{method}.toml").write_text(
+            run_command(["config", "--method", method], directory), encoding="utf-8"
+        )
+    (directory / "sensor.toml").write_text(
         "beams = 16\nelevation_top = 15\nelevation_bottom = -15\nheight = 0.6\n", encoding="utf-8"
     )
-    return folder
+    return directory
 
 
-def run_command(arguments: list[str], folder: Path) -> str:
+def run_command(arguments: list[str], directory: Path) -> str:
     done = subprocess.run(
-        [_command.path(), *arguments], cwd=folder, capture_output=True, text=True, timeout=120, check=False
+        [_command.path(), *arguments], cwd=directory, capture_output=True, text=True, timeout=120, check=False
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -187,8 +201,8 @@ def test_command_for_ray_is_understood(command: str) -> None:
     of_ray.make_parser().parse_args(shlex.split(command, comments=True)[1:])
 
 
-def on_stand_ins(command: str, folder: Path) -> list[str]:
-    """The arguments of a command, with the data it names replaced, and as short as it can be."""
+def on_stand_ins(command: str, directory: Path) -> list[str]:
+    """The arguments of a command, with its data replaced and its work as short as possible."""
     words = shlex.split(re.sub(r"[\[\]]|(?<=\w)\.\.\.", "", command), comments=True)[1:]
     for end in (">", "|", "&&"):
         words = words[: words.index(end)] if end in words else words
@@ -201,10 +215,10 @@ def on_stand_ins(command: str, folder: Path) -> list[str]:
             arguments.append(word)
             option = "" if "=" in word or word in FLAGS else word
         elif option:
-            arguments.append(value_on_stand_ins(option, word, method, folder))
+            arguments.append(value_on_stand_ins(option, word, method, directory))
             option = ""
         else:
-            inputs = [str(folder / ("dataset" if subcommand in ("eval", "sweep") else "scan.bin"))]
+            inputs = [str(directory / ("dataset" if subcommand in ("eval", "sweep") else "scan.bin"))]
     for name, value in [SHORTEST[subcommand]] if subcommand in SHORTEST else []:
         if name in arguments:
             arguments[arguments.index(name) + 1] = value
@@ -213,18 +227,18 @@ def on_stand_ins(command: str, folder: Path) -> list[str]:
     return arguments + inputs
 
 
-def value_on_stand_ins(option: str, value: str, method: str, folder: Path) -> str:
+def value_on_stand_ins(option: str, value: str, method: str, directory: Path) -> str:
     match option:
         case "--sequences":
             return "00"
         case "--reference":
-            return str(folder / "scan.label")
+            return str(directory / "scan.label")
         case "--labels":
-            return f"{value.partition('=')[0]}={folder / 'labels'}"
+            return f"{value.partition('=')[0]}={directory / 'labels'}"
         case "--config":
-            return str(folder / f"{method}.toml")
+            return str(directory / f"{method}.toml")
         case "--sensor" if value.endswith(".toml"):
-            return str(folder / "sensor.toml")
+            return str(directory / "sensor.toml")
         case "--protocol" if value.endswith(".json"):
             return "simulation"
         case "--output":
