@@ -16,7 +16,7 @@
 namespace flagstone::surface {
 namespace {
 
-/// A patch of many points.
+/// A patch with many points.
 FittedPatch patch_at(float x, float y, float z, float slope_x = 0, float slope_y = 0) {
   return {.x = x, .y = y, .z = z, .slope_x = slope_x, .slope_y = slope_y, .points = 100};
 }
@@ -36,34 +36,34 @@ class AcceptedPatchesOn : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, AcceptedPatchesOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-TEST_P(AcceptedPatchesOn, WithoutPatchesThereIsNoNeighbour) {
+TEST_P(AcceptedPatchesOn, HasNoNeighbourWithoutPatches) {
   AcceptedPatches patches;
   patches.reserve(4);
 
   EXPECT_FALSE(patches.fit(patch_at(10, 0, -1.7f), 1000).has_neighbour);
 }
 
-TEST_P(AcceptedPatchesOn, NeighboursLieWithinTheRadius) {
+TEST_P(AcceptedPatchesOn, UsesOnlyNeighboursWithinTheRadius) {
   const AcceptedPatches patches = accepted({patch_at(10, 0, -1.7f)});
 
   EXPECT_TRUE(patches.fit(patch_at(13, 4, -1.7f), 5.01f).has_neighbour);
   EXPECT_FALSE(patches.fit(patch_at(13, 4, -1.7f), 4.99f).has_neighbour);
 }
 
-TEST_P(AcceptedPatchesOn, DistanceIsThatToTheNearest) {
+TEST_P(AcceptedPatchesOn, DistanceIsMeasuredToTheNearestNeighbour) {
   const AcceptedPatches patches =
       accepted({patch_at(10, 0, -1.7f), patch_at(6, 0, -1.7f), patch_at(0, 5, -1.7f)});
 
   EXPECT_FLOAT_EQ(patches.fit(patch_at(10, 3, -1.7f), 20).distance, 3);
 }
 
-TEST_P(AcceptedPatchesOn, LevelNeighboursLetExpectTheirMeanHeight) {
+TEST_P(AcceptedPatchesOn, LevelNeighboursPredictTheirMeanHeight) {
   const AcceptedPatches patches = accepted({patch_at(8, 0, -1.6f), patch_at(12, 0, -1.8f)});
 
   EXPECT_NEAR(patches.fit(patch_at(10, 0, -1.2f), 8).step, 0.5f, 1e-5f);
 }
 
-TEST_P(AcceptedPatchesOn, NearerNeighboursCountMore) {
+TEST_P(AcceptedPatchesOn, NearerNeighboursHaveMoreWeight) {
   const AcceptedPatches patches = accepted({patch_at(8, 0, -1.7f), patch_at(16, 0, -0.7f)});
 
   const float step = patches.fit(patch_at(10, 0, -1.7f), 10).step;
@@ -72,7 +72,7 @@ TEST_P(AcceptedPatchesOn, NearerNeighboursCountMore) {
   EXPECT_GT(step, -0.1f);
 }
 
-TEST_P(AcceptedPatchesOn, PatchesOfMorePointsCountMore) {
+TEST_P(AcceptedPatchesOn, PatchesWithMorePointsHaveMoreWeight) {
   FittedPatch poor = patch_at(8, 0, -0.7f);
   poor.points = 5;
   const AcceptedPatches patches = accepted({poor, patch_at(12, 0, -1.7f)});
@@ -80,43 +80,43 @@ TEST_P(AcceptedPatchesOn, PatchesOfMorePointsCountMore) {
   EXPECT_GT(patches.fit(patch_at(10, 0, -1.2f), 8).step, 0.2f);
 }
 
-TEST_P(AcceptedPatchesOn, SlopesAreContinuedByThreeQuarters) {
+TEST_P(AcceptedPatchesOn, SlopesAreReducedToThreeQuarters) {
   const AcceptedPatches patches = accepted({patch_at(10, 0, -1.7f, 0.2f, 0)});
 
-  // 4 m further up the slope; a level patch, whose curve would lead to half of that.
+  // A level patch 4 m up or down the slope. Its curve would predict half of this step.
   EXPECT_NEAR(patches.fit(patch_at(14, 0, -1.7f + 0.6f), 8).step, 0, 1e-6f);
   EXPECT_NEAR(patches.fit(patch_at(6, 0, -1.7f - 0.6f), 8).step, 0, 1e-6f);
 }
 
-TEST_P(AcceptedPatchesOn, TheFootOfABankDoesNotEndTheGround) {
-  // Level ground, then a bank that bends up to a slope of 0.4 at 4 m: it has risen half as far as
-  // its slope would have taken it, three quarters of which are believed.
+TEST_P(AcceptedPatchesOn, GroundContinuesAtTheBaseOfABank) {
+  // Level ground, then a bank that curves up to a slope of 0.4 at 4 m. It has risen by half of
+  // slope times distance, reduced to three quarters.
   const AcceptedPatches patches = accepted({patch_at(10, 0, -1.7f)});
 
   EXPECT_NEAR(patches.fit(patch_at(14, 0, -1.7f + 0.6f, 0.4f, 0), 8).step, 0, 1e-6f);
-  // Where level ground is expected and found, the curve does not speak against it.
+  // If level ground is predicted and found, the curve does not matter.
   EXPECT_NEAR(patches.fit(patch_at(14, 0, -1.7f, 0.4f, 0), 8).step, 0, 1e-6f);
   // A level roof at that height is a step.
   EXPECT_NEAR(patches.fit(patch_at(14, 0, -1.7f + 0.6f), 8).step, 0.6f, 1e-6f);
 }
 
-TEST_P(AcceptedPatchesOn, FitIsThatOfTheNaiveSum) {
+TEST_P(AcceptedPatchesOn, MatchesANaiveSum) {
   std::mt19937 random(2);
-  std::uniform_real_distribution<float> place(-60, 60);
+  std::uniform_real_distribution<float> position(-60, 60);
   std::uniform_real_distribution<float> height(-3, 1);
   std::uniform_real_distribution<float> slope(-0.4f, 0.4f);
   for (const std::size_t count : {1U, 2U, 15U, 16U, 17U, 100U, 500U}) {
     std::vector<FittedPatch> list;
     for (std::size_t i = 0; i < count; ++i) {
-      list.push_back(
-          patch_at(place(random), place(random), height(random), slope(random), slope(random)));
+      list.push_back(patch_at(position(random), position(random), height(random), slope(random),
+                              slope(random)));
       list.back().points = 5 + static_cast<float>(random() % 100);
     }
     const AcceptedPatches patches = accepted(list);
     ASSERT_EQ(patches.size(), count);
     for (int repeat = 0; repeat < 50; ++repeat) {
-      const FittedPatch patch =
-          patch_at(place(random), place(random), height(random), slope(random), slope(random));
+      const FittedPatch patch = patch_at(position(random), position(random), height(random),
+                                         slope(random), slope(random));
       double weights = 0;
       double straight = 0;
       double curved = 0;
@@ -153,7 +153,7 @@ TEST_P(AcceptedPatchesOn, FitIsThatOfTheNaiveSum) {
   }
 }
 
-TEST_P(AcceptedPatchesOn, AfterClearingThereAreNone) {
+TEST_P(AcceptedPatchesOn, ClearRemovesAllPatches) {
   AcceptedPatches patches = accepted(std::vector<FittedPatch>(40, patch_at(10, 0, 5)));
 
   patches.clear();

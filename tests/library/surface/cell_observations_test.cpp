@@ -28,15 +28,15 @@ constexpr float gate_per_metre = 0.004f;
 constexpr float max_clutter_ratio = 0.5f;
 constexpr float lower_bound_weight = 0.1f;
 
-/// What a cell says of the surface.
-struct Said {
-  double weight = 0;  ///< 0: nothing
+/// The observation of a cell.
+struct Observation {
+  double weight = 0;  ///< 0 without an observation
   double correction = 0;
 };
 
-/// The same, one height after another, from what the header and the constants of the code say.
-/// `heights`: above the surface, metres, of up to 32 points.
-Said naive(const std::vector<double>& heights, double reach) {
+/// A naive implementation of the observation, from the header and the constants of the code.
+/// `heights`: heights above the surface of up to 32 points, metres.
+Observation naive(const std::vector<double>& heights, double reach) {
   std::vector<double> gated;
   std::vector<double> seen;
   for (const double h : heights) {
@@ -48,11 +48,11 @@ Said naive(const std::vector<double>& heights, double reach) {
   std::size_t alone = 0;  // up to two points far below the next
   while (alone < 2 && alone + 1 < seen.size() && seen[alone + 1] - seen[alone] > 0.2) ++alone;
   const double lowest = seen.empty() ? std::numeric_limits<double>::infinity() : seen[alone];
-  const auto lower_bound = [&]() -> Said {
+  const auto lower_bound = [&]() -> Observation {
     if (seen.size() < 8 || lowest >= -0.03) return {};
     return {.weight = static_cast<double>(lower_bound_weight), .correction = lowest};
   };
-  if (gated.size() < 3) return lowest < -reach ? lower_bound() : Said{};
+  if (gated.size() < 3) return lowest < -reach ? lower_bound() : Observation{};
 
   std::ranges::sort(gated);
   double mean = gated.size() < 5 ? gated[0] : gated[gated.size() < 10 ? 1 : 2];
@@ -78,11 +78,11 @@ Said naive(const std::vector<double>& heights, double reach) {
   return {.weight = std::min(1.0, at_surface / 10), .correction = mean};
 }
 
-/// Points in cells of a grid of 8 x 8 cells of 1 m, and what is observed of them. The parameter is
+/// Points in the cells of a grid of 8 x 8 cells of 1 m, and their observations. The parameter is
 /// the instruction set.
 class CellObservations : public testing::TestWithParam<std::string> {
  protected:
-  /// A point in the middle of each cell's points, this far above the surface at its place.
+  /// Adds a cell with points at random positions and these heights above the surface, metres.
   void add_cell(std::uint32_t row, std::uint32_t column, const std::vector<float>& heights) {
     const Grid& grid = grid_.grid();
     cells_.push_back({.first = static_cast<std::uint32_t>(points_.size()),
@@ -90,8 +90,8 @@ class CellObservations : public testing::TestWithParam<std::string> {
                       .row = row,
                       .column = column});
     for (const float height : heights) {
-      const float x = grid.center(column) + spread(random_);
-      const float y = grid.center(row) + spread(random_);
+      const float x = grid.center(column) + offset_(random_);
+      const float y = grid.center(row) + offset_(random_);
       points_.push_back({.x = x, .y = y, .z = ground(x, y) + height, .index = 0});
     }
   }
@@ -111,18 +111,18 @@ class CellObservations : public testing::TestWithParam<std::string> {
             cells_, size);
   }
 
-  /// What one cell near the sensor says.
-  Said said_of(const std::vector<float>& heights) {
+  /// The observation of a single cell near the sensor.
+  Observation observed(const std::vector<float>& heights) {
     add_cell(4, 4, heights);
     observe_all();
-    return said(4, 4);
+    return observation(4, 4);
   }
 
-  [[nodiscard]] Said said(std::size_t row, std::size_t column) const {
+  [[nodiscard]] Observation observation(std::size_t row, std::size_t column) const {
     return {.weight = weights_[row * 8 + column], .correction = corrections_[row * 8 + column]};
   }
 
-  /// Tilted, so that heights are not z.
+  /// Tilted, so that heights differ from z.
   [[nodiscard]] float ground(float x, float y) const {
     return heights_are_z_ ? 0 : -1.75f + 0.25f * x - 0.125f * y;
   }
@@ -135,7 +135,7 @@ class CellObservations : public testing::TestWithParam<std::string> {
 
   bool heights_are_z_ = false;
   std::mt19937 random_{1};
-  std::uniform_real_distribution<float> spread{-0.5f, 0.5f};
+  std::uniform_real_distribution<float> offset_{-0.5f, 0.5f};
   OwnedGrid grid_{1, 8};
   std::vector<MovedPoint> points_;
   std::vector<OccupiedCell> cells_;
@@ -149,101 +149,104 @@ class CellObservations : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, CellObservations, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-/// So many heights from `lowest` on, each higher than the one before.
+/// `count` heights that increase by `step` from `lowest`.
 std::vector<float> rising(float lowest, float step, std::size_t count) {
   std::vector<float> heights(count);
   for (std::size_t i = 0; i < count; ++i) heights[i] = lowest + step * static_cast<float>(i);
   return heights;
 }
 
-TEST_P(CellObservations, FlatGroundSaysHowFarItLiesAboveTheSurface) {
-  const Said ground = said_of(std::vector<float>(20, 0.1f));
+TEST_P(CellObservations, FlatGroundGivesItsHeightAboveTheSurface) {
+  const Observation ground = observed(std::vector<float>(20, 0.1f));
 
   EXPECT_EQ(ground.weight, 1);
   EXPECT_NEAR(ground.correction, 0.1, 1e-6);
 }
 
-TEST_P(CellObservations, FewerPointsWeighLess) {
-  EXPECT_NEAR(said_of(std::vector<float>(4, -0.1f)).weight, 0.4, 1e-6);
+TEST_P(CellObservations, FewerPointsHaveLessWeight) {
+  EXPECT_NEAR(observed(std::vector<float>(4, -0.1f)).weight, 0.4, 1e-6);
 }
 
-TEST_P(CellObservations, TwoPointsSayNothing) { EXPECT_EQ(said_of({0.1f, 0.1f, 2.5f}).weight, 0); }
+TEST_P(CellObservations, TwoPointsGiveNoObservation) {
+  EXPECT_EQ(observed({0.1f, 0.1f, 2.5f}).weight, 0);
+}
 
-TEST_P(CellObservations, OfAKerbTheLowerSideCounts) {
-  // A gutter with ten points, and eight on the pavement 14 cm above: too low to be a thing that
-  // stands there.
+TEST_P(CellObservations, AKerbGivesTheHeightOfItsLowerSide) {
+  // Ten points in a gutter, and eight on the pavement 14 cm above, which is too low to be an
+  // obstacle.
   std::vector<float> kerb(10, 0.0f);
   kerb.insert(kerb.end(), 8, 0.14f);
 
-  const Said side = said_of(kerb);
+  const Observation side = observed(kerb);
 
   EXPECT_EQ(side.weight, 1);
   EXPECT_NEAR(side.correction, 0, 0.03);
 }
 
-TEST_P(CellObservations, AWallSaysOnlyThatGroundIsNotAboveItsFoot) {
+TEST_P(CellObservations, AWallGivesOnlyALowerBoundAtItsBase) {
   const std::vector<float> wall = rising(-0.2f, 0.05f, 24);
 
-  const Said foot = said_of(wall);
+  const Observation bound = observed(wall);
 
-  EXPECT_NEAR(foot.weight, lower_bound_weight, 1e-6);
-  EXPECT_NEAR(foot.correction, -0.2, 1e-6);
+  EXPECT_NEAR(bound.weight, lower_bound_weight, 1e-6);
+  EXPECT_NEAR(bound.correction, -0.2, 1e-6);
 }
 
-TEST_P(CellObservations, AWallWhoseFootIsAtTheSurfaceSaysNothing) {
+TEST_P(CellObservations, AWallWithItsBaseAtTheSurfaceGivesNoObservation) {
   const std::vector<float> wall = rising(-0.02f, 0.05f, 24);
 
-  EXPECT_EQ(said_of(wall).weight, 0);
+  EXPECT_EQ(observed(wall).weight, 0);
 }
 
-TEST_P(CellObservations, AGhostFarBelowChangesNothing) {
+TEST_P(CellObservations, AGhostPointFarBelowChangesNothing) {
   std::vector<float> heights(20, 0.05f);
   heights.push_back(-1.0f);
 
-  const Said ground = said_of(heights);
+  const Observation ground = observed(heights);
 
   EXPECT_EQ(ground.weight, 1);
   EXPECT_NEAR(ground.correction, 0.05, 1e-6);
 }
 
-TEST_P(CellObservations, WhereSeveralPointsLieBelowTheModeThereIsNoSaying) {
-  // Three points would do for a mode; the window then climbs away from two of them.
+TEST_P(CellObservations, SeveralPointsBelowTheModeGiveNoObservation) {
+  // The two low points are too few for a mode of their height, and too many below the mode above
+  // them.
   std::vector<float> heights = {-0.3f, -0.3f};
   heights.insert(heights.end(), 20, 0.1f);
 
-  EXPECT_EQ(said_of(heights).weight, 0);
+  EXPECT_EQ(observed(heights).weight, 0);
 }
 
-TEST_P(CellObservations, APointBelowTheModeIsFartherBelowThanTheLimitNotAtIt) {
+TEST_P(CellObservations, PointsExactlyAtTheLimitAreNotBelowTheMode) {
   heights_are_z_ = true;  // exactly
   std::vector<float> heights(20, 0.0f);
   heights.insert(heights.end(), 2, -0.144f);
 
-  EXPECT_EQ(said_of(heights).weight, 1);
+  EXPECT_EQ(observed(heights).weight, 1);
 }
 
-TEST_P(CellObservations, WhatStandsThereIsHigherThanTheLimitNotAtIt) {
+TEST_P(CellObservations, PointsExactlyAtTheLimitAreNotAnObstacle) {
   heights_are_z_ = true;  // exactly
   std::vector<float> heights(20, 0.0f);
   heights.insert(heights.end(), 11, 0.18f);
 
-  EXPECT_EQ(said_of(heights).weight, 1);
+  EXPECT_EQ(observed(heights).weight, 1);
 }
 
-TEST_P(CellObservations, ABushSaysNothingUnlessItReachesBelowTheSurface) {
+TEST_P(CellObservations, ABushAboveTheSurfaceGivesNoObservation) {
   const std::vector<float> bush = rising(0.1f, 0.04f, 20);
 
-  EXPECT_EQ(said_of(bush).weight, 0);
+  EXPECT_EQ(observed(bush).weight, 0);
 }
 
-TEST_P(CellObservations, WhatLiesTooFarAboveIsNotLookedAt) {
+TEST_P(CellObservations, PointsTooFarAboveAreIgnored) {
   std::vector<float> heights(12, 0.0f);
   heights.insert(heights.end(), 18, 1.6f);  // a car's door or leaves
 
-  EXPECT_EQ(said_of(heights).weight, 1);
+  EXPECT_EQ(observed(heights).weight, 1);
 }
 
-TEST_P(CellObservations, OnlyThePlacesOfCellsThatSaySomethingAreWritten) {
+TEST_P(CellObservations, WriteOnlyObservedCells) {
   std::ranges::fill(corrections_, 7.0f);
   std::ranges::fill(weights_, 7.0f);
   add_cell(2, 3, std::vector<float>(12, 0.1f));
@@ -251,31 +254,31 @@ TEST_P(CellObservations, OnlyThePlacesOfCellsThatSaySomethingAreWritten) {
 
   observe_all();
 
-  EXPECT_EQ(said(2, 3).weight, 1);
-  EXPECT_EQ(said(2, 4).weight, 7);
-  EXPECT_EQ(said(2, 4).correction, 7);
-  EXPECT_EQ(said(3, 3).weight, 7);
+  EXPECT_EQ(observation(2, 3).weight, 1);
+  EXPECT_EQ(observation(2, 4).weight, 7);
+  EXPECT_EQ(observation(2, 4).correction, 7);
+  EXPECT_EQ(observation(3, 3).weight, 7);
 }
 
-TEST_P(CellObservations, OfManyPointsThirtyTwoAreTakenEvenly) {
-  // Every second one lies 0.3 m higher, and is not among number j * 64 / 32.
+TEST_P(CellObservations, UseThirtyTwoEvenlySelectedPoints) {
+  // Every second point lies 0.3 m higher and is not among the selected points j * 64 / 32.
   std::vector<float> heights(64, 0.0f);
   for (std::size_t i = 1; i < heights.size(); i += 2) heights[i] = 0.3f;
 
-  const Said ground = said_of(heights);
+  const Observation ground = observed(heights);
 
   EXPECT_EQ(ground.weight, 1);
   EXPECT_NEAR(ground.correction, 0, 1e-6);
 }
 
-TEST_P(CellObservations, TwoReflectionsBelowAWallAreNoFoot) {
+TEST_P(CellObservations, TwoReflectionsBelowAWallAreNotItsBase) {
   std::vector<float> wall = rising(-0.1f, 0.05f, 24);
   wall.insert(wall.end(), {-1.2f, -0.7f});
 
-  EXPECT_NEAR(said_of(wall).correction, -0.1, 1e-6);
+  EXPECT_NEAR(observed(wall).correction, -0.1, 1e-6);
 }
 
-TEST_P(CellObservations, SmallCellsAreObservedAlikeEitherWay) {
+TEST_P(CellObservations, SmallCellsGiveTheSameResultWithBothSizes) {
   add_cell(1, 1, rising(-0.2f, 0.06f, small_cell));
   add_cell(2, 5, std::vector<float>(small_cell, 0.15f));
   observe_all(CellSize::any);
@@ -288,7 +291,7 @@ TEST_P(CellObservations, SmallCellsAreObservedAlikeEitherWay) {
   EXPECT_THAT(weights, testing::ElementsAreArray(weights_));
 }
 
-TEST_P(CellObservations, AreThoseOfTheNaiveOne) {
+TEST_P(CellObservations, MatchANaiveImplementation) {
   std::uniform_real_distribution<float> share(0, 1);
   for (int repeat = 0; repeat < 40; ++repeat) {
     points_.clear();
@@ -296,20 +299,20 @@ TEST_P(CellObservations, AreThoseOfTheNaiveOne) {
     std::ranges::fill(corrections_, 0.0f);
     std::ranges::fill(weights_, 0.0f);
     std::vector<std::vector<float>> all;
-    // Cells inside of the grid, where the slope of the surface is known on both sides.
+    // Cells inside the grid, with a known slope of the surface on both sides.
     for (std::uint32_t row = 1; row < 7; ++row) {
       for (std::uint32_t column = 1; column < 7; ++column) {
         if (share(random_) < 0.2f) continue;
-        // Ground with a spread, and a share of points that stand on it or lie below it.
+        // Rough ground, and fractions of points above and below it.
         const float middle = 0.8f * share(random_) - 0.4f;
         const float roughness = 0.2f * share(random_);
         const float standing = share(random_) * share(random_);
-        const float sunken = 0.3f * share(random_) * share(random_);
+        const float below = 0.3f * share(random_) * share(random_);
         std::vector<float> heights(3 + random_() % 30);
         for (float& height : heights) {
           height = middle + roughness * (share(random_) - 0.5f);
           if (share(random_) < standing) height += 1.5f * share(random_);
-          if (share(random_) < sunken) height -= 2 * share(random_);
+          if (share(random_) < below) height -= 2 * share(random_);
         }
         add_cell(row, column, heights);
         all.push_back(heights);
@@ -320,8 +323,9 @@ TEST_P(CellObservations, AreThoseOfTheNaiveOne) {
 
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const OccupiedCell& cell = cells_[i];
-      const Said expected = naive({all[i].begin(), all[i].end()}, reach(cell.row, cell.column));
-      const Said found = said(cell.row, cell.column);
+      const Observation expected =
+          naive({all[i].begin(), all[i].end()}, reach(cell.row, cell.column));
+      const Observation found = observation(cell.row, cell.column);
       ASSERT_NEAR(found.weight, expected.weight, 1e-6) << "cell " << i << ", repeat " << repeat;
       ASSERT_NEAR(found.correction, expected.correction, 1e-5);
     }

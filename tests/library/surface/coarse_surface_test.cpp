@@ -18,7 +18,7 @@ using tests::OwnedGrid;
 
 constexpr float sensor_height = 1.73f;
 
-/// A plane of many points at (x, y) whose heights are exactly known.
+/// A plane at (x, y) with many points and no residuals.
 Plane plane_at(double x, double y, double z, double slope_x = 0, double slope_y = 0) {
   const double length = std::hypot(slope_x, slope_y, 1.0);
   return {.count = 100,
@@ -28,7 +28,7 @@ Plane plane_at(double x, double y, double z, double slope_x = 0, double slope_y 
           .eigenvalues = {1, 1, 0}};
 }
 
-/// A surface for 32 m around the sensor. The parameter is the instruction set.
+/// A surface within 32 m of the sensor. The parameter is the instruction set.
 class CoarseSurfaceOn : public testing::TestWithParam<std::string> {
  protected:
   CoarseSurfaceOn() { surface_.clear(); }
@@ -38,7 +38,7 @@ class CoarseSurfaceOn : public testing::TestWithParam<std::string> {
     surface_.finish(pull_push);
   }
 
-  /// Height and confidence of the cell that holds (x, y).
+  /// Height and confidence of the cell at (x, y).
   float height(float x, float y) { return grid_.heights()[cell(x, y)]; }
   float confidence(float x, float y) { return grid_.confidences()[cell(x, y)]; }
 
@@ -48,14 +48,14 @@ class CoarseSurfaceOn : public testing::TestWithParam<std::string> {
   }
 
   tests::ForcedTarget forced_{GetParam()};
-  OwnedGrid grid_{2, 32, 55, 55};  // what was there before does not matter
+  OwnedGrid grid_{2, 32, 55, 55};  // initial values must not matter
   CoarseSurface surface_{grid_.grid(), sensor_height};
 };
 
 INSTANTIATE_TEST_SUITE_P(Target, CoarseSurfaceOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-TEST_P(CoarseSurfaceOn, APlaneThatPatchesCoverIsReproduced) {
+TEST_P(CoarseSurfaceOn, ReproducesAPlaneCoveredByPatches) {
   const auto ground = [](double x, double y) { return -1.73 + 0.1 * x - 0.2 * y; };
   for (double y = -30; y <= 30; y += 4) {
     for (double x = -30; x <= 30; x += 4) surface_.add(plane_at(x, y, ground(x, y), 0.1, -0.2), 4);
@@ -65,7 +65,7 @@ TEST_P(CoarseSurfaceOn, APlaneThatPatchesCoverIsReproduced) {
 
   for (float y = -31; y <= 31; y += 2) {
     for (float x = -31; x <= 31; x += 2) {
-      // The height that is expected below the sensor has a share in the four cells around it.
+      // The expected height below the sensor has some weight in the four cells around it.
       const float tolerance = std::hypot(x, y) < 3 ? 0.06f : 1e-5f;
       EXPECT_NEAR(height(x, y), ground(static_cast<double>(x), static_cast<double>(y)), tolerance);
       EXPECT_EQ(confidence(x, y), 1);
@@ -73,7 +73,7 @@ TEST_P(CoarseSurfaceOn, APlaneThatPatchesCoverIsReproduced) {
   }
 }
 
-TEST_P(CoarseSurfaceOn, WithoutPatchesGroundIsExpectedAtTheSensorsHeightAndNotKnown) {
+TEST_P(CoarseSurfaceOn, WithoutPatchesGroundIsAtTheSensorHeightWithZeroConfidence) {
   finish();
 
   EXPECT_NEAR(height(1, 1), -sensor_height, 1e-6f);
@@ -82,7 +82,7 @@ TEST_P(CoarseSurfaceOn, WithoutPatchesGroundIsExpectedAtTheSensorsHeightAndNotKn
   EXPECT_EQ(confidence(31, -31), 0);
 }
 
-TEST_P(CoarseSurfaceOn, FarFromAPatchThereIsLessConfidence) {
+TEST_P(CoarseSurfaceOn, ConfidenceDecreasesWithTheDistanceFromAPatch) {
   surface_.add(plane_at(11, 11, -1), 4);
 
   finish();
@@ -93,7 +93,7 @@ TEST_P(CoarseSurfaceOn, FarFromAPatchThereIsLessConfidence) {
   EXPECT_LT(confidence(21, 21), 1);
 }
 
-TEST_P(CoarseSurfaceOn, BetweenTwoPatchesLiesWhatIsBetweenTheirHeights) {
+TEST_P(CoarseSurfaceOn, HeightsBetweenTwoPatchesLieBetweenTheirHeights) {
   surface_.add(plane_at(-21, 21, -2), 4);
   surface_.add(plane_at(21, 21, -1), 4);
 
@@ -107,11 +107,11 @@ TEST_P(CoarseSurfaceOn, BetweenTwoPatchesLiesWhatIsBetweenTheirHeights) {
   }
 }
 
-TEST_P(CoarseSurfaceOn, WherePatchesDisagreeTheCloserAndTheBetterFittingCount) {
+TEST_P(CoarseSurfaceOn, CloserAndFlatterPatchesHaveMoreWeight) {
   surface_.add(plane_at(9, 9, -1), 4);
   surface_.add(plane_at(13, 9, 0), 4);
   Plane rough = plane_at(-11, 9, 0);
-  rough.eigenvalues[2] = 0.09;  // 0.3 m of spread
+  rough.eigenvalues[2] = 0.09;  // standard deviation 0.3 m
   surface_.add(rough, 4);
   surface_.add(plane_at(-11, 9, -1), 4);
 
@@ -122,7 +122,7 @@ TEST_P(CoarseSurfaceOn, WherePatchesDisagreeTheCloserAndTheBetterFittingCount) {
   EXPECT_LT(height(-11, 9), -0.9f);
 }
 
-TEST_P(CoarseSurfaceOn, PatchesAtTheEdgeReachNoFartherThanTheGrid) {
+TEST_P(CoarseSurfaceOn, PatchesAtTheEdgeStayWithinTheGrid) {
   for (const double x : {-31.9, 31.9}) {
     for (const double y : {-31.9, 31.9}) surface_.add(plane_at(x, y, -3), 8);
   }

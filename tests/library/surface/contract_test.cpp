@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Clauses of the data contract for `surface` alone; for every method: tests/lab/baselines.
+// The data contract of `surface`. tests/lab/baselines tests the contract of all methods.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ std::vector<Label> labels_of(const std::vector<Point>& cloud, const SurfaceConfi
   return tests::segmented(config, view_of(cloud)).labels;
 }
 
-TEST(SurfaceContract, PointsFartherThanTheRangeAreOutOfRange) {
+TEST(SurfaceContract, PointsBeyondMaxRangeAreOutOfRange) {
   EXPECT_EQ(labels_of({{100.1f, 0, -1.7f}}), std::vector{Label::out_of_range});
   EXPECT_EQ(labels_of({{-80, 80, -1.7f}}), std::vector{Label::out_of_range});
   EXPECT_EQ(labels_of({{-60, 60, 3}}), std::vector{Label::nonground});
@@ -39,7 +39,7 @@ TEST(SurfaceContract, PointsFartherThanTheRangeAreOutOfRange) {
             (std::vector{Label::out_of_range, Label::nonground}));
 }
 
-TEST(SurfaceContract, NoPointIsTooNear) {
+TEST(SurfaceContract, PointsNextToTheSensorAreLabelled) {
   std::vector<Point> cloud = random_cloud(64000, 3);
   cloud.push_back({0.4f, 0.3f, -1.73f});
   cloud.push_back({0.4f, 0.3f, 0.2f});
@@ -50,7 +50,7 @@ TEST(SurfaceContract, NoPointIsTooNear) {
   EXPECT_EQ(labels[64001], Label::nonground);
 }
 
-TEST(SurfaceContract, EveryPointHasAHeightOrNan) {
+TEST(SurfaceContract, HeightsAreFiniteOrNan) {
   const std::vector<Point> cloud = corrupted_cloud(30000, 3);
 
   const tests::Outcome outcome = tests::segmented(SurfaceConfig{}, view_of(cloud));
@@ -68,7 +68,7 @@ TEST(SurfaceContract, EveryPointHasAHeightOrNan) {
   }
 }
 
-TEST(SurfaceContract, GroundIsWhatLiesLowerThanTheMarginAndNoDeeperThanNoise) {
+TEST(SurfaceContract, GroundLiesBelowTheMarginAndAboveTheNoiseLimit) {
   const std::vector<Point> cloud = random_cloud(64000, 5);
   const PointRule rule;
 
@@ -95,7 +95,7 @@ TEST(SurfaceContract, GroundIsWhatLiesLowerThanTheMarginAndNoDeeperThanNoise) {
   EXPECT_GT(std::ranges::count(outcome.labels, Label::noise), 0);
 }
 
-TEST(SurfaceContract, APatchIsASquareThatHoldsItsGround) {
+TEST(SurfaceContract, APatchIsASquareThatContainsItsGround) {
   const SurfaceConfig config;
 
   const tests::Outcome outcome = tests::segmented(config, view_of(corrupted_cloud(50000, 14)));
@@ -120,7 +120,7 @@ TEST(SurfaceContract, APatchIsASquareThatHoldsItsGround) {
   EXPECT_GT(ground_patches, 10U);
 }
 
-TEST(SurfaceContract, EveryVerdictHasItsReason) {
+TEST(SurfaceContract, EveryPatchHasAMatchingVerdict) {
   const SurfaceConfig config;
 
   const tests::Outcome outcome = tests::segmented(config, view_of(random_cloud(64000, 9)));
@@ -138,7 +138,7 @@ TEST(SurfaceContract, EveryVerdictHasItsReason) {
   }
 }
 
-TEST(SurfaceContract, ACloudWithoutASinglePlaceHasNoPatches) {
+TEST(SurfaceContract, ACloudWithoutValidPointsHasNoPatches) {
   const tests::Outcome outcome =
       tests::segmented(SurfaceConfig{}, view_of(std::vector<Point>(1000, Point{nan, 0, 0})));
 
@@ -146,7 +146,7 @@ TEST(SurfaceContract, ACloudWithoutASinglePlaceHasNoPatches) {
   EXPECT_THAT(outcome.labels, testing::Each(Label::invalid));
 }
 
-TEST(SurfaceContract, FarFromEveryGroundTheSurfaceIsNotKnown) {
+TEST(SurfaceContract, TheSurfaceIsUnknownFarFromAnyGround) {
   std::vector<Point> cloud = random_cloud(20000, 2);
   std::erase_if(cloud, [](const Point& p) { return p.x > 0 || std::abs(p.y) > 40; });
   cloud.push_back({90, 0, 1});
@@ -162,7 +162,7 @@ TEST(SurfaceContract, FarFromEveryGroundTheSurfaceIsNotKnown) {
   EXPECT_FALSE(std::isnan(result.surface().height(-10, 0)));
 }
 
-TEST(SurfaceContract, ConfidenceIsZeroWhereHeightsAreNotKnownAndAtMostOne) {
+TEST(SurfaceContract, ConfidenceIsZeroForUnknownHeightsAndAtMostOne) {
   const tests::Outcome outcome =
       tests::segmented(SurfaceConfig{}, view_of(corrupted_cloud(30000, 4)));
 
@@ -176,7 +176,7 @@ TEST(SurfaceContract, ConfidenceIsZeroWhereHeightsAreNotKnownAndAtMostOne) {
   }
 }
 
-TEST(SurfaceContract, AWallAloneLeavesTheSurfaceANumberEvenIfAnyAngleIsUpright) {
+TEST(SurfaceContract, AWallAloneGivesValidHeightsEvenIfAnyAngleIsUpright) {
   SurfaceConfig config;
   config.acceptance.upright_angle = 0;
   std::vector<Point> wall;
@@ -193,7 +193,7 @@ TEST(SurfaceContract, AWallAloneLeavesTheSurfaceANumberEvenIfAnyAngleIsUpright) 
   }
 }
 
-TEST(SurfaceContract, GridsAreFinerTowardsTheSensorAndReachAsFarAsTheRange) {
+TEST(SurfaceContract, GridsAreFinerNearTheSensorAndCoverTheRange) {
   for (const int levels : {0, 1, 2, 3, 4}) {
     for (const float range : {8.0f, 20.0f, 100.0f, 200.0f}) {
       SurfaceConfig config;
@@ -215,13 +215,13 @@ TEST(SurfaceContract, GridsAreFinerTowardsTheSensorAndReachAsFarAsTheRange) {
   }
 }
 
-TEST(SurfaceContract, TheSurfaceHasNoStepWhereTheRangeEndsWithAFineGrid) {
+TEST(SurfaceContract, TheSurfaceHasNoStepIfTheRangeEndsWithAFineGrid) {
   std::mt19937 random(1);
   for (const float range : {8.0f, 16.0f, 32.0f, 40.0f}) {
-    std::uniform_real_distribution<float> place(-range, range);
+    std::uniform_real_distribution<float> position(-range, range);
     std::vector<Point> cloud(60000);
     for (Point& p : cloud) {
-      p = {.x = place(random), .y = place(random), .z = 0};
+      p = {.x = position(random), .y = position(random), .z = 0};
       p.z = 0.15f * std::sin(0.8f * p.x) + 0.1f * std::sin(0.9f * p.y) + 0.05f * p.x - 1.73f;
     }
     SurfaceConfig config;
@@ -245,14 +245,14 @@ TEST(SurfaceContract, TheSurfaceHasNoStepWhereTheRangeEndsWithAFineGrid) {
   }
 }
 
-TEST(SurfaceContract, ASettingOutOfRangeIsRefused) {
+TEST(SurfaceContract, RejectsASettingOutOfRange) {
   SurfaceConfig config;
   config.max_range = 7.9f;
 
   EXPECT_THROW(Surface{config}, std::invalid_argument);
 }
 
-TEST(SurfaceContract, AResultThatAnotherMethodFilledIsReplaced) {
+TEST(SurfaceContract, ReplacesAResultOfAnotherMethod) {
   const std::vector<Point> cloud = random_cloud(9000, 15);
   Segmentation result;
   Patchwork patchwork;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What the method `surface` makes of ground on two levels and of reflections below it.
+// Labels of the method `surface` for ground on two levels and reflections below it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ TEST(SurfaceAtEdges, TheBottomOfADitchIsGround) {
   }
 }
 
-TEST(SurfaceAtEdges, LoneGhostsAreNoise) {
+TEST(SurfaceAtEdges, IsolatedGhostPointsAreNoise) {
   std::vector<Point> cloud = tests::edge_scan(tests::step_of(0));
   const std::size_t first_ghost = cloud.size();
   tests::add_ghosts(cloud, 150);
@@ -58,17 +58,17 @@ TEST(SurfaceAtEdges, LoneGhostsAreNoise) {
   EXPECT_GE(noise, 147U);
 }
 
-/// What becomes of points that are all noise so far.
+/// Labels of points after the search for lower ground, if all points were noise before.
 std::vector<Label> searched(const std::vector<Point>& cloud) {
   const tests::SquareScan sorted(cloud, SurfaceConfig{});
-  surface::LowerGround sunken(sorted.cells);
+  surface::LowerGround lower_ground(sorted.cells);
   std::vector<Label> labels(cloud.size(), Label::noise);
-  const std::size_t found = sunken.find(sorted.scan, labels);
+  const std::size_t found = lower_ground.find(sorted.scan, labels);
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(labels, Label::ground)), found);
   return labels;
 }
 
-/// `count` points in three rows on the level of 3 m below the sensor, each `off_level` from it.
+/// `count` points in three rows 3 m below the sensor, each shifted by `off_level`, metres.
 template <class OffLevel>
 std::vector<Point> rows_of(int count, const OffLevel& off_level) {
   std::vector<Point> cloud;
@@ -82,11 +82,11 @@ std::vector<Point> rows_of(int count, const OffLevel& off_level) {
 
 float rough(float i) { return 0.01f * std::sin(37 * i); }
 
-TEST(LowerGround, IsWhatLiesInAPlaneOfItsOwn) {
+TEST(LowerGround, IsFoundInASeparatePlane) {
   EXPECT_EQ(std::ranges::count(searched(rows_of(60, rough)), Label::ground), 60);
 }
 
-TEST(LowerGround, IsToldFromGhostsAround) {
+TEST(LowerGround, ExcludesGhostPointsAroundThePlane) {
   std::vector<Point> cloud = rows_of(60, rough);
   for (int i = 0; i < 4; ++i) cloud.push_back({9.1f, 9.2f, -3.5f - 0.2f * static_cast<float>(i)});
   const std::vector<Label> labels = searched(cloud);
@@ -94,24 +94,24 @@ TEST(LowerGround, IsToldFromGhostsAround) {
   EXPECT_EQ(std::count(labels.end() - 4, labels.end(), Label::noise), 4);
 }
 
-TEST(LowerGround, IsNotFoundInScatteredOrFewPoints) {
-  const auto scattered = [](float i) { return 0.7f * std::sin(37 * i); };
-  EXPECT_EQ(std::ranges::count(searched(rows_of(60, scattered)), Label::ground), 0);
+TEST(LowerGround, IsNotFoundInIrregularOrFewPoints) {
+  const auto irregular = [](float i) { return 0.7f * std::sin(37 * i); };
+  EXPECT_EQ(std::ranges::count(searched(rows_of(60, irregular)), Label::ground), 0);
   EXPECT_EQ(std::ranges::count(searched(rows_of(11, rough)), Label::ground), 0);
 }
 
-TEST(LowerGround, IsNotFoundLowerThanGroundCanBe) {
+TEST(LowerGround, IsNotFoundBelowTheNoiseLimit) {
   const auto too_low = [](float i) { return -10 + rough(i); };
   EXPECT_EQ(std::ranges::count(searched(rows_of(60, too_low)), Label::ground), 0);
 }
 
-TEST(LowerGround, LeavesNothingBehindForTheNextScan) {
+TEST(LowerGround, KeepsNoStateBetweenScans) {
   const std::vector<Point> few = rows_of(11, rough);
   const tests::SquareScan sorted(few, SurfaceConfig{});
-  surface::LowerGround sunken(sorted.cells);
+  surface::LowerGround lower_ground(sorted.cells);
   for (int scan = 0; scan < 3; ++scan) {
     std::vector<Label> labels(few.size(), Label::noise);
-    EXPECT_EQ(sunken.find(sorted.scan, labels), 0U);
+    EXPECT_EQ(lower_ground.find(sorted.scan, labels), 0U);
   }
 }
 

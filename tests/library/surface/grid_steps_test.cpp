@@ -19,7 +19,8 @@ namespace {
 
 using tests::OwnedGrid;
 
-/// The value of a grid at a place: bilinear between centres, beyond the last ones as there.
+/// The height of a grid at a position: bilinear between centres, constant beyond the outermost
+/// centres.
 double bilinear(OwnedGrid& grid, double x, double y) {
   const auto width = static_cast<double>(grid.grid().width);
   const auto split = [&](double v) {
@@ -43,7 +44,7 @@ class GridSteps : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, GridSteps, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-TEST_P(GridSteps, AFinerGridBeginsWithWhatTheCoarserOneHasThere) {
+TEST_P(GridSteps, AFinerGridStartsFromTheInterpolatedCoarserGrid) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> height(-2, 2);
   for (const auto& [coarse_width, fine_width] :
@@ -70,7 +71,7 @@ TEST_P(GridSteps, AFinerGridBeginsWithWhatTheCoarserOneHasThere) {
   }
 }
 
-TEST_P(GridSteps, APlaneStaysAPlane) {
+TEST_P(GridSteps, InterpolationPreservesAPlane) {
   const auto plane = [](float x, float y) { return -1.7f + 0.125f * x - 0.25f * y; };
   OwnedGrid coarse(2, 52);
   OwnedGrid fine(1, 80);
@@ -96,7 +97,7 @@ TEST_P(GridSteps, CorrectionsAreAdded) {
   EXPECT_EQ(grid.heights(), std::vector<float>(400, -1.25f));
 }
 
-TEST_P(GridSteps, CorrectionsFadeToNothingAtAnInnerEdge) {
+TEST_P(GridSteps, CorrectionsFadeToZeroAtAnInnerEdge) {
   for (const std::size_t width : {2U, 4U, 6U, 20U}) {
     OwnedGrid grid(1, width);
     const std::vector<float> corrections(width * width, 1.0f);
@@ -107,7 +108,7 @@ TEST_P(GridSteps, CorrectionsFadeToNothingAtAnInnerEdge) {
     const std::size_t last = width - 1;
     for (std::size_t i = 0; i < width; ++i) {
       for (std::size_t k = 0; k < width; ++k) {
-        // As seen from all sides.
+        // Symmetric on all sides.
         ASSERT_EQ(grid.at(i, k), grid.at(k, i));
         ASSERT_EQ(grid.at(i, k), grid.at(last - i, k));
         if (k > 0 && 2 * k < width) {
@@ -122,7 +123,7 @@ TEST_P(GridSteps, CorrectionsFadeToNothingAtAnInnerEdge) {
   }
 }
 
-TEST_P(GridSteps, ConfidenceBecomesTheLargerOne) {
+TEST_P(GridSteps, ConfidenceBecomesTheMaximum) {
   OwnedGrid grid(1, 4, 0, 0.5f);
   const std::vector<float> corrections(16, 0.0f);
   std::vector<float> confidences(16, 0.25f);

@@ -10,7 +10,7 @@
 
 namespace flagstone::tests {
 
-/// A grid with memory of its own.
+/// A grid that owns its memory.
 class OwnedGrid {
  public:
   OwnedGrid(float cell, std::size_t width, float height = 0, float confidence = 0)
@@ -23,7 +23,7 @@ class OwnedGrid {
   OwnedGrid(const OwnedGrid&) = delete;
   OwnedGrid& operator=(const OwnedGrid&) = delete;
 
-  /// The ground at the centres of the cells.
+  /// Sets the heights to the ground at the centres of the cells.
   void set(const Ground& ground) {
     for (std::size_t row = 0; row < grid_.width; ++row) {
       for (std::size_t column = 0; column < grid_.width; ++column) {

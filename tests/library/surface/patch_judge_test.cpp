@@ -11,7 +11,7 @@
 namespace flagstone::surface {
 namespace {
 
-/// A plane through many points at this place, this far from upright, degrees.
+/// A plane through many points at (x, 0, z), tilted by `tilt` degrees.
 Plane ahead(double x, double z, double tilt = 0) {
   const double angle = tilt * 3.14159265358979 / 180;
   Plane plane{.count = 100, .mean = {x, 0, z}};
@@ -26,11 +26,11 @@ FittedPatch level_at(float x, float z) {
   return {.x = x, .y = 0, .z = z, .slope_x = 0, .slope_y = 0, .points = 100};
 }
 
-TEST(PatchJudge, LevelPatchesAtTheFootOfTheSensorAreGround) {
+TEST(PatchJudge, LevelPatchesAtTheSensorHeightAreGround) {
   EXPECT_EQ(PatchJudge({}).judge_alone(ahead(10, -1.73), clear), Verdict::ground);
 }
 
-TEST(PatchJudge, AFewPointsMakeNoPlane) {
+TEST(PatchJudge, TooFewPointsGiveNoPlane) {
   Plane plane = ahead(10, -1.73);
   plane.count = 4;
 
@@ -53,7 +53,7 @@ TEST(PatchJudge, AWallIsNeverGround) {
   EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, 80), clear), Verdict::ground);
 }
 
-TEST(PatchJudge, PatchesWithAsManyPointsAboveThemAreMixed) {
+TEST(PatchJudge, PatchesWithTooManyPointsAboveThemAreMixed) {
   SurfaceConfig config;
   config.acceptance.max_clutter_ratio = 0.5f;
   const PatchJudge judge(config);
@@ -70,20 +70,20 @@ TEST(PatchJudge, WithoutALimitNothingIsMixed) {
             Verdict::ground);
 }
 
-TEST(PatchJudge, PatchesAboveTheConeAreTooHigh) {
+TEST(PatchJudge, PatchesAboveTheHeightLimitAreTooHigh) {
   SurfaceConfig config;
   config.acceptance.max_height = 1;
   config.acceptance.max_slope = 0.2f;
   const PatchJudge judge(config);
 
-  // Up to -1.73 + 1 near the sensor, and to -1.73 + 0.2 * 20 at 20 m.
+  // The limit is -1.73 + 1 near the sensor and -1.73 + 0.2 * 20 at 20 m.
   EXPECT_EQ(judge.judge_alone(ahead(4, -0.74), clear), Verdict::ground);
   EXPECT_EQ(judge.judge_alone(ahead(4, -0.72), clear), Verdict::too_high);
   EXPECT_EQ(judge.judge_alone(ahead(20, 2.26), clear), Verdict::ground);
   EXPECT_EQ(judge.judge_alone(ahead(20, 2.28), clear), Verdict::too_high);
 }
 
-TEST(PatchJudge, TheFirstPatchIsMeasuredByTheSensorsHeight) {
+TEST(PatchJudge, TheFirstPatchIsComparedWithTheSensorHeight) {
   SurfaceConfig config;
   config.acceptance.max_step = 0.5f;
   config.acceptance.max_step_per_metre = 0.1f;
@@ -91,14 +91,14 @@ TEST(PatchJudge, TheFirstPatchIsMeasuredByTheSensorsHeight) {
   AcceptedPatches none;
   none.reserve(1);
 
-  // At 5 m: 0.5 + 0.1 * 5 above, 0.5 more below.
+  // At 5 m the allowed step is 0.5 + 0.1 * 5 upwards and 0.5 more downwards.
   EXPECT_EQ(judge.judge_step(level_at(5, -1.73f + 0.99f), none), Verdict::ground);
   EXPECT_EQ(judge.judge_step(level_at(5, -1.73f + 1.01f), none), Verdict::off_surface);
   EXPECT_EQ(judge.judge_step(level_at(5, -1.73f - 1.49f), none), Verdict::ground);
   EXPECT_EQ(judge.judge_step(level_at(5, -1.73f - 1.51f), none), Verdict::off_surface);
 }
 
-TEST(PatchJudge, LaterPatchesAreMeasuredByNearerOnes) {
+TEST(PatchJudge, LaterPatchesAreComparedWithNearerOnes) {
   SurfaceConfig config;
   config.acceptance.max_step = 0.5f;
   config.acceptance.max_step_per_metre = 0.1f;
@@ -107,13 +107,13 @@ TEST(PatchJudge, LaterPatchesAreMeasuredByNearerOnes) {
   nearer.reserve(1);
   nearer.add(level_at(16, 3));
 
-  // 4 m away: 0.5 + 0.1 * 4 above.
+  // At 4 m from the neighbour the allowed step is 0.5 + 0.1 * 4 upwards.
   EXPECT_EQ(judge.judge_step(level_at(20, 3.89f), nearer), Verdict::ground);
   EXPECT_EQ(judge.judge_step(level_at(20, 3.91f), nearer), Verdict::off_surface);
   EXPECT_EQ(judge.judge_step(level_at(20, -1.73f), nearer), Verdict::off_surface);
 }
 
-TEST(PatchJudge, TheAllowanceStopsGrowingAt15Metres) {
+TEST(PatchJudge, TheAllowedStepStopsIncreasingAt15Metres) {
   SurfaceConfig config;
   config.acceptance.max_step = 0.5f;
   config.acceptance.max_step_per_metre = 0.1f;

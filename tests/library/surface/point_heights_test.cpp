@@ -20,7 +20,7 @@
 namespace flagstone::surface {
 namespace {
 
-/// The grids of a made-up surface, one after another in memory.
+/// The grids of a synthetic surface, contiguous in memory.
 class JoinedGrids {
  public:
   explicit JoinedGrids(const GroundSurface& made) {
@@ -44,13 +44,13 @@ class JoinedGrids {
   std::vector<Grid> grids_;
 };
 
-/// Grids for 104 m around the sensor, as wide as the cells for the default range.
+/// Grids up to 104 m from the sensor, as large as the extent of the cells for the default range.
 const std::vector<tests::GridSize> wide_grids = {{.cell = 2, .width = 104},
                                                  {.cell = 1, .width = 80},
                                                  {.cell = 0.5f, .width = 96},
                                                  {.cell = 0.25f, .width = 64}};
 
-/// What is said of points above a surface.
+/// Heights and labels of points above a surface.
 struct Measured {
   std::vector<float> heights;
   std::vector<Label> labels;
@@ -77,7 +77,7 @@ class PointHeightsOn : public testing::TestWithParam<std::string> {
     return out;
   }
 
-  /// The label of one point above level ground at z = -2, seen with whatever else is there.
+  /// The label of one point above level ground at z = -2, in a cloud with `others`.
   Label label_of(const Point& point, std::vector<Point> others = {},
                  const SurfaceConfig& config = {}) {
     others.push_back(point);
@@ -94,17 +94,17 @@ class PointHeightsOn : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, PointHeightsOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-TEST_P(PointHeightsOn, AreTakenFromTheSurfaceToTheBit) {
+TEST_P(PointHeightsOn, AreBitIdenticalToTheSurface) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> rough(-2.5f, -1.5f);
   const GroundSurface made = tests::random_surface(
       [&](float, float) { return random() % 8 == 0 ? nan : rough(random); }, wide_grids);
   std::vector<Point> cloud;
-  std::uniform_real_distribution<float> place(-100, 100);
+  std::uniform_real_distribution<float> position(-100, 100);
   for (int i = 0; i < 20000; ++i) {
-    // Anywhere, near the sensor, and at edges of cells and grids.
+    // Anywhere, near the sensor, and on edges of cells and grids.
     const float scale = i % 3 == 0 ? 0.1f : 1.0f;
-    Point p{scale * place(random), scale * place(random), rough(random)};
+    Point p{scale * position(random), scale * position(random), rough(random)};
     if (i % 5 == 0) p.x = std::round(8 * p.x) / 8;
     if (i % 7 == 0) p.y = std::round(p.y);
     cloud.push_back(p);
@@ -125,7 +125,7 @@ TEST_P(PointHeightsOn, AreTakenFromTheSurfaceToTheBit) {
   EXPECT_GT(known, 5000U);
 }
 
-TEST_P(PointHeightsOn, AreNotKnownForPointsThatAreInvalidOrOutOfRange) {
+TEST_P(PointHeightsOn, AreNanForInvalidAndOutOfRangePoints) {
   const Measured found =
       measured({{nan, 0, 0}, {0, 0, 0}, {150, 0, 0}, {5, 5, 20000}, {5, 5, -2}}, level_);
 
@@ -134,7 +134,7 @@ TEST_P(PointHeightsOn, AreNotKnownForPointsThatAreInvalidOrOutOfRange) {
                                        Label::out_of_range, Label::ground}));
 }
 
-TEST_P(PointHeightsOn, LowerThanTheMarginIsGround) {
+TEST_P(PointHeightsOn, PointsBelowTheMarginAreGround) {
   const float margin = PointRule{}.margin;
 
   EXPECT_EQ(label_of({10, 0, -2 + margin - 0.001f}), Label::ground);
@@ -142,7 +142,7 @@ TEST_P(PointHeightsOn, LowerThanTheMarginIsGround) {
   EXPECT_EQ(label_of({10, 0, -2 - 0.3f}), Label::ground);
 }
 
-TEST_P(PointHeightsOn, WhereSomethingStandsTheMarginIsSmaller) {
+TEST_P(PointHeightsOn, TheMarginIsSmallerInCellsWithAnObstacle) {
   const PointRule rule;
   const float margin = rule.obstacle_margin;
   const std::vector<Point> pole = {{10.1f, 0.1f, -2 + 1.25f * rule.obstacle_height + 0.01f}};
@@ -152,7 +152,7 @@ TEST_P(PointHeightsOn, WhereSomethingStandsTheMarginIsSmaller) {
   EXPECT_EQ(label_of({10.6f, 0.4f, -2 + margin + 0.001f}, pole), Label::ground) << "the next cell";
 }
 
-TEST_P(PointHeightsOn, WhereSomethingLowStandsTheMeanOfBothMarginsHolds) {
+TEST_P(PointHeightsOn, TheMeanMarginAppliesInCellsWithALowObstacle) {
   const PointRule rule;
   const float margin = (rule.margin + rule.obstacle_margin) / 2;
   for (const float height :
@@ -164,7 +164,7 @@ TEST_P(PointHeightsOn, WhereSomethingLowStandsTheMeanOfBothMarginsHolds) {
   }
 }
 
-TEST_P(PointHeightsOn, OnlyWhatIsHighEnoughAndDoesNotHangOverTheGroundStands) {
+TEST_P(PointHeightsOn, ObstaclesAreHighEnoughAndNotOverhanging) {
   const PointRule rule;
   const Point low{10.4f, 0.4f, -2 + rule.margin - 0.01f};
 
@@ -174,7 +174,7 @@ TEST_P(PointHeightsOn, OnlyWhatIsHighEnoughAndDoesNotHangOverTheGroundStands) {
   EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 2.51f}}), Label::ground);
 }
 
-TEST_P(PointHeightsOn, AThingStandsInTheCellThatHoldsItWhereverThatIs) {
+TEST_P(PointHeightsOn, AnObstacleAffectsOnlyItsCell) {
   for (const float x : {-99.9f, -40.0f, -0.25f, 0.0f, 0.3f, 24.0f, 99.4f}) {
     for (const float y : {-0.3f, 0.0f, 3.7f}) {
       const float in_x = std::floor(x * 2) / 2 + 0.3f;
@@ -186,7 +186,7 @@ TEST_P(PointHeightsOn, AThingStandsInTheCellThatHoldsItWhereverThatIs) {
   }
 }
 
-TEST_P(PointHeightsOn, WhatStoodInOneScanIsForgottenInTheNext) {
+TEST_P(PointHeightsOn, ObstaclesDoNotAffectTheNextScan) {
   const std::vector<Point> pole = {{10.1f, 0.1f, -1}, {10.4f, 0.4f, -1.9f}};
   const std::vector<Point> none = {{10.1f, 0.1f, -2}, {10.4f, 0.4f, -1.9f}};
   const SurfaceConfig config;
@@ -206,20 +206,20 @@ TEST_P(PointHeightsOn, WhatStoodInOneScanIsForgottenInTheNext) {
   }
 }
 
-TEST_P(PointHeightsOn, FarBelowTheSurfaceIsNoiseAndTheFartherAwayTheDeeper) {
+TEST_P(PointHeightsOn, TheNoiseDepthIncreasesWithRange) {
   EXPECT_EQ(label_of({10, 0, -2 - 0.34f}), Label::ground);
   EXPECT_EQ(label_of({10, 0, -2 - 0.36f}), Label::noise);
   EXPECT_EQ(label_of({50, 0, -2 - 1.14f}), Label::ground);
   EXPECT_EQ(label_of({50, 0, -2 - 1.16f}), Label::noise);
 }
 
-TEST_P(PointHeightsOn, BelowAnyGroundIsNoiseEvenIfTheSurfaceIsThere) {
+TEST_P(PointHeightsOn, PointsBelowTheNoiseLimitAreNoiseEvenOnTheSurface) {
   const GroundSurface pit = tests::random_surface([](float, float) { return -20.0f; }, wide_grids);
 
   EXPECT_EQ(measured({{10, 0, -20}}, pit).labels.front(), Label::noise);
 }
 
-TEST_P(PointHeightsOn, WhereTheSurfaceIsNotKnownNothingIsGround) {
+TEST_P(PointHeightsOn, NothingIsGroundIfTheSurfaceIsUnknown) {
   const GroundSurface unknown = tests::random_surface([](float, float) { return nan; }, wide_grids);
 
   EXPECT_EQ(measured({{10, 0, -2}}, unknown).labels.front(), Label::nonground);

@@ -22,15 +22,15 @@ struct WideGrid {
   std::size_t width;
   std::vector<double> values, weights;
 
-  /// Indices beyond the edge mean the outermost cell.
-  [[nodiscard]] std::size_t place(std::ptrdiff_t row, std::ptrdiff_t column) const {
+  /// Indices beyond the edge refer to the outermost cell.
+  [[nodiscard]] std::size_t index(std::ptrdiff_t row, std::ptrdiff_t column) const {
     const auto last = static_cast<std::ptrdiff_t>(width) - 1;
     return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(row, 0, last)) * width +
            static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(column, 0, last));
   }
 };
 
-/// Pull-push as the paper and the header describe it, one cell after another.
+/// A naive implementation of pull-push, following the paper and the header.
 void fill_naively(WideGrid& grid, double full) {
   const std::size_t width = grid.width;
   if (width == 1) {
@@ -64,8 +64,8 @@ void fill_naively(WideGrid& grid, double full) {
       const std::ptrdiff_t beside_c = column % 2 == 0 ? c - 1 : c + 1;
       for (const auto& [y, share_y] : {std::pair(r, 0.75), std::pair(beside_r, 0.25)}) {
         for (const auto& [x, share_x] : {std::pair(c, 0.75), std::pair(beside_c, 0.25)}) {
-          value += share_y * share_x * coarse.values[coarse.place(y, x)];
-          confidence += share_y * share_x * coarse.weights[coarse.place(y, x)];
+          value += share_y * share_x * coarse.values[coarse.index(y, x)];
+          confidence += share_y * share_x * coarse.weights[coarse.index(y, x)];
         }
       }
       const std::size_t i = row * width + column;
@@ -84,7 +84,7 @@ class PullPushOn : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, PullPushOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-TEST_P(PullPushOn, FillsAsTheNaiveOneDoesAtAnyWidth) {
+TEST_P(PullPushOn, MatchesANaiveImplementationAtAnyWidth) {
   PullPush pull_push(104);
   EXPECT_TRUE(rc::check([&] {
     const auto width = *rc::gen::oneOf(rc::gen::inRange<std::size_t>(1, 40),
@@ -114,7 +114,7 @@ TEST_P(PullPushOn, FillsAsTheNaiveOneDoesAtAnyWidth) {
   }));
 }
 
-TEST_P(PullPushOn, CellsOfFullWeightKeepTheirValueToTheBit) {
+TEST_P(PullPushOn, CellsWithFullWeightKeepTheirExactValue) {
   constexpr std::size_t width = 30;
   PullPush pull_push(width);
   std::mt19937 random(1);
@@ -135,7 +135,7 @@ TEST_P(PullPushOn, CellsOfFullWeightKeepTheirValueToTheBit) {
   }
 }
 
-TEST_P(PullPushOn, WithoutAnyWeightAllIsZero) {
+TEST_P(PullPushOn, WithoutWeightsAllValuesAreZero) {
   constexpr std::size_t width = 26;
   PullPush pull_push(width);
   std::vector<float> values(width * width, 7.0f);
@@ -147,7 +147,7 @@ TEST_P(PullPushOn, WithoutAnyWeightAllIsZero) {
   EXPECT_EQ(weights, std::vector<float>(width * width, 0.0f));
 }
 
-TEST_P(PullPushOn, OneKnownCellFillsAllWithEverLessConfidence) {
+TEST_P(PullPushOn, OneKnownCellFillsTheGridWithDecreasingConfidence) {
   constexpr std::size_t width = 64;
   PullPush pull_push(width);
   std::vector<float> values(width * width, 0.0f);
@@ -163,7 +163,7 @@ TEST_P(PullPushOn, OneKnownCellFillsAllWithEverLessConfidence) {
   EXPECT_GT(weights.back(), 0);
 }
 
-TEST_P(PullPushOn, AGridLeavesNoTraceInTheNext) {
+TEST_P(PullPushOn, KeepsNoStateBetweenGrids) {
   PullPush used(40);
   std::vector<float> values(1600, 100.0f);
   std::vector<float> weights(1600, 1.0f);

@@ -19,7 +19,7 @@ namespace {
 using plane_fits::BinBatch;
 using plane_fits::MovedPoint;
 
-/// A point this far above a plane, at a place of a patch.
+/// A point at (x, y) of a patch, `distance` above its plane.
 MovedPoint point_above(const Plane& plane, float x, float y, double distance) {
   const auto [nx, ny, nz] = plane.normal;
   const double z =
@@ -27,7 +27,7 @@ MovedPoint point_above(const Plane& plane, float x, float y, double distance) {
   return {.x = x, .y = y, .z = static_cast<float>(z), .index = 0};
 }
 
-/// A batch of these points, 16 more of which may be read each.
+/// Adds a bin of these points, with 16 more readable points.
 void add(BinBatch& batch, std::vector<MovedPoint> points) {
   const std::size_t count = points.size();
   points.resize(count + 16);
@@ -47,11 +47,12 @@ Plane tilted(double slope) {
 /// The parameter is the instruction set.
 class SlabCountsOn : public testing::TestWithParam<std::string> {
  protected:
-  /// The counts of one patch. The batch has x and y as seen from its origin: so has the plane.
+  /// The counts of one patch. Both the batch and the plane use coordinates relative to the origin
+  /// of the bin.
   SlabCounts count(const Plane& plane, const std::vector<double>& distances) {
     std::mt19937 random(1);
     std::vector<MovedPoint> points;
-    // Origin midway between first and last: both at the same place.
+    // The origin is midway between the first and the last point, so both have the same position.
     for (const double distance : distances) {
       const float x = static_cast<float>(random() % 100) / 50 - 1;
       const bool is_end = points.empty() || points.size() + 1 == distances.size();
@@ -73,7 +74,7 @@ class SlabCountsOn : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, SlabCountsOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-TEST_P(SlabCountsOn, PointsAreWithin12CentimetresAndAHalfOrInTheSlabAboveOrNeither) {
+TEST_P(SlabCountsOn, CountPointsWithin125MillimetresAndInTheSlabAbove) {
   for (const double slope : {0.0, 0.3, -0.5}) {
     const SlabCounts counts =
         count(tilted(slope), {-0.126, -0.124, 0, 0.124, 0.126, 0.187, 0.188, 0.5, 0.887, 0.888});
@@ -83,7 +84,7 @@ TEST_P(SlabCountsOn, PointsAreWithin12CentimetresAndAHalfOrInTheSlabAboveOrNeith
   }
 }
 
-TEST_P(SlabCountsOn, ManyPointsAreCountedAsOneByOne) {
+TEST_P(SlabCountsOn, MatchCountingPointsOneByOne) {
   std::mt19937 random(2);
   for (const std::size_t size : {1U, 15U, 16U, 17U, 128U, 1000U}) {
     std::vector<double> distances;
@@ -104,7 +105,7 @@ TEST_P(SlabCountsOn, ManyPointsAreCountedAsOneByOne) {
   }
 }
 
-TEST_P(SlabCountsOn, EachPatchIsCountedByItsOwnPlane) {
+TEST_P(SlabCountsOn, UseThePlaneOfEachPatch) {
   BinBatch batch;
   batch.reserve(512);
   PlaneBatch planes{};

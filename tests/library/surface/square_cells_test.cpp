@@ -33,9 +33,9 @@ SurfaceConfig with_range(float range) {
   return config;
 }
 
-/// Side of the cells at a place, metres: the finest level that reaches there.
+/// Side of the cells at a position, metres: the finest level that covers it.
 float side_at(double x, double y) {
-  // Levels reach whole blocks: what counts is where the block begins.
+  // Levels cover whole blocks, so the start of the block decides.
   const double reach = std::max(std::floor(std::abs(x < 0 ? -x - 1e-12 : x) / 8),
                                 std::floor(std::abs(y < 0 ? -y - 1e-12 : y) / 8)) *
                        8;
@@ -46,8 +46,7 @@ float side_at(double x, double y) {
   return side;
 }
 
-/// The cell that a place lies in, by block() and the Z-order of what side_at() says; a point less
-/// than 1e-4 m from an edge may count to either side.
+/// The cell of a position, from block(), side_at() and the Z-order.
 std::uint32_t naive_cell(const SquareCells& cells, double x, double y) {
   const auto edge = static_cast<double>(cells.extent());
   const auto block_of = [&](double v) { return static_cast<int>(std::floor((v + edge) / 8)); };
@@ -58,7 +57,7 @@ std::uint32_t naive_cell(const SquareCells& cells, double x, double y) {
                                static_cast<std::uint32_t>(inside(y) / side));
 }
 
-/// All that a point may be told within the rounding of its coordinates.
+/// All cells that a point can have within the rounding of its coordinates, 1e-4 m.
 std::vector<std::uint32_t> allowed_cells(const SquareCells& cells, const Point& p) {
   std::vector<std::uint32_t> allowed;
   const auto most = static_cast<double>(cells.extent()) - 1e-6;
@@ -79,14 +78,14 @@ class SquareCellsOn : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, SquareCellsOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-TEST_P(SquareCellsOn, APointIsToldTheCellItLiesIn) {
+TEST_P(SquareCellsOn, FindTheCellOfAPoint) {
   EXPECT_TRUE(rc::check([] {
     const float range = *rc::gen::elementOf(ranges);
     const SquareCells cells(with_range(range));
     const auto most = static_cast<int>(range * 1000);
     std::vector<Point> cloud;
     for (int i = 0; i < 40; ++i) {
-      // Millimetres, or whole quarters of a metre: edges of cells, blocks and levels.
+      // Millimetres, or quarters of a metre, which are edges of cells, blocks and levels.
       const auto millimetres = *rc::gen::inRange(-most, most);
       const auto quarters = *rc::gen::inRange(-most / 250, most / 250);
       const bool on_edges = *rc::gen::arbitrary<bool>();
@@ -106,7 +105,7 @@ TEST_P(SquareCellsOn, APointIsToldTheCellItLiesIn) {
   }));
 }
 
-TEST_P(SquareCellsOn, EveryPointInRangeHasACellUpToTheLastOne) {
+TEST_P(SquareCellsOn, EveryPointInRangeHasACellEvenAtTheLimit) {
   for (const float range : ranges) {
     const SquareCells cells(with_range(range));
     const float last = std::nextafter(range, 0.0f);
@@ -133,13 +132,13 @@ TEST_P(SquareCellsOn, EveryPointInRangeHasACellUpToTheLastOne) {
   }
 }
 
-TEST_P(SquareCellsOn, PointsWithoutACellAreToldWhy) {
+TEST_P(SquareCellsOn, PointsWithoutACellGetTheReason) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float inf = std::numeric_limits<float>::infinity();
   const SquareCells cells{SurfaceConfig{}};
   struct Case {
     Point point;
-    std::uint32_t told;
+    std::uint32_t expected;
   };
   const std::vector<Case> cases = {{{0, 0, 0}, cells.invalid()},
                                    {{-0.0f, 0, -0.0f}, cells.invalid()},
@@ -156,7 +155,7 @@ TEST_P(SquareCellsOn, PointsWithoutACellAreToldWhy) {
                                    {{5, 5, -10001}, cells.out_of_range()},
                                    {{100, 0, 1}, cells.out_of_range()},
                                    {{-71, 71, 1}, cells.out_of_range()},
-                                   // Lowest at 10 m: -1.73 - 2 - 0.35 * 10.
+                                   // Noise limit at 10 m: -1.73 - 2 - 0.35 * 10.
                                    {{10, 0, -7.24f}, cells.noise()},
                                    {{0, -10, -9999}, cells.noise()}};
   std::vector<Point> cloud(cases.size());
@@ -166,13 +165,13 @@ TEST_P(SquareCellsOn, PointsWithoutACellAreToldWhy) {
 
   ASSERT_EQ(found.size(), cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    EXPECT_EQ(found[i], cases[i].told) << "point " << i;
+    EXPECT_EQ(found[i], cases[i].expected) << "point " << i;
   }
   EXPECT_LT(tests::cells_of({{10, 0, -7.22f}}, cells).front(), cells.cell_count());
   EXPECT_LT(tests::cells_of({{1e-40f, 0, 0}}, cells).front(), cells.cell_count());
 }
 
-TEST_P(SquareCellsOn, AnyBitPatternIsToldSomething) {
+TEST_P(SquareCellsOn, EveryFloatValueGetsACellOrAReason) {
   const SquareCells cells{SurfaceConfig{}};
   EXPECT_TRUE(rc::check([&](const std::vector<std::array<std::uint32_t, 3>>& bits) {
     std::vector<Point> cloud(bits.size());
@@ -187,7 +186,7 @@ TEST_P(SquareCellsOn, AnyBitPatternIsToldSomething) {
   }));
 }
 
-TEST_P(SquareCellsOn, NothingIsReadBehindTheirTables) {
+TEST_P(SquareCellsOn, ReadNothingPastTheirTables) {
   const tests::GuardedMemory memory(sizeof(SquareCells));
   const SquareCells* const cells =
       new (memory.last(sizeof(SquareCells)).data()) SquareCells(SurfaceConfig{});
@@ -197,7 +196,7 @@ TEST_P(SquareCellsOn, NothingIsReadBehindTheirTables) {
   EXPECT_EQ(found, tests::cells_of(tests::random_cloud(1000, 1), SquareCells(SurfaceConfig{})));
 }
 
-TEST(SquareCells, BlocksAreNumberedApart) {
+TEST(SquareCells, BlocksHaveDistinctNumbers) {
   for (const float range : ranges) {
     const SquareCells cells(with_range(range));
     std::vector<bool> taken(cells.cell_count());
@@ -216,13 +215,13 @@ TEST(SquareCells, BlocksAreNumberedApart) {
   }
 }
 
-TEST(SquareCells, NumbersFitTheBinsOfAScanAtEveryRange) {
+TEST(SquareCells, NumbersFitIntoBinsAtEveryRange) {
   for (float range = 8; range <= 200; range += 0.5f) {
     EXPECT_LT(SquareCells(with_range(range)).group_count(), 1U << plane_fits::bin_bits) << range;
   }
 }
 
-TEST(SquareCells, AreAsFineAsTheFinestLevelThatReachesThere) {
+TEST(SquareCells, HaveTheSizeOfTheFinestLevelThatCoversThem) {
   const SquareCells cells{SurfaceConfig{}};
   const int half = cells.half_blocks();
 
@@ -245,7 +244,7 @@ TEST(SquareCells, CoverTheRangeInWholeBlocks) {
   }
 }
 
-TEST(ZOrder, EveryAlignedSquareIsARange) {
+TEST(ZOrder, EveryAlignedSquareIsAContiguousRange) {
   for (std::uint32_t side = 1; side <= 32; side *= 2) {
     for (std::uint32_t row = 0; row < 32; row += side) {
       for (std::uint32_t column = 0; column < 32; column += side) {
@@ -261,14 +260,14 @@ TEST(ZOrder, EveryAlignedSquareIsARange) {
   }
 }
 
-TEST(ZOrder, NumbersEveryPlaceOnce) {
+TEST(ZOrder, NumbersEveryCellOnce) {
   std::vector<bool> taken(1024);
   for (std::uint32_t row = 0; row < 32; ++row) {
     for (std::uint32_t column = 0; column < 32; ++column) {
-      const std::uint32_t place = z_order(column, row);
-      ASSERT_LT(place, 1024U);
-      EXPECT_FALSE(taken[place]);
-      taken[place] = true;
+      const std::uint32_t index = z_order(column, row);
+      ASSERT_LT(index, 1024U);
+      EXPECT_FALSE(taken[index]);
+      taken[index] = true;
     }
   }
 }

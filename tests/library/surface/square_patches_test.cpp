@@ -25,7 +25,7 @@ bool covers(const SquarePatch& patch, float x, float y) {
   return x >= patch.x - half && x < patch.x + half && y >= patch.y - half && y < patch.y + half;
 }
 
-TEST(SquarePatches, CoverAllButTheBlindMiddleOnce) {
+TEST(SquarePatches, CoverEverythingOnceExceptTheBlindCentre) {
   for (const float range : {8.0f, 23.0f, 40.0f, 100.0f}) {
     for (const float height : {0.1f, 1.2f, 1.73f, 4.0f}) {
       const SurfaceConfig config = config_of(range, height);
@@ -36,7 +36,7 @@ TEST(SquarePatches, CoverAllButTheBlindMiddleOnce) {
           int covering = 0;
           for (const SquarePatch& patch : patches.list()) covering += covers(patch, x, y) ? 1 : 0;
           ASSERT_LE(covering, 1) << x << ", " << y;
-          // The middle is blind: patches with centres within twice the height are left out.
+          // Patches with centres within twice the height are omitted.
           if (std::hypot(x, y) > 2 * height + 2.9f) {
             ASSERT_EQ(covering, 1) << x << ", " << y;
           }
@@ -49,7 +49,7 @@ TEST(SquarePatches, CoverAllButTheBlindMiddleOnce) {
   }
 }
 
-TEST(SquarePatches, AreThoseOfTheDefaultHeightIfTheOriginIsNotInTheSensor) {
+TEST(SquarePatches, UseTheDefaultHeightIfTheOriginIsNotInTheSensor) {
   const auto count = [](float height) {
     const SurfaceConfig config = config_of(40, height);
     return SquarePatches(config, SquareCells(config)).list().size();
@@ -58,7 +58,7 @@ TEST(SquarePatches, AreThoseOfTheDefaultHeightIfTheOriginIsNotInTheSensor) {
   for (const float height : {0.0f, -1.0f, -50.0f}) EXPECT_EQ(count(height), count(1.73f));
 }
 
-TEST(SquarePatches, ComeNearestFirst) {
+TEST(SquarePatches, AreSortedNearestFirst) {
   const SquareCells cells{SurfaceConfig{}};
   const SquarePatches patches({}, cells);
 
@@ -82,7 +82,7 @@ TEST(SquarePatches, AreSmallWithin24MetresAndLargeBeyond) {
   }
 }
 
-TEST(SquarePatches, HoldTheCellsOfTheirSquare) {
+TEST(SquarePatches, ContainTheCellsOfTheirSquare) {
   const SquareCells cells{SurfaceConfig{}};
   const SquarePatches patches({}, cells);
   std::vector<bool> taken(cells.cell_count());

@@ -14,8 +14,7 @@
 
 namespace flagstone::tests {
 
-/// A cloud whose points were moved to their square cells, as the pipeline has it when planes are
-/// about to be fitted.
+/// A cloud with its points sorted into square cells, as in the pipeline before planes are fitted.
 struct SquareScan {
   explicit SquareScan(const std::vector<Point>& cloud, const SurfaceConfig& config = {})
       : cells(config) {
@@ -38,7 +37,7 @@ struct SquareScan {
   }
 };
 
-/// The cell of each point, or what it has instead, as the scan's runs tell it.
+/// The cell of each point, or its reason for having none, from the runs of the scan.
 inline std::vector<std::uint32_t> cells_of(const std::vector<Point>& cloud,
                                            const surface::SquareCells& cells) {
   plane_fits::ScanPoints scan;

@@ -21,7 +21,7 @@
 namespace flagstone {
 namespace {
 
-/// Gives the setting of that number this value.
+/// Sets the setting with index `setting` to `value`.
 void set(SurfaceConfig& config, std::size_t setting, double value) {
   const Setting chosen = settings_of(config)[setting];
   if (float* const* number = std::get_if<float*>(&chosen.value)) {
@@ -30,8 +30,8 @@ void set(SurfaceConfig& config, std::size_t setting, double value) {
   if (int* const* number = std::get_if<int*>(&chosen.value)) **number = static_cast<int>(value);
 }
 
-/// What check() says if a setting has this value; empty if it is content.
-std::string complaint(std::size_t setting, double value) {
+/// The error message of check() for a setting with this value; empty if the value is valid.
+std::string error_of(std::size_t setting, double value) {
   SurfaceConfig config;
   set(config, setting, value);
   try {
@@ -42,27 +42,27 @@ std::string complaint(std::size_t setting, double value) {
   return {};
 }
 
-TEST(SurfaceConfigCheck, TheInitialSettingsAreValid) { EXPECT_NO_THROW(SurfaceConfig().check()); }
+TEST(SurfaceConfigCheck, AcceptsTheDefaults) { EXPECT_NO_THROW(SurfaceConfig().check()); }
 
-TEST(SurfaceConfigCheck, EverySettingIsHeldToItsRange) {
+TEST(SurfaceConfigCheck, RejectsEverySettingOutOfRange) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   SurfaceConfig config;
   const std::vector<Setting> settings = settings_of(config);
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const auto& [low, high, unit, exclusive_min, allow_infinity, remark] = settings[i].allowed;
     const std::string key(settings[i].key);
-    EXPECT_EQ(complaint(i, high), "") << key;
-    EXPECT_EQ(complaint(i, low).empty(), !exclusive_min) << key;
+    EXPECT_EQ(error_of(i, high), "") << key;
+    EXPECT_EQ(error_of(i, low).empty(), !exclusive_min) << key;
     for (const double value : {low - 1, high + 1}) {
-      EXPECT_THAT(complaint(i, value), testing::HasSubstr("surface: " + key)) << value;
+      EXPECT_THAT(error_of(i, value), testing::HasSubstr("surface: " + key)) << value;
     }
     if (std::holds_alternative<int*>(settings[i].value)) continue;
-    EXPECT_EQ(complaint(i, inf).empty(), allow_infinity) << key;
-    EXPECT_THAT(complaint(i, std::nan("")), testing::HasSubstr(key));
+    EXPECT_EQ(error_of(i, inf).empty(), allow_infinity) << key;
+    EXPECT_THAT(error_of(i, std::nan("")), testing::HasSubstr(key));
   }
 }
 
-TEST(SurfaceConfigCheck, EverySettingAtEitherEndOfItsRangeLeavesHeightsThatAreNumbers) {
+TEST(SurfaceConfigCheck, HeightsAreFiniteAtBothEndsOfEveryRange) {
   const std::vector<Point> cloud = tests::corrupted_cloud(6000, 1);
   SurfaceConfig initial;
   const std::size_t count = settings_of(initial).size();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What holds of the method `surface` as a whole, on ground whose shape is known.
+// Properties of the complete method `surface`, on ground of known shape.
 #include "flagstone/surface.hpp"
 
 #include <gmock/gmock.h>
@@ -34,16 +34,17 @@ constexpr float height_of_sensor = 1.73f;
 
 float level(float, float) { return -height_of_sensor; }
 
-/// A scan of ground alone: rings of points from 3 to 80 m, ever farther apart, each slightly out of
-/// round, so that no two scans share their places.
-std::vector<Point> scan_of(const Ground& ground, int points_a_ring = 1800, std::uint32_t seed = 1) {
+/// A scan of ground only: rings of points from 3 to 80 m with increasing distances. Each point has
+/// a random offset, so that two scans differ in their positions.
+std::vector<Point> scan_of(const Ground& ground, int points_per_ring = 1800,
+                           std::uint32_t seed = 1) {
   std::mt19937 random(seed);
   const auto unit = [&] { return static_cast<float>(random() >> 8U) / 16777216.0f; };
   std::vector<Point> cloud;
   for (float range = 3; range < 80; range *= 1.05f) {
-    for (int i = 0; i < points_a_ring; ++i) {
+    for (int i = 0; i < points_per_ring; ++i) {
       const float angle = 2 * std::numbers::pi_v<float> * (static_cast<float>(i) + unit()) /
-                          static_cast<float>(points_a_ring);
+                          static_cast<float>(points_per_ring);
       const float rho = range * (1 + 0.01f * unit());
       const float x = rho * std::cos(angle);
       const float y = rho * std::sin(angle);
@@ -53,7 +54,7 @@ std::vector<Point> scan_of(const Ground& ground, int points_a_ring = 1800, std::
   return cloud;
 }
 
-/// A plane below the sensor that rises in some direction; both in degrees.
+/// A plane below the sensor with slope angle `tilt` in `direction`, both in degrees.
 Ground tilted(float tilt, float direction) {
   const float slope = std::tan(tilt * std::numbers::pi_v<float> / 180);
   const float angle = direction * std::numbers::pi_v<float> / 180;
@@ -66,8 +67,8 @@ Outcome segmented(const std::vector<Point>& cloud, const SurfaceConfig& config =
   return tests::segmented(config, view_of(cloud));
 }
 
-/// Share of points whose labels differ.
-double share_of_different(const std::vector<Label>& a, const std::vector<Label>& b) {
+/// Fraction of points with different labels.
+double fraction_of_different(const std::vector<Label>& a, const std::vector<Label>& b) {
   std::size_t different = 0;
   for (std::size_t i = 0; i < a.size(); ++i) different += a[i] != b[i] ? 1U : 0U;
   return static_cast<double>(different) / static_cast<double>(a.size());
@@ -77,7 +78,7 @@ std::size_t ground_count(const Outcome& outcome) {
   return static_cast<std::size_t>(std::ranges::count(outcome.labels, Label::ground));
 }
 
-/// Two streets with cars, houses, people and trees.
+/// Two simulated streets with cars, houses, people and trees.
 const std::vector<std::vector<Point>>& streets() {
   static const std::vector<std::vector<Point>> made = [] {
     std::vector<std::vector<Point>> clouds;
@@ -93,7 +94,7 @@ const std::vector<std::vector<Point>>& streets() {
   return made;
 }
 
-/// The cloud turned by 90 degrees, x to y.
+/// The cloud rotated by 90 degrees, x to y.
 std::vector<Point> rotated(std::vector<Point> cloud) {
   for (Point& p : cloud) p = {-p.y, p.x, p.z};
   return cloud;
@@ -126,8 +127,8 @@ TEST(SurfaceMethod, ATiltedPlaneIsGround) {
   }
 }
 
-TEST(SurfaceMethod, OfASteepPlaneHardlyAPointIsLost) {
-  // 19 degrees are 0.34 metres a metre; from 0.35 on no ground is believed to rise so far.
+TEST(SurfaceMethod, ASteepPlaneLosesAlmostNoPoints) {
+  // 19 degrees are a slope of 0.34; max_slope is 0.35.
   for (const float tilt : {10.0f, 15.0f, 19.0f}) {
     for (const float direction : directions) {
       const std::vector<Point> cloud = scan_of(tilted(tilt, direction));
@@ -139,7 +140,7 @@ TEST(SurfaceMethod, OfASteepPlaneHardlyAPointIsLost) {
   }
 }
 
-TEST(SurfaceMethod, HeightsAboveATiltedPlaneAreZeroToFiveMillimetres) {
+TEST(SurfaceMethod, HeightsOnATiltedPlaneAreZeroWithinFiveMillimetres) {
   for (const float tilt : {3.0f, 6.0f, 10.0f}) {
     for (const float direction : directions) {
       const std::vector<Point> cloud = scan_of(tilted(tilt, direction));
@@ -155,7 +156,7 @@ TEST(SurfaceMethod, HeightsAboveATiltedPlaneAreZeroToFiveMillimetres) {
   }
 }
 
-TEST(SurfaceMethod, ABoxOnAPlaneIsNotGroundAndAsHighAsItIs) {
+TEST(SurfaceMethod, ABoxOnAPlaneIsNotGroundAndHasItsTrueHeight) {
   const Ground ground = tilted(4, 30);
   const auto is_inside = [](float x, float y) { return x > 9 && x < 12 && y > 1 && y < 5; };
   std::vector<Point> cloud =
@@ -168,10 +169,10 @@ TEST(SurfaceMethod, ABoxOnAPlaneIsNotGroundAndAsHighAsItIs) {
 
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point& p = cloud[i];
-    const float truth = p.z - ground(p.x, p.y);
-    if (truth > 0.05f) {
-      ASSERT_EQ(outcome.labels[i], Label::nonground) << p.x << ", " << p.y << ", " << truth;
-      ASSERT_NEAR(outcome.heights[i], truth, 0.02f) << p.x << ", " << p.y;
+    const float height = p.z - ground(p.x, p.y);
+    if (height > 0.05f) {
+      ASSERT_EQ(outcome.labels[i], Label::nonground) << p.x << ", " << p.y << ", " << height;
+      ASSERT_NEAR(outcome.heights[i], height, 0.02f) << p.x << ", " << p.y;
     } else {
       ASSERT_EQ(outcome.labels[i], Label::ground) << p.x << ", " << p.y;
     }
@@ -193,7 +194,7 @@ TEST(SurfaceMethod, PointsFarBelowGroundAreNoiseAndChangeNothingElse) {
 }
 
 TEST(SurfaceMethod, AKerbStaysSharp) {
-  // A pavement 12 cm above the road, along x.
+  // A pavement along x, 12 cm above the road.
   const std::vector<Point> cloud =
       scan_of([](float, float y) { return -height_of_sensor + (y > 4.25f ? 0.12f : 0.0f); });
   Surface segmenter;
@@ -208,7 +209,7 @@ TEST(SurfaceMethod, AKerbStaysSharp) {
   }
 }
 
-TEST(SurfaceMethod, ASensorHeightOffByThirtyCentimetresChangesNoLabelButOneInTenThousand) {
+TEST(SurfaceMethod, AnErrorOf30CentimetresInSensorHeightChangesAtMostOneLabelIn10000) {
   for (const std::vector<Point>& cloud : streets()) {
     const Outcome right = segmented(cloud);
     for (const float error : {-0.3f, -0.1f, 0.1f, 0.3f}) {
@@ -217,9 +218,10 @@ TEST(SurfaceMethod, ASensorHeightOffByThirtyCentimetresChangesNoLabelButOneInTen
 
       const Outcome wrong = segmented(cloud, config);
 
-      EXPECT_LE(share_of_different(right.labels, wrong.labels), 1e-4) << error;
+      EXPECT_LE(fraction_of_different(right.labels, wrong.labels), 1e-4) << error;
       for (std::size_t i = 0; i < cloud.size(); ++i) {
-        // Below the sensor, where nothing is measured, its height is what is known of the ground.
+        // Nothing is measured below the sensor, so the ground height there follows from the sensor
+        // height.
         const bool is_near = std::hypot(cloud[i].x, cloud[i].y) < 4;
         if (std::isnan(right.heights[i])) continue;
         ASSERT_NEAR(right.heights[i], wrong.heights[i], is_near ? 0.06f : 0.01f) << error;
@@ -228,26 +230,26 @@ TEST(SurfaceMethod, ASensorHeightOffByThirtyCentimetresChangesNoLabelButOneInTen
   }
 }
 
-// Cells and patches lie the same from four sides, so a scan that is turned by 90 degrees should be
-// labelled as before. It is but for three things: a cell holds one of the two edges it shares with
-// its neighbours; a large patch is sampled along the curve that runs through its cells; of patches
-// equally far from the sensor one is judged first.
-TEST(SurfaceMethod, AQuarterTurnTurnsTheResult) {
+// Cells and patches are symmetric, so a scan rotated by 90 degrees should get the same labels.
+// There are three exceptions: a cell includes only one of the two edges along each axis; a large
+// patch is sampled along the Z-order curve of its cells; patches at the same distance from the
+// sensor are evaluated one after the other.
+TEST(SurfaceMethod, RotatingAScanBy90DegreesRotatesTheResult) {
   for (const std::vector<Point>& dense : streets()) {
     for (const std::vector<Point>& cloud : {dense, every(20, dense)}) {
-      EXPECT_LE(share_of_different(segmented(cloud).labels, segmented(rotated(cloud)).labels),
+      EXPECT_LE(fraction_of_different(segmented(cloud).labels, segmented(rotated(cloud)).labels),
                 0.006);
     }
   }
 }
 
-TEST(SurfaceMethod, AQuarterTurnOfAPlaneIsAllGround) {
+TEST(SurfaceMethod, APlaneRotatedBy90DegreesIsGround) {
   const std::vector<Point> cloud = scan_of(tilted(5, 30));
 
   EXPECT_EQ(ground_count(segmented(rotated(cloud))), cloud.size());
 }
 
-/// The order that `std::ranges::shuffle` makes of `count` indices.
+/// `count` indices in random order.
 std::vector<std::size_t> shuffled_order(std::size_t count, std::uint32_t seed) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -262,27 +264,27 @@ std::vector<T> in_order(const std::vector<T>& values, const std::vector<std::siz
   return ordered;
 }
 
-// Of patches with more than 128 points and cells with more than 32 a sample is looked at, number by
-// number in the order of the cloud: another order, another sample.
-TEST(SurfaceMethod, TheOrderOfTheCloudMattersWhereSamplesAreTaken) {
+// Patches with more than 128 points and cells with more than 32 points are sampled in the order of
+// the cloud, so a different order gives a different sample.
+TEST(SurfaceMethod, TheOrderOfPointsHasLittleInfluenceWithSampling) {
   for (const std::vector<Point>& cloud : streets()) {
     const std::vector<Label> labels = segmented(cloud).labels;
     const std::vector<std::size_t> order = shuffled_order(cloud.size(), 1);
 
     const std::vector<Label> of_shuffled = segmented(in_order(cloud, order)).labels;
 
-    EXPECT_LE(share_of_different(in_order(labels, order), of_shuffled), 0.004);
+    EXPECT_LE(fraction_of_different(in_order(labels, order), of_shuffled), 0.004);
   }
 }
 
-// Without samples sums are taken in another order, and rounded otherwise.
-TEST(SurfaceMethod, WithoutSamplesTheOrderOfTheCloudMattersOnlyInTheLastDigits) {
+// Without sampling, a different order only changes the rounding of sums.
+TEST(SurfaceMethod, WithoutSamplingTheOrderOfPointsChangesOnlyTheLastDigits) {
   const std::vector<Point> cloud = tests::random_cloud(2500, 3);
   std::map<std::pair<int, int>, int> in_cell;
   for (const Point& p : cloud) {
     ++in_cell[{static_cast<int>(std::floor(p.x / 2)), static_cast<int>(std::floor(p.y / 2))}];
   }
-  for (const auto& [cell, points] : in_cell) ASSERT_LE(points, 32) << "a sample would be taken";
+  for (const auto& [cell, points] : in_cell) ASSERT_LE(points, 32) << "the cell would be sampled";
   const Outcome ordered = segmented(cloud);
   for (const Patch& patch : ordered.patches) ASSERT_LE(patch.point_count, 128U);
   for (std::uint32_t seed = 1; seed <= 10; ++seed) {
@@ -298,7 +300,7 @@ TEST(SurfaceMethod, WithoutSamplesTheOrderOfTheCloudMattersOnlyInTheLastDigits) 
   }
 }
 
-TEST(SurfaceMethod, HeightsArePointsAboveTheSurfaceToTheBit) {
+TEST(SurfaceMethod, HeightsAreBitIdenticalToZMinusTheSurface) {
   for (const std::vector<Point>& cloud :
        {streets()[0], tests::corrupted_cloud(30000, 2), every(50, streets()[1])}) {
     Surface segmenter;
