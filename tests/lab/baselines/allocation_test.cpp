@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Counts what operator new hands out; hence a program of its own.
+// Counts allocations by operator new, and is therefore a separate program.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 namespace flagstone {
 namespace {
 
-/// Tests of what is allocated; the parameter is the method.
+/// Tests of allocations; the parameter is the method.
 class Allocation : public testing::TestWithParam<tests::Method> {};
 
 INSTANTIATE_TEST_SUITE_P(All, Allocation, testing::ValuesIn(tests::methods()), tests::name_of);
@@ -36,7 +36,7 @@ TEST_P(Allocation, SegmentAllocatesNothingAfterWarmUp) {
   EXPECT_EQ(io::allocated, 0u);
 }
 
-TEST_P(Allocation, WarmUpAllocatesSoThatTheCounterIsSeenToCount) {
+TEST_P(Allocation, TheCounterCountsAllocationsOfTheWarmUp) {
   const std::vector<Point> cloud = tests::random_cloud(1000, 1);
   io::allocated = 0;
   Segmentation result;
@@ -45,7 +45,7 @@ TEST_P(Allocation, WarmUpAllocatesSoThatTheCounterIsSeenToCount) {
   EXPECT_GT(io::allocated, 0u);
 }
 
-TEST_P(Allocation, WithoutMemoryAScanIsRefusedAndTheNextOneSegmented) {
+TEST_P(Allocation, ReturnsOutOfMemoryAndSegmentsTheNextScan) {
   const std::vector<Point> small = tests::random_cloud(1000, 1);
   const std::vector<Point> large = tests::random_cloud(30000, 1);
   const auto segmenter = GetParam().make();

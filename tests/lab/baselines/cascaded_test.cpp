@@ -29,12 +29,12 @@ constexpr double sensor_height = 1.73;
 
 double tangent(double degrees) { return std::tan(degrees * std::numbers::pi / 180); }
 
-/// What a scan is cast against: a plane that rises forward, and a wall across.
-struct World {
-  double slope = 0;           ///< of the ground along x, degrees; level below the sensor
-  double wall_x = inf;        ///< metres
-  double wall_height = 3;     ///< above the ground at its foot, metres
-  double farthest_echo = 60;  ///< metres
+/// The scene of a ray-cast scan: a plane that rises forward, and a wall across it.
+struct Scene {
+  double slope = 0;        ///< of the ground along x, degrees; level below the sensor
+  double wall_x = inf;     ///< metres
+  double wall_height = 3;  ///< above the ground at its base, metres
+  double max_range = 60;   ///< metres
 };
 
 struct Scan {
@@ -45,14 +45,15 @@ struct Scan {
   [[nodiscard]] CloudView view() const { return CloudView(std::span(points)); }
 };
 
-/// Where a ray with this elevation, as a tangent, and azimuth meets the world: horizontal distance.
-double distance_to_ground(const World& world, double rise, double cosine) {
-  const double closing = tangent(world.slope) * cosine - rise;
+/// Horizontal distance to the ground along a ray, given the tangent of its elevation and the cosine
+/// of its azimuth.
+double distance_to_ground(const Scene& scene, double rise, double cosine) {
+  const double closing = tangent(scene.slope) * cosine - rise;
   return closing > 0 ? sensor_height / closing : inf;
 }
 
-/// What an HDL-64E measures without noise, every half degree.
-Scan scan_of(const World& world) {
+/// A noise-free scan of an HDL-64E, every half degree.
+Scan scan_of(const Scene& scene) {
   Scan scan;
   const std::vector<float> elevations = CascadedConfig::hdl_64e_elevations();
   for (std::size_t ring = 0; ring < elevations.size(); ++ring) {
@@ -60,12 +61,12 @@ Scan scan_of(const World& world) {
       const double azimuth = (step + 0.5) * std::numbers::pi / 360;
       const double cosine = std::cos(azimuth);
       const double rise = tangent(elevations[ring]);
-      const double ground = distance_to_ground(world, rise, cosine);
-      const double wall = cosine > 0 ? world.wall_x / cosine : inf;
-      const double top = -sensor_height + tangent(world.slope) * world.wall_x + world.wall_height;
+      const double ground = distance_to_ground(scene, rise, cosine);
+      const double wall = cosine > 0 ? scene.wall_x / cosine : inf;
+      const double top = -sensor_height + tangent(scene.slope) * scene.wall_x + scene.wall_height;
       const bool on_wall = wall < ground && wall * rise < top;
       const double range = on_wall ? wall : ground;
-      if (range > world.farthest_echo) continue;
+      if (range > scene.max_range) continue;
       scan.points.push_back({static_cast<float>(range * cosine),
                              static_cast<float>(range * std::sin(azimuth)),
                              static_cast<float>(range * rise)});
@@ -90,8 +91,8 @@ std::vector<Label> labels_by_rings(const Scan& scan, const CascadedConfig& confi
   return {result.labels().begin(), result.labels().end()};
 }
 
-/// How many of the points on the wall, or of the others, are ground, 0 to 1.
-double ground_share(const Scan& scan, const std::vector<Label>& labels, bool on_wall) {
+/// Fraction of the points on the wall, or of the other points, labelled ground, 0 to 1.
+double ground_fraction(const Scan& scan, const std::vector<Label>& labels, bool on_wall) {
   double count = 0;
   double ground = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -103,7 +104,7 @@ double ground_share(const Scan& scan, const std::vector<Label>& labels, bool on_
 }
 
 /// Points every 0.5 m for x from 6 to 10 and y from -3 to 3, on a plane that rises by `slope`
-/// degrees along x and passes `height` above the ground at x = 6.
+/// degrees along x and is `height` above the ground at x = 6.
 struct Slab {
   std::vector<float> x, y, z;
 
@@ -119,7 +120,7 @@ struct Slab {
   [[nodiscard]] Coordinates coordinates() const { return {x, y, z}; }
 };
 
-/// The plane found for the slab when the ground before it is level and the two meet at x = 6.
+/// The plane found for the slab after a level region, if the two meet at x = 6.
 Plane plane_of(const Slab& slab, const CascadedConfig& config = {}) {
   const ContinuousPlanes planes(config);
   return planes.fit(slab.coordinates(), planes.below_sensor(), 6, 0, 0);
@@ -129,32 +130,32 @@ TEST(Cascaded, FlatGroundIsGround) {
   EXPECT_THAT(labels_of(scan_of({})), testing::Each(Label::ground));
 }
 
-TEST(Cascaded, ASlopeIsKeptThatAFlatGroundThresholdWouldLose) {
+TEST(Cascaded, KeepsASlopeThatAFlatGroundThresholdLoses) {
   const Scan scan = scan_of({.slope = 4});
   CascadedConfig flat_ground;
   flat_ground.max_slope = 0;
 
-  EXPECT_GT(ground_share(scan, labels_of(scan), false), 0.999);
-  EXPECT_LT(ground_share(scan, labels_of(scan, flat_ground), false), 0.7);
+  EXPECT_GT(ground_fraction(scan, labels_of(scan), false), 0.999);
+  EXPECT_LT(ground_fraction(scan, labels_of(scan, flat_ground), false), 0.7);
 }
 
-TEST(Cascaded, AWallMakesRingsFallTogetherAndIsRemoved) {
+TEST(Cascaded, RemovesAWallThatBringsRingsCloserTogether) {
   const Scan scan = scan_of({.wall_x = 15});
   CascadedConfig without_filter;
   without_filter.min_object_height = 100;
 
-  EXPECT_EQ(ground_share(scan, labels_of(scan), true), 0);
-  EXPECT_GT(ground_share(scan, labels_of(scan), false), 0.95);
-  EXPECT_GT(ground_share(scan, labels_of(scan, without_filter), true), 0.05);  // its foot
+  EXPECT_EQ(ground_fraction(scan, labels_of(scan), true), 0);
+  EXPECT_GT(ground_fraction(scan, labels_of(scan), false), 0.95);
+  EXPECT_GT(ground_fraction(scan, labels_of(scan, without_filter), true), 0.05);  // its base
 }
 
-TEST(Cascaded, WhatIsLowerThanAnObjectIsNotRemoved) {
+TEST(Cascaded, KeepsObjectsBelowTheMinimumHeight) {
   const Scan scan = scan_of({.wall_x = 15, .wall_height = 0.07});
 
   EXPECT_THAT(labels_of(scan), testing::Each(Label::ground));
 }
 
-TEST(Cascaded, RingsComeOutOfTheElevationAsTheSensorGivesThem) {
+TEST(Cascaded, InfersTheRingsOfTheSensorFromElevations) {
   const Scan scan = scan_of({.slope = 3, .wall_x = 20});
   const Beams beams{CascadedConfig{}};
 
@@ -165,7 +166,7 @@ TEST(Cascaded, RingsComeOutOfTheElevationAsTheSensorGivesThem) {
   EXPECT_EQ(labels_of(scan), labels_by_rings(scan));
 }
 
-TEST(Cascaded, InferredRingsAreWithinOneOfThoseThatAnHdl32eRecorded) {
+TEST(Cascaded, InferredRingsDifferByAtMostOneFromTheRingsOfAnHdl32e) {
   const auto scans = tests::real_scans("nuscenes");
   FLAGSTONE_REQUIRE_SCANS(scans);
   CascadedConfig hdl_32e;
@@ -184,7 +185,7 @@ TEST(Cascaded, InferredRingsAreWithinOneOfThoseThatAnHdl32eRecorded) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point p = cloud.view()[i];
     const float range = std::hypot(p.x, p.y);
-    if (range < 3) continue;  // the own car
+    if (range < 3) continue;  // the ego vehicle
     const int inferred = beams.nearest(range, p.z);
     const int recorded = static_cast<int>(cloud.value(i, *ring));
     ASSERT_LE(std::abs(inferred - recorded), 1);
@@ -194,7 +195,7 @@ TEST(Cascaded, InferredRingsAreWithinOneOfThoseThatAnHdl32eRecorded) {
   EXPECT_GT(same, count * 9 / 10);
 }
 
-TEST(Cascaded, APointBelowOrAboveAllBeamsIsOfTheNearest) {
+TEST(Cascaded, APointBelowOrAboveAllBeamsBelongsToTheNearest) {
   const Beams beams{CascadedConfig{}};
 
   EXPECT_EQ(beams.nearest(1, -5), 0);
@@ -202,14 +203,15 @@ TEST(Cascaded, APointBelowOrAboveAllBeamsIsOfTheNearest) {
   EXPECT_EQ(beams.nearest(1, 5), 63);
 }
 
-TEST(Cascaded, RingsThatAreGivenAreBelieved) {
+TEST(Cascaded, UsesTheGivenRings) {
   Scan scan = scan_of({.wall_x = 15});
-  std::ranges::fill(scan.rings, std::uint16_t{0});  // no two rings, nothing falls together
+  std::ranges::fill(scan.rings,
+                    std::uint16_t{0});  // all points on one ring, so no rings are close together
 
-  EXPECT_GT(ground_share(scan, labels_by_rings(scan), true), 0.05);
+  EXPECT_GT(ground_fraction(scan, labels_by_rings(scan), true), 0.05);
 }
 
-TEST(Cascaded, RingsThatDoNotFitAreRefused) {
+TEST(Cascaded, RejectsRingsThatDoNotFit) {
   Scan scan = scan_of({});
   Cascaded cascaded;
   Segmentation result;
@@ -236,11 +238,11 @@ TEST(Cascaded, RingsOnASlopeAreCloserTogetherThanOnFlatGround) {
       1e-5);
   EXPECT_NEAR(beams.flat_radius(1), sensor_height / tangent(10), 1e-5);
   EXPECT_LT(beams.least_distance(0, 1), beams.flat_radius(1) - beams.flat_radius(0));
-  EXPECT_LT(beams.least_distance(1, 2), inf);  // steeper ground than 3 degrees is met
+  EXPECT_LT(beams.least_distance(1, 2), inf);  // beam 2 hits ground steeper than 3 degrees
   EXPECT_EQ(beams.least_distance(2, 3), inf);
 }
 
-TEST(Cascaded, APlaneThatLeansTooMuchAgainstTheOneBeforeIsReplacedByIt) {
+TEST(Cascaded, ReplacesAPlaneTiltedTooMuchByThePreviousPlane) {
   CascadedConfig loose;
   loose.max_angle_change = 30;
 
@@ -249,7 +251,7 @@ TEST(Cascaded, APlaneThatLeansTooMuchAgainstTheOneBeforeIsReplacedByIt) {
   EXPECT_NEAR(plane_of(Slab(10, 0)).normal[2], std::cos(10 * std::numbers::pi / 180), 1e-6);
 }
 
-TEST(Cascaded, APlaneThatLiesAboveTheOneBeforeWhereTheyMeetIsReplacedByIt) {
+TEST(Cascaded, ReplacesAPlaneWithTooLargeAStepByThePreviousPlane) {
   CascadedConfig loose;
   loose.max_height_change = 1;
 
@@ -258,8 +260,8 @@ TEST(Cascaded, APlaneThatLiesAboveTheOneBeforeWhereTheyMeetIsReplacedByIt) {
   EXPECT_NEAR(plane_of(Slab(0, 0.3)).d, sensor_height - 0.3, 1e-5);
 }
 
-TEST(Cascaded, ARegionOfFewPointsTakesThePlaneBeforeIt) {
-  Scan scan = scan_of({.farthest_echo = 9});
+TEST(Cascaded, ARegionWithFewPointsUsesThePreviousPlane) {
+  Scan scan = scan_of({.max_range = 9});
   scan.points.push_back({50, 1, -1.7f});
   scan.points.push_back({50, 2, 1.0f});
 
@@ -269,7 +271,7 @@ TEST(Cascaded, ARegionOfFewPointsTakesThePlaneBeforeIt) {
   EXPECT_EQ(labels.back(), Label::nonground);
 }
 
-TEST(Cascaded, RegionsComeBackAsPatches) {
+TEST(Cascaded, ReturnsRegionsAsPatches) {
   Cascaded cascaded;
   Segmentation result;
   ASSERT_TRUE(cascaded.segment(scan_of({.slope = 2}).view(), result).ok());
@@ -282,13 +284,13 @@ TEST(Cascaded, RegionsComeBackAsPatches) {
   }
 }
 
-TEST(Cascaded, PointsBeyondTheSensorsReachAreOutOfRange) {
+TEST(Cascaded, PointsBeyondMaxRangeAreOutOfRange) {
   const Scan scan{.points = {{121, 0, -1.7f}, {0, -119, -1.7f}}, .rings = {}, .on_wall = {}};
 
   EXPECT_EQ(labels_of(scan), (std::vector{Label::out_of_range, Label::ground}));
 }
 
-TEST(Cascaded, TheHdl64eHas64BeamsFromTheLowestUp) {
+TEST(Cascaded, TheHdl64eHas64BeamsLowestFirst) {
   const std::vector<float> elevations = CascadedConfig::hdl_64e_elevations();
 
   ASSERT_EQ(elevations.size(), 64u);
@@ -299,7 +301,7 @@ TEST(Cascaded, TheHdl64eHas64BeamsFromTheLowestUp) {
   EXPECT_EQ(elevations.back(), 2);
 }
 
-TEST(Cascaded, BeamsMustAscend) {
+TEST(Cascaded, RejectsBeamsThatDoNotAscend) {
   CascadedConfig highest_first;
   std::ranges::reverse(highest_first.beam_elevations);
   CascadedConfig one_beam;

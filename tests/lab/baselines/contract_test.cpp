@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// The data contract, clause by clause, for every method.
+// The data contract of all methods, one test per clause.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -43,7 +43,7 @@ std::size_t sum_of_counts(const Segmentation& result) {
   return sum;
 }
 
-/// Tests of the contract; the parameter is the method.
+/// Tests of the data contract; the parameter is the method.
 class Contract : public testing::TestWithParam<tests::Method> {
  protected:
   [[nodiscard]] static std::vector<Label> labels_of(CloudView cloud) {
@@ -68,7 +68,7 @@ TEST_P(Contract, OneLabelPerPointAndCountsAddUp) {
   }
 }
 
-TEST_P(Contract, GroundIsFound) {
+TEST_P(Contract, FindsGround) {
   ASSERT_TRUE(segmenter->segment(view_of(random_cloud(64000, 2)), result).ok());
 
   EXPECT_GT(result.count(Label::ground), 64000u / 3);
@@ -87,8 +87,8 @@ TEST_P(Contract, LabelsAreInInputOrder) {
   EXPECT_EQ(std::ranges::count(labels, Label::invalid), 1);
 }
 
-TEST_P(Contract, AScanLeavesNoTraceInTheNext) {
-  // Full, odd, and with too few points for a patch, a cell or anything.
+TEST_P(Contract, KeepsNoStateBetweenScans) {
+  // Large, corrupted, and with too few points for a patch or a cell.
   const std::vector<std::vector<Point>> clouds = {random_cloud(20000, 1),
                                                   corrupted_cloud(9000, 2),
                                                   {},
@@ -108,7 +108,7 @@ TEST_P(Contract, AScanLeavesNoTraceInTheNext) {
   }
 }
 
-TEST_P(Contract, RepeatsAreByteIdentical) {
+TEST_P(Contract, RepeatedRunsAreBitIdentical) {
   const std::vector<Point> cloud = corrupted_cloud(30000, 7);
   const tests::Outcome outcome = tests::segmented(*segmenter, view_of(cloud));
 
@@ -135,7 +135,7 @@ TEST_P(Contract, TheLayoutOfTheInputDoesNotMatter) {
   EXPECT_EQ(labels_of(CloudView(blob.data(), cloud.size(), {17, 5, 9, 13})), labels);
 }
 
-TEST_P(Contract, ACloudThatIsReadBackwardsIsLabelledInItsOwnOrder) {
+TEST_P(Contract, ANegativeStrideKeepsTheOrderOfTheView) {
   const std::vector<Point> cloud = corrupted_cloud(5000, 8);
   std::vector<Point> reversed(cloud.rbegin(), cloud.rend());
   constexpr std::ptrdiff_t step = sizeof(Point);
@@ -145,14 +145,14 @@ TEST_P(Contract, ACloudThatIsReadBackwardsIsLabelledInItsOwnOrder) {
   EXPECT_EQ(labels_of(backwards), labels_of(cloud));
 }
 
-TEST_P(Contract, NothingIsReadOutsideTheUsersBuffer) {
-  // Exactly as long as its points: AddressSanitizer sees a read beyond.
+TEST_P(Contract, ReadsNothingOutsideTheInputBuffer) {
+  // The buffer has the exact size of its points, so AddressSanitizer detects reads past its end.
   for (std::size_t points = 1; points < 70; ++points) {
     EXPECT_EQ(labels_of(random_cloud(points, 9)).size(), points);
   }
 }
 
-TEST_P(Contract, NothingIsPrinted) {
+TEST_P(Contract, PrintsNothing) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   const std::vector<Label> labels = labels_of(corrupted_cloud(20000, 10));
@@ -162,7 +162,7 @@ TEST_P(Contract, NothingIsPrinted) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST_P(Contract, AnyBitPatternIsAllowed) {
+TEST_P(Contract, AcceptsAnyFloatValue) {
   EXPECT_TRUE(rc::check([](const std::vector<std::uint32_t>& bits) {
     std::vector<float> floats(bits.size());
     std::ranges::transform(bits, floats.begin(),
@@ -173,7 +173,7 @@ TEST_P(Contract, AnyBitPatternIsAllowed) {
   }));
 }
 
-TEST_P(Contract, CoordinatesThatAreNotFiniteAreInvalid) {
+TEST_P(Contract, NonFiniteCoordinatesAreInvalid) {
   for (const float bad : {nan, inf, -inf}) {
     EXPECT_EQ(labels_of({{bad, 5, -1.7f}}), std::vector{Label::invalid});
     EXPECT_EQ(labels_of({{5, bad, -1.7f}}), std::vector{Label::invalid});
@@ -181,7 +181,7 @@ TEST_P(Contract, CoordinatesThatAreNotFiniteAreInvalid) {
   }
 }
 
-TEST_P(Contract, TheAllZeroReturnIsInvalid) {
+TEST_P(Contract, AllZeroReturnsAreInvalid) {
   EXPECT_EQ(labels_of({{0, 0, 0}}), std::vector{Label::invalid});
   EXPECT_EQ(labels_of({{-0.0f, 0, -0.0f}}), std::vector{Label::invalid});
 }
@@ -194,7 +194,7 @@ TEST_P(Contract, PointsMoreThanTenKilometresAwayAreOutOfRange) {
   }
 }
 
-TEST_P(Contract, HugeCoordinatesHarmNothingElse) {
+TEST_P(Contract, HugeCoordinatesDoNotAffectOtherPoints) {
   const std::vector<Point> good = random_cloud(20000, 12);
   std::vector<Point> cloud = good;
   for (std::size_t i = 0; i < 500; ++i) {
@@ -216,7 +216,7 @@ TEST_P(Contract, AnEmptyCloudHasNoLabelsAndNoPatches) {
   EXPECT_TRUE(result.patches().empty());
 }
 
-TEST_P(Contract, ANullCloudThatClaimsPointsIsRefused) {
+TEST_P(Contract, RejectsANullCloudWithPoints) {
   const Status status =
       segmenter->segment(CloudView(static_cast<const float*>(nullptr), 5), result);
 
@@ -224,7 +224,7 @@ TEST_P(Contract, ANullCloudThatClaimsPointsIsRefused) {
   EXPECT_TRUE(result.labels().empty());
 }
 
-TEST_P(Contract, ACloudOfMorePointsThanCanBeCountedIsRefused) {
+TEST_P(Contract, RejectsACloudWithMoreThan2To32MinusOnePoints) {
   const std::vector<float> memory(3);
 
   const Status status = segmenter->segment(CloudView(memory.data(), std::size_t{1} << 32U), result);
@@ -237,7 +237,7 @@ TEST_P(Contract, ASinglePointHasALabel) {
   EXPECT_THAT(labels_of(std::vector<Point>{{8, 1, -1.7f}}), testing::SizeIs(1));
 }
 
-TEST_P(Contract, DenormalCoordinatesHarmNothingElse) {
+TEST_P(Contract, DenormalCoordinatesDoNotAffectOtherPoints) {
   const std::vector<Point> cloud = random_cloud(64000, 2);
   std::vector<Point> spoilt = cloud;
   constexpr float denormal = std::numeric_limits<float>::denorm_min();
@@ -251,18 +251,18 @@ TEST_P(Contract, DenormalCoordinatesHarmNothingElse) {
   EXPECT_GT(std::ranges::count(labels, Label::ground), 0);
 }
 
-TEST_P(Contract, AllPointsEqualAreLabelledAlike) {
+TEST_P(Contract, IdenticalPointsHaveTheSameLabel) {
   const std::vector<Label> labels = labels_of(std::vector<Point>(5000, Point{6, 2, -1.7f}));
 
   EXPECT_THAT(labels, testing::Each(labels.front()));
 }
 
-TEST_P(Contract, AllNotFiniteIsAllInvalid) {
+TEST_P(Contract, ACloudOfNonFinitePointsIsInvalid) {
   EXPECT_THAT(labels_of(std::vector<Point>(1000, {nan, nan, nan})), testing::Each(Label::invalid));
 }
 
-TEST_P(Contract, PatchesHoldEveryPointThatIsJudged) {
-  if (!GetParam().labels_follow_patches) GTEST_SKIP() << "points are judged by their heights";
+TEST_P(Contract, PatchesContainAllClassifiedPoints) {
+  if (!GetParam().labels_follow_patches) GTEST_SKIP() << "points are labelled by their heights";
   ASSERT_TRUE(segmenter->segment(view_of(corrupted_cloud(50000, 14)), result).ok());
   if (result.patches().empty()) return;  // a method without patches
 
@@ -274,13 +274,13 @@ TEST_P(Contract, PatchesHoldEveryPointThatIsJudged) {
     ground += patch.ground_count;
   }
 
-  const std::size_t judged = result.count(Label::ground) + result.count(Label::nonground);
-  EXPECT_GE(points, judged);
-  EXPECT_LE(points, judged + result.count(Label::noise));
+  const std::size_t classified = result.count(Label::ground) + result.count(Label::nonground);
+  EXPECT_GE(points, classified);
+  EXPECT_LE(points, classified + result.count(Label::noise));
   EXPECT_EQ(ground, result.count(Label::ground));
 }
 
-TEST_P(Contract, EveryPatchOfGroundComesWithItsPlane) {
+TEST_P(Contract, EveryGroundPatchHasAPlane) {
   ASSERT_TRUE(segmenter->segment(view_of(corrupted_cloud(50000, 15)), result).ok());
 
   for (const Patch& patch : result.patches()) {
@@ -294,7 +294,7 @@ TEST_P(Contract, EveryPatchOfGroundComesWithItsPlane) {
   }
 }
 
-/// Tests of the methods for which the order of the points is nothing.
+/// Tests of methods that do not depend on the order of points; the parameter is the method.
 class OrderFreeMethod : public testing::TestWithParam<tests::Method> {};
 
 INSTANTIATE_TEST_SUITE_P(All, OrderFreeMethod, testing::ValuesIn(tests::order_free_methods()),

@@ -10,7 +10,7 @@
 namespace flagstone::baselines {
 namespace {
 
-/// Nine points of z = 0.5 x - 3, and one far above them.
+/// Nine points on z = 0.5 x - 3, and one point far above them.
 struct SlopeAndOnePointAbove {
   SlopeAndOnePointAbove() {
     for (int i = 0; i < 9; ++i) {
@@ -30,7 +30,7 @@ struct SlopeAndOnePointAbove {
   std::vector<float> x, y, z;
 };
 
-TEST(Plane, GoesThroughThePointsOfItsSetAndStandsUp) {
+TEST(Plane, FitsThePointsOfItsSetWithAnUpwardNormal) {
   const Plane fit = SlopeAndOnePointAbove().fit();
 
   ASSERT_TRUE(fit.exists());
@@ -41,7 +41,7 @@ TEST(Plane, GoesThroughThePointsOfItsSetAndStandsUp) {
   EXPECT_NEAR(fit.mean[2], -2.5, 1e-12);
 }
 
-TEST(Plane, DistanceIsPositiveAboveIt) {
+TEST(Plane, DistanceIsPositiveAboveThePlane) {
   const SinglePrecisionPlane plane = single_precision(SlopeAndOnePointAbove().fit());
 
   EXPECT_NEAR(plane.distance(0, 0, -3), 0, 1e-6f);
@@ -56,7 +56,7 @@ TEST(Plane, NeedsThreePoints) {
   EXPECT_TRUE(fit_plane({x, x, x}, [](float, float, float) { return true; }).exists());
 }
 
-TEST(Plane, MakesAPatchOfGround) {
+TEST(Plane, MakesAGroundPatch) {
   Patch patch;
 
   set_ground_plane(SlopeAndOnePointAbove().fit(), patch);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What Zermas et al. (2017) claim, and what is known to go wrong.
+// Properties from Zermas et al. (2017), and known failures.
 #include "flagstone/baselines/gpf.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ float uniform(Random& random, double low, double high) {
   return static_cast<float>(random.uniform(low, high));
 }
 
-/// Ground of height `height(x)` between x = -60 m and 60 m, its points up to 3 cm off.
+/// Ground at `height(x)` for x from -60 to 60 m, with noise of up to 3 cm.
 template <class Height>
 std::vector<Point> street(std::size_t points, const Height& height) {
   Random random(1);
@@ -43,7 +43,7 @@ std::vector<Point> flat_street(std::size_t points) {
   return street(points, [](float) { return -1.73f; });
 }
 
-/// Rises ever more steeply, by 3 m in all; seeds are its lowest 0.4 m.
+/// Ground that rises with increasing slope, by about 3 m in total.
 std::vector<Point> rise() {
   return street(6000, [](float x) { return -1.73f + 0.0002f * (x + 60) * (x + 60); });
 }
@@ -54,7 +54,7 @@ Segmentation segment(const std::vector<Point>& cloud, const GpfConfig& config = 
   return result;
 }
 
-TEST(Gpf, SegmentsFollowASlopeThatChangesAlongXAndOnePlaneDoesNot) {
+TEST(Gpf, SegmentsFollowAChangeOfSlopeThatOnePlaneDoesNot) {
   const std::vector<Point> valley =
       street(9000, [](float x) { return -1.73f + 0.1f * std::max(0.0f, std::abs(x) - 20); });
 
@@ -69,7 +69,7 @@ TEST(Gpf, SegmentsFollowASlopeThatChangesAlongXAndOnePlaneDoesNot) {
   EXPECT_NEAR(three.patches()[2].normal[0] / three.patches()[2].normal[2], -0.1, 0.01);
 }
 
-TEST(Gpf, SegmentsAreNumberedFromTheRearAndHoldAllPoints) {
+TEST(Gpf, SegmentsAreNumberedFromTheRearAndContainAllPoints) {
   const std::vector<Point> cloud = flat_street(6000);
 
   const Segmentation result = segment(cloud);
@@ -85,7 +85,7 @@ TEST(Gpf, SegmentsAreNumberedFromTheRearAndHoldAllPoints) {
   EXPECT_EQ(points, cloud.size());
 }
 
-TEST(Gpf, SegmentsLieAroundTheSensorAndTheOutermostAreOpen) {
+TEST(Gpf, SegmentsAreCentredOnTheSensorWithOpenEnds) {
   const baselines::GpfSegments three(3, 40);
   const baselines::GpfSegments two(2, 10);
 
@@ -99,29 +99,29 @@ TEST(Gpf, SegmentsLieAroundTheSensorAndTheOutermostAreOpen) {
   EXPECT_EQ(two.segment_of(0), 1);
 }
 
-TEST(Gpf, TheLowestPointRepresentativeSurvivesASingleReflectionBelowGround) {
+TEST(Gpf, TheLowestPointRepresentativeToleratesOneReflectionBelowGround) {
   std::vector<Point> cloud = flat_street(6000);
   cloud.push_back({5, 1, -2.5f});
 
-  // The mean of 20 is 4 cm too low; that of one is the reflection.
+  // With 20 points the mean is 4 cm too low; with one point it is the reflection itself.
   EXPECT_EQ(segment(cloud).count(Label::ground), 6001u);
   EXPECT_EQ(segment(cloud, {.segments = 1, .lowest_points = 1}).count(Label::ground), 0u);
 }
 
-TEST(Gpf, ManyReflectionsDefeatItUnlessTheyAreTakenOutAsNoise) {
+TEST(Gpf, ManyReflectionsBreakItUnlessTheyAreRemovedAsNoise) {
   std::vector<Point> cloud = flat_street(6000);
   for (int i = 0; i < 40; ++i) cloud.push_back({5 + 0.1f * static_cast<float>(i % 7), 1, -8});
 
   const Segmentation kept = segment(cloud, {.noise_factor = inf});
-  const Segmentation taken_out = segment(cloud);
+  const Segmentation removed = segment(cloud);
 
   EXPECT_EQ(kept.count(Label::noise), 0u);
   EXPECT_LT(kept.count(Label::ground), 5000u);
-  EXPECT_EQ(taken_out.count(Label::noise), 40u);
-  EXPECT_EQ(taken_out.count(Label::ground), 6000u);
+  EXPECT_EQ(removed.count(Label::noise), 40u);
+  EXPECT_EQ(removed.count(Label::ground), 6000u);
 }
 
-TEST(Gpf, TakesTheGroundOfASteepDescentForNoise) {
+TEST(Gpf, LabelsGroundOfASteepDescentAsNoise) {
   const std::vector<Point> descent =
       street(6000, [](float x) { return -1.73f - 0.1f * std::max(0.0f, x); });
 
@@ -130,12 +130,12 @@ TEST(Gpf, TakesTheGroundOfASteepDescentForNoise) {
   EXPECT_GT(result.count(Label::noise), 2000u);
 }
 
-TEST(Gpf, FirstPlaneIsThatOfTheSeeds) {
+TEST(Gpf, TheFirstPlaneIsFittedToTheSeeds) {
   const std::vector<Point> cloud = rise();
   std::vector<float> heights;
   for (const Point& p : cloud) heights.push_back(p.z);
   std::ranges::sort(heights);
-  double representative = 0;  // of N_LPR = 20 points
+  double representative = 0;  // mean of N_LPR = 20 points
   for (std::size_t i = 0; i < 20; ++i) representative += heights[i] / 20.0;
   double sum = 0;
   double seeds = 0;
@@ -151,7 +151,7 @@ TEST(Gpf, FirstPlaneIsThatOfTheSeeds) {
   EXPECT_NEAR(result.patches()[0].mean[0], sum / seeds, 1e-4);
 }
 
-TEST(Gpf, IterationsReachWhatTheSeedsDoNot) {
+TEST(Gpf, MoreIterationsFindMoreGround) {
   const std::vector<Point> cloud = rise();
   std::size_t before = 0;
   for (const int iterations : {1, 2, 3}) {
@@ -172,7 +172,7 @@ TEST(Gpf, GroundEndsAtTheMarginAboveThePlaneAndHasNoLowerBound) {
               testing::ElementsAre(Label::ground, Label::nonground, Label::ground, Label::ground));
 }
 
-TEST(Gpf, WallsAndCarsStandOnTheGround) {
+TEST(Gpf, WallsAreNotGround) {
   Random random(2);
   std::vector<Point> cloud = flat_street(6000);
   for (int i = 0; i < 4000; ++i) {
@@ -185,7 +185,7 @@ TEST(Gpf, WallsAndCarsStandOnTheGround) {
   EXPECT_EQ(std::ranges::count(result.labels().last(4000), Label::ground), 0);
 }
 
-TEST(Gpf, ASegmentOfTwoPointsHasNoPlane) {
+TEST(Gpf, ASegmentWithTwoPointsHasNoPlane) {
   std::vector<Point> cloud = flat_street(6000);
   std::erase_if(cloud, [](const Point& p) { return p.x >= 20; });
   cloud.push_back({30, 0, -1.7f});
@@ -198,7 +198,7 @@ TEST(Gpf, ASegmentOfTwoPointsHasNoPlane) {
   EXPECT_EQ(result.labels().back(), Label::nonground);
 }
 
-TEST(Gpf, AMovedSegmenterStillSegments) {
+TEST(Gpf, AMovedSegmenterStillWorks) {
   const std::vector<Point> cloud = tests::random_cloud(3000, 3);
   Gpf original;
   Gpf moved = std::move(original);
@@ -209,7 +209,7 @@ TEST(Gpf, AMovedSegmenterStillSegments) {
   EXPECT_TRUE(std::ranges::equal(result.labels(), segment(cloud).labels()));
 }
 
-TEST(Gpf, RefusesSettingsOutOfRangeByName) {
+TEST(Gpf, RejectsSettingsOutOfRangeByName) {
   const auto message_of = [](const GpfConfig& config) -> std::string {
     try {
       Gpf refused(config);

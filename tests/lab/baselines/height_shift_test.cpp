@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// The origin of a cloud need not be in the sensor: in a map, or in a vehicle's frame, it is on the
-// ground or below. Results are those of the cloud with its origin in the sensor.
+// The origin of a cloud can be outside the sensor: in a map frame or a vehicle frame it is at or
+// below the ground. The labels must be the same as with the origin in the sensor.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,8 +48,8 @@ std::vector<Case> cases() {
   return all;
 }
 
-/// A ditch to the left, a drop to the right, ghosts below the ground, walls and boxes. Heights are
-/// multiples of 1/1024 m, so that they can be shifted without rounding.
+/// A ditch to the left, a drop to the right, ghost points below the ground, walls and boxes.
+/// Heights are multiples of 1/1024 m, so that they can be shifted without rounding.
 std::vector<Point> scene() {
   std::vector<Point> cloud = tests::edge_scan(tests::ditch_of(0.6f));
   tests::add_ghosts(cloud, 200);
@@ -62,7 +62,7 @@ std::vector<Point> scene() {
   return cloud;
 }
 
-/// Labels of a cloud that is raised by `rise`, with a sensor height that says so.
+/// Labels of a cloud raised by `rise`, metres, with the sensor height adjusted accordingly.
 std::vector<Label> labels_of(const Case& method, std::vector<Point> cloud, float rise) {
   MethodConfig config = method.config;
   set_sensor_height(1.73f - rise, config);

@@ -23,12 +23,12 @@ using baselines::Prototype;
 
 constexpr float ground_height = -1.73f;
 
-/// Heights along every direction alike.
+/// Height as a function of range, the same in all directions.
 using Profile = std::function<float(float range)>;
 
 float flat(float /*range*/) { return ground_height; }
 
-/// Ground that rises by `slope` metres a metre from 10 m on.
+/// Ground that rises with `slope`, m/m, beyond 10 m.
 Profile ramp(float slope) {
   return [=](float range) { return ground_height + slope * std::max(0.0f, range - 10); };
 }
@@ -38,7 +38,7 @@ Point point_at(float range, float degrees, float height) {
   return {range * std::cos(azimuth), range * std::sin(azimuth), height};
 }
 
-/// A point every 0.3 m from `begin` to `end` metres, in the middle of every degree.
+/// A full turn: points every 0.3 m from `begin` to `end`, metres, in the middle of every degree.
 std::vector<Point> turn(const Profile& profile, float begin = 2, float end = 40) {
   std::vector<Point> cloud;
   for (int degree = 0; degree < 360; ++degree) {
@@ -56,9 +56,9 @@ std::vector<Label> labels_of(const std::vector<Point>& cloud, const LineFitConfi
   return {result.labels().begin(), result.labels().end()};
 }
 
-/// How many of the points between these ranges are ground, 0 to 1.
-double ground_share(const std::vector<Point>& cloud, const std::vector<Label>& labels, float begin,
-                    float end) {
+/// Fraction of the points between these ranges labelled ground, 0 to 1.
+double ground_fraction(const std::vector<Point>& cloud, const std::vector<Label>& labels,
+                       float begin, float end) {
   double count = 0;
   double ground = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -77,7 +77,7 @@ std::vector<GroundLine> lines_of(const std::vector<Prototype>& prototypes,
   return lines;
 }
 
-/// Prototypes every 0.4 m from `begin` to `end` metres.
+/// Prototypes every 0.4 m from `begin` to `end`, metres.
 std::vector<Prototype> prototypes_of(const Profile& profile, float begin, float end) {
   std::vector<Prototype> prototypes;
   for (float range = begin; range < end; range += 0.4f) {
@@ -93,7 +93,7 @@ TEST(LineFit, FlatGroundIsGround) {
 TEST(LineFit, FollowsARampBelowTheSlopeThreshold) {
   const std::vector<Point> cloud = turn(ramp(0.25f));
 
-  EXPECT_GT(ground_share(cloud, labels_of(cloud), 2, 39), 0.99);
+  EXPECT_GT(ground_fraction(cloud, labels_of(cloud), 2, 39), 0.99);
 }
 
 TEST(LineFit, RejectsARampAboveTheSlopeThreshold) {
@@ -101,9 +101,9 @@ TEST(LineFit, RejectsARampAboveTheSlopeThreshold) {
   LineFitConfig steeper;
   steeper.max_slope = 0.4f;
 
-  EXPECT_EQ(ground_share(cloud, labels_of(cloud), 2, 9.9f), 1);
-  EXPECT_EQ(ground_share(cloud, labels_of(cloud), 11, 39), 0);
-  EXPECT_GT(ground_share(cloud, labels_of(cloud, steeper), 11, 39), 0.99);
+  EXPECT_EQ(ground_fraction(cloud, labels_of(cloud), 2, 9.9f), 1);
+  EXPECT_EQ(ground_fraction(cloud, labels_of(cloud), 11, 39), 0);
+  EXPECT_GT(ground_fraction(cloud, labels_of(cloud, steeper), 11, 39), 0.99);
 }
 
 TEST(LineFit, AKerbStartsANewLine) {
@@ -118,21 +118,21 @@ TEST(LineFit, AKerbStartsANewLine) {
   EXPECT_NEAR(lines[1].height, ground_height + 0.15f, 1e-5f);
 }
 
-TEST(LineFit, AStepHigherThanALineMayStartEndsTheGround) {
+TEST(LineFit, AStepAboveMaxStartHeightEndsTheGround) {
   const auto step = [](float range) { return ground_height + (range < 8 ? 0.0f : 0.25f); };
 
   EXPECT_EQ(lines_of(prototypes_of(step, 3, 15)).size(), 1u);
 }
 
-TEST(LineFit, TwoPointsAreNoLine) {
+TEST(LineFit, TwoPointsAreNotALine) {
   EXPECT_TRUE(lines_of({{3, ground_height}, {3.4f, ground_height}}).empty());
   EXPECT_EQ(lines_of({{3, ground_height}, {3.4f, ground_height}, {3.8f, ground_height}}).size(),
             1u);
 }
 
-TEST(LineFit, BeyondALongGapALineGoesOnOnlyWhereItLeads) {
+TEST(LineFit, AfterALongGapOnlyPointsOnItsExtensionContinueALine) {
   std::vector<Prototype> prototypes = prototypes_of(flat, 3, 4);
-  prototypes.push_back({9, ground_height + 0.15f});  // so far out that it would bend the line to it
+  prototypes.push_back({9, ground_height + 0.15f});  // so far away that it would tilt the line
   LineFitConfig loose;
   loose.max_gap_height = 0.2f;
 
@@ -140,14 +140,14 @@ TEST(LineFit, BeyondALongGapALineGoesOnOnlyWhereItLeads) {
   EXPECT_EQ(lines_of(prototypes, loose)[0].end, 9);
 }
 
-TEST(LineFit, NoLineCrossesALongGapWithTwoPoints) {
+TEST(LineFit, ALineOfTwoPointsDoesNotCrossALongGap) {
   const std::vector<Prototype> prototypes = {
       {3, ground_height}, {3.4f, ground_height}, {9, ground_height}, {9.4f, ground_height}};
-  LineFitConfig patient;
-  patient.long_gap = 10;
+  LineFitConfig longer_gap;
+  longer_gap.long_gap = 10;
 
   EXPECT_TRUE(lines_of(prototypes).empty());
-  EXPECT_EQ(lines_of(prototypes, patient).size(), 1u);
+  EXPECT_EQ(lines_of(prototypes, longer_gap).size(), 1u);
 }
 
 TEST(LineFit, ABonnetAboveTheLineIsNotGround) {
@@ -169,16 +169,16 @@ TEST(LineFit, ATableThatHidesTheGroundBelowItIsNotGround) {
 
   const std::vector<Label> labels = labels_of(cloud);
 
-  EXPECT_EQ(ground_share(cloud, labels, 6, 9), 0);
-  EXPECT_EQ(ground_share(cloud, labels, 2, 5.9f), 1);
-  EXPECT_EQ(ground_share(cloud, labels, 9.1f, 39), 1);
+  EXPECT_EQ(ground_fraction(cloud, labels, 6, 9), 0);
+  EXPECT_EQ(ground_fraction(cloud, labels, 2, 5.9f), 1);
+  EXPECT_EQ(ground_fraction(cloud, labels, 9.1f, 39), 1);
 }
 
-TEST(LineFit, APlateauIsRefusedByTheInterceptThreshold) {
+TEST(LineFit, TheInterceptThresholdRejectsAPlateau) {
   const auto plateau = [](float range) { return range < 8 ? ground_height : ground_height + 0.8f; };
   const std::vector<Prototype> prototypes = prototypes_of(plateau, 3, 15);
   LineFitConfig config;
-  config.max_start_height = 1;  // so that the start does not refuse it
+  config.max_start_height = 1;  // so that max_start_height does not reject it
   LineFitConfig without = config;
   without.max_intercept = std::numeric_limits<float>::infinity();
 
@@ -190,7 +190,7 @@ TEST(LineFit, APlateauIsRefusedByTheInterceptThreshold) {
 TEST(LineFit, TheInterceptOfALineThatIsNotFlatIsNotCompared) {
   LineFitConfig config;
   config.max_start_height = 1;
-  // Extended to the sensor, 0.75 m below the ground there.
+  // Extended to the sensor, the line is 0.75 m below the ground.
   const auto rising = [](float range) { return ground_height - 0.75f + 0.05f * range; };
 
   EXPECT_EQ(lines_of(prototypes_of(rising, 3, 12), config).size(), 1u);
@@ -198,7 +198,7 @@ TEST(LineFit, TheInterceptOfALineThatIsNotFlatIsNotCompared) {
   EXPECT_TRUE(lines_of(prototypes_of(rising, 3, 12), config).empty());
 }
 
-TEST(LineFit, WhereASegmentHasNoLineThoseNextToItHold) {
+TEST(LineFit, ASegmentWithoutALineUsesItsNeighbours) {
   std::vector<Point> cloud = turn(flat);
   std::erase_if(cloud, [](const Point& p) { return p.x > 0 && p.y > 0 && p.y < p.x * 0.034f; });
   cloud.push_back(point_at(20, 0.5f, ground_height + 0.02f));
@@ -213,9 +213,9 @@ TEST(LineFit, WhereASegmentHasNoLineThoseNextToItHold) {
   EXPECT_EQ(labels_of(cloud, own_segment_only)[cloud.size() - 2], Label::nonground);
 }
 
-TEST(LineFit, LinesAreLookedForAcrossTheEndOfTheTurn) {
+TEST(LineFit, TheSearchForLinesWrapsAroundAFullTurn) {
   std::vector<Point> cloud = turn(flat);
-  std::erase_if(cloud, [](const Point& p) { return p.x < 0 && p.y < 0; });  // up to azimuth -90
+  std::erase_if(cloud, [](const Point& p) { return p.x < 0 && p.y < 0; });  // azimuth -180 to -90
   cloud.push_back(point_at(20, -179.5f, ground_height));
 
   EXPECT_EQ(labels_of(cloud).back(), Label::ground);
@@ -228,7 +228,7 @@ TEST(LineFit, PointsOutsideTheGridAreOutOfRange) {
   EXPECT_EQ(labels, (std::vector{Label::out_of_range, Label::nonground, Label::out_of_range}));
 }
 
-TEST(LineFit, EveryLineKeepsToItsThresholds) {
+TEST(LineFit, EveryLineSatisfiesItsThresholds) {
   EXPECT_TRUE(rc::check([](const std::vector<std::uint8_t>& steps) {
     std::vector<Prototype> prototypes;
     float range = 2;
@@ -252,7 +252,7 @@ TEST(LineFit, EveryLineKeepsToItsThresholds) {
   }));
 }
 
-TEST(LineFit, AConfigurationIsCheckedAgainstItself) {
+TEST(LineFit, RejectsInconsistentSettings) {
   LineFitConfig inside_out;
   inside_out.max_range = 0.4f;
   LineFitConfig many_bins;

@@ -15,29 +15,30 @@
 
 namespace flagstone::tests {
 
-/// A method as the tests that hold for all of them see it.
+/// A method in tests that apply to all methods.
 struct Method {
   std::string name;
-  /// Makes one with its initial settings: the sensor 1.73 m above ground, as on KITTI's car and in
-  /// made-up clouds.
+  /// Makes a segmenter with default settings: sensor height 1.73 m, as in KITTI and in random
+  /// clouds.
   std::unique_ptr<Segmenter> (*make)();
-  /// How many of 4,000 labels another order of the points may change: points within rounding of a
-  /// threshold, and with one the few of its small patch. Unset: labels depend on the order.
+  /// Maximum number of 4,000 labels that a different order of points may change: points within
+  /// rounding of a threshold, and the few points of the same small patch. Unset if labels depend on
+  /// the order.
   std::optional<std::size_t> order_tolerance;
-  /// Mean F1 measured elsewhere on 17 to 29 KITTI scans, percent, by protocol.
+  /// Mean F1 measured independently on 17 to 29 KITTI scans, percent, per protocol.
   double f1_patchwork = 0;
   double f1_patchwork_plusplus = 0;
-  /// A point is ground by what was said of its patch.
+  /// Whether labels of points depend only on their patch.
   bool labels_follow_patches = true;
 };
 
-/// All of them.
+/// All methods.
 std::vector<Method> methods();
 
-/// Those whose labels do not depend on the order of the points.
+/// Methods with labels that do not depend on the order of points.
 std::vector<Method> order_free_methods();
 
-/// What GoogleTest calls a test of the method.
+/// Name of the method in GoogleTest.
 inline std::string name_of(const testing::TestParamInfo<Method>& info) { return info.param.name; }
 inline void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What Fischler and Bolles (1981) claim, and what is known to go wrong with one plane.
+// Properties from Fischler and Bolles (1981), and known failures of a single plane.
 #include "flagstone/baselines/ransac.hpp"
 
 #include <gmock/gmock.h>
@@ -37,8 +37,8 @@ float uniform(Random& random, double low, double high) {
   return static_cast<float>(random.uniform(low, high));
 }
 
-/// A tilted street, its points up to 3 cm off, of which a share of `outliers` are replaced by
-/// points anywhere within 40 m and up to 10 m above it.
+/// A tilted street with noise of up to 3 cm. A fraction `outliers` of the points is replaced by
+/// points within 40 m and up to 10 m above the street.
 std::vector<Point> street(std::size_t points, double outliers, std::uint64_t seed) {
   Random random(seed);
   std::vector<Point> cloud;
@@ -52,7 +52,7 @@ std::vector<Point> street(std::size_t points, double outliers, std::uint64_t see
   return cloud;
 }
 
-/// x, y and z of a cloud apart.
+/// x, y and z of a cloud in separate arrays.
 struct Packed {
   explicit Packed(const std::vector<Point>& cloud) {
     for (const Point& p : cloud) {
@@ -72,27 +72,27 @@ Segmentation segment(const std::vector<Point>& cloud, const RansacConfig& config
   return result;
 }
 
-/// Sine of the angle between a normal and the street's.
-double lean(double x, double y, double z) {
+/// Sine of the angle between a normal and the normal of the street.
+double tilt(double x, double y, double z) {
   const double length = std::sqrt(slope_x * slope_x + slope_y * slope_y + 1);
   const double cosine = (-slope_x * x - slope_y * y + z) / length;
   return std::sqrt(std::max(0.0, 1 - cosine * cosine));
 }
 
-double lean(const Patch& patch) { return lean(patch.normal[0], patch.normal[1], patch.normal[2]); }
+double tilt(const Patch& patch) { return tilt(patch.normal[0], patch.normal[1], patch.normal[2]); }
 
 TEST(Ransac, FindsThePlaneAmongSixtyPercentOutliers) {
   const Segmentation result = segment(street(10000, 0.6, 1));
 
   ASSERT_EQ(result.patches().size(), 1u);
   EXPECT_EQ(result.patches()[0].verdict, Verdict::ground);
-  EXPECT_LT(lean(result.patches()[0]), 0.001);
+  EXPECT_LT(tilt(result.patches()[0]), 0.001);
   EXPECT_NEAR(result.patches()[0].d / result.patches()[0].normal[2], 1.73, 0.01);
   EXPECT_EQ(std::ranges::count(result.labels().first(6000), Label::ground), 0);
   EXPECT_EQ(std::ranges::count(result.labels().last(4000), Label::ground), 4000);
 }
 
-TEST(Ransac, NumberOfTrialsIsThatOfSectionIIB) {
+TEST(Ransac, NumberOfTrialsFollowsSectionIIB) {
   for (const double confidence : {0.5, 0.9, 0.99, 0.999}) {
     for (const double share : {0.1, 0.2, 0.4, 0.6, 0.8, 0.95}) {
       const double k = std::log(1 - confidence) / std::log(1 - std::pow(share, 3));
@@ -103,12 +103,12 @@ TEST(Ransac, NumberOfTrialsIsThatOfSectionIIB) {
   }
 }
 
-TEST(Ransac, NumberOfTrialsIsOneWhereAllAgreeAndTheMostAllowedWhereNoneDo) {
+TEST(Ransac, NumberOfTrialsIsOneForInliersOnlyAndTheMaximumWithoutInliers) {
   EXPECT_EQ(trials_needed(1, 0.99, 1000), 1);
   EXPECT_EQ(trials_needed(0, 0.99, 1000), 1000);
 }
 
-TEST(Ransac, TrialsMadeFallAsTheShareOfInliersRises) {
+TEST(Ransac, NumberOfTrialsDecreasesWithTheFractionOfInliers) {
   int before = 1001;
   for (const double outliers : {0.8, 0.6, 0.4, 0.2}) {
     const Packed cloud(street(5000, outliers, 2));
@@ -121,7 +121,7 @@ TEST(Ransac, TrialsMadeFallAsTheShareOfInliersRises) {
   }
 }
 
-TEST(Ransac, TrialsEndAtTheMaximumWhereNothingAgrees) {
+TEST(Ransac, TrialsEndAtTheMaximumWithoutAPlane) {
   Random random(3);
   std::vector<Point> anywhere(2000);
   for (Point& p : anywhere) {
@@ -131,7 +131,7 @@ TEST(Ransac, TrialsEndAtTheMaximumWhereNothingAgrees) {
   EXPECT_EQ(search_plane(Packed(anywhere).coordinates(), {.max_trials = 77}).trials, 77);
 }
 
-TEST(Ransac, SeedDecidesTheSamples) {
+TEST(Ransac, TheSeedDeterminesTheSamples) {
   const Packed cloud(street(5000, 0.4, 4));
 
   const RansacSearch first = search_plane(cloud.coordinates(), {.seed = 1});
@@ -143,32 +143,32 @@ TEST(Ransac, SeedDecidesTheSamples) {
   EXPECT_NE(first.plane.d, other.plane.d);
 }
 
-TEST(Ransac, WhateverTheSeedThePlaneIsTheSame) {
+TEST(Ransac, ThePlaneDoesNotDependOnTheSeed) {
   const std::vector<Point> cloud = street(10000, 0.5, 5);
 
   for (int seed = 0; seed < 20; ++seed) {
     const Segmentation result = segment(cloud, {.seed = seed});
 
-    EXPECT_LT(lean(result.patches()[0]), 0.001);
+    EXPECT_LT(tilt(result.patches()[0]), 0.001);
     EXPECT_NEAR(result.patches()[0].d / result.patches()[0].normal[2], 1.73, 0.01);
   }
 }
 
-TEST(Ransac, LeastSquaresOnTheConsensusSetImprovesOnTheBestSample) {
+TEST(Ransac, LeastSquaresOnTheConsensusSetImprovesTheBestSample) {
   const std::vector<Point> cloud = street(5000, 0.5, 6);
   const Packed packed(cloud);
   double of_samples = 0;
   double of_fits = 0;
   for (int seed = 0; seed < 20; ++seed) {
     const SinglePrecisionPlane sample = search_plane(packed.coordinates(), {.seed = seed}).plane;
-    of_samples += lean(sample.normal_x, sample.normal_y, sample.normal_z);
-    of_fits += lean(segment(cloud, {.seed = seed}).patches()[0]);
+    of_samples += tilt(sample.normal_x, sample.normal_y, sample.normal_z);
+    of_fits += tilt(segment(cloud, {.seed = seed}).patches()[0]);
   }
 
   EXPECT_LT(of_fits, of_samples / 2);
 }
 
-TEST(Ransac, ToleranceHoldsOnBothSidesOfThePlane) {
+TEST(Ransac, TheThresholdAppliesOnBothSidesOfThePlane) {
   std::vector<Point> cloud = street(4000, 0, 7);
   for (const float off : {0.15f, -0.15f, 0.25f, -0.25f, -9.0f}) {
     cloud.push_back({10, 10, street_height(10, 10) + off});
@@ -181,7 +181,7 @@ TEST(Ransac, ToleranceHoldsOnBothSidesOfThePlane) {
                                    Label::nonground));
 }
 
-TEST(Ransac, TakesAWallLargerThanTheGroundForTheGround) {
+TEST(Ransac, LabelsAWallLargerThanTheGroundAsGround) {
   Random random(8);
   std::vector<Point> cloud = street(4000, 0, 8);
   for (int i = 0; i < 8000; ++i) {
@@ -195,7 +195,7 @@ TEST(Ransac, TakesAWallLargerThanTheGroundForTheGround) {
   EXPECT_LT(std::ranges::count(result.labels().first(4000), Label::ground), 100);
 }
 
-TEST(Ransac, APlaneThatFewerThanTheMinimumAgreeOnIsNone) {
+TEST(Ransac, RejectsAPlaneWithTooFewInliers) {
   const std::vector<Point> eight = street(8, 0, 9);
   const std::vector<Point> seven(eight.begin(), eight.end() - 1);
 
@@ -204,14 +204,14 @@ TEST(Ransac, APlaneThatFewerThanTheMinimumAgreeOnIsNone) {
   EXPECT_EQ(segment(seven).patches()[0].verdict, Verdict::no_plane);
 }
 
-TEST(Ransac, PointsOnALineAreNoPlane) {
+TEST(Ransac, CollinearPointsGiveNoPlane) {
   std::vector<Point> line;
   for (int i = 1; i <= 100; ++i) line.push_back({static_cast<float>(i), 0, 0});
 
   EXPECT_EQ(segment(line).count(Label::nonground), 100u);
 }
 
-TEST(Ransac, AMovedSegmenterStillSegments) {
+TEST(Ransac, AMovedSegmenterStillWorks) {
   const std::vector<Point> cloud = street(1000, 0.2, 10);
   Ransac original;
   Ransac moved = std::move(original);
@@ -222,7 +222,7 @@ TEST(Ransac, AMovedSegmenterStillSegments) {
   EXPECT_TRUE(std::ranges::equal(result.labels(), segment(cloud).labels()));
 }
 
-TEST(Ransac, RefusesSettingsOutOfRangeByName) {
+TEST(Ransac, RejectsSettingsOutOfRangeByName) {
   const auto message_of = [](const RansacConfig& config) -> std::string {
     try {
       Ransac refused(config);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Every setting of every method, from the lists that the command line and TOML go by, just below
-// and just above its range, infinite and not a number.
+// Sets every setting of every method to values just below and just above its range, infinity and
+// NaN. The settings come from the lists that the command line and TOML use.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,10 +23,10 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// What is said of the method's initial settings after `spoil` was at the one of that number; empty
-/// if nothing.
-std::string complaint_of(std::string_view method, std::size_t number,
-                         const std::function<void(Setting&)>& spoil) {
+/// The error message for the default settings of a method after `spoil` has changed setting number
+/// `number`; empty if there is no error.
+std::string error_of(std::string_view method, std::size_t number,
+                     const std::function<void(Setting&)>& spoil) {
   MethodConfig config = default_config(method);
   std::vector<Setting> settings = config.settings();
   spoil(settings.at(number));
@@ -38,7 +38,7 @@ std::string complaint_of(std::string_view method, std::size_t number,
   return {};
 }
 
-/// Numbers that the setting may not be.
+/// Numbers outside the valid range.
 std::vector<double> numbers_beyond(const ValidRange& allowed) {
   const auto just_beyond = [](double bound, double side) {
     return bound + side * (std::abs(bound) * 0.01 + 0.001);
@@ -51,7 +51,7 @@ std::vector<double> numbers_beyond(const ValidRange& allowed) {
   return numbers;
 }
 
-/// Calls `body` with every setting of every method: its method, number and what it is.
+/// Calls `body(method, number, setting)` for every setting of every method.
 template <class Body>
 void for_every_setting(const Body& body) {
   register_baselines();
@@ -66,26 +66,26 @@ void for_every_setting(const Body& body) {
   }
 }
 
-TEST(EverySetting, BeyondItsRangeIsRefusedWithItsNameAndWhatIsAllowed) {
-  std::size_t refused = 0;
+TEST(EverySetting, RejectsANumberOutOfRangeWithItsNameAndRange) {
+  std::size_t rejected = 0;
   for_every_setting([&](std::string_view method, std::size_t i, const Setting& setting) {
     const bool is_number = std::holds_alternative<float*>(setting.value);
     if (!is_number) return;
     for (const double number : numbers_beyond(setting.allowed)) {
-      const std::string complaint = complaint_of(method, i, [&](Setting& spoilt) {
+      const std::string error = error_of(method, i, [&](Setting& spoilt) {
         *std::get<float*>(spoilt.value) = static_cast<float>(number);
       });
-      EXPECT_THAT(complaint, AllOf(HasSubstr(std::string(setting.key) + " = "),
-                                   HasSubstr("allowed: " + to_string(setting.allowed))))
+      EXPECT_THAT(error, AllOf(HasSubstr(std::string(setting.key) + " = "),
+                               HasSubstr("allowed: " + to_string(setting.allowed))))
           << number;
-      ++refused;
+      ++rejected;
     }
   });
-  EXPECT_GT(refused, 100U);
+  EXPECT_GT(rejected, 100U);
 }
 
-TEST(EverySetting, ThatIsAWholeNumberBeyondItsRangeIsRefused) {
-  std::size_t refused = 0;
+TEST(EverySetting, RejectsAnIntegerOutOfRange) {
+  std::size_t rejected = 0;
   for_every_setting([&](std::string_view method, std::size_t i, const Setting& setting) {
     if (!std::holds_alternative<int*>(setting.value)) return;
     const std::array<int, 4> numbers = {
@@ -93,35 +93,35 @@ TEST(EverySetting, ThatIsAWholeNumberBeyondItsRangeIsRefused) {
         std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
     for (const int number : numbers) {
       const std::string complaint =
-          complaint_of(method, i, [&](Setting& spoilt) { *std::get<int*>(spoilt.value) = number; });
-      EXPECT_THAT(complaint, AllOf(HasSubstr(std::string(setting.key) + " = "),
-                                   HasSubstr("allowed: " + to_string(setting.allowed))))
+          error_of(method, i, [&](Setting& spoilt) { *std::get<int*>(spoilt.value) = number; });
+      EXPECT_THAT(error, AllOf(HasSubstr(std::string(setting.key) + " = "),
+                               HasSubstr("allowed: " + to_string(setting.allowed))))
           << number;
-      ++refused;
+      ++rejected;
     }
   });
-  EXPECT_GT(refused, 10U);
+  EXPECT_GT(rejected, 10U);
 }
 
-TEST(EverySetting, ThatIsAListIsRefusedEmptyTooLongOrWithOneNumberBeyondItsRange) {
-  std::size_t refused = 0;
+TEST(EverySetting, RejectsAListThatIsEmptyTooLongOrHasANumberOutOfRange) {
+  std::size_t rejected = 0;
   for_every_setting([&](std::string_view method, std::size_t i, const Setting& setting) {
     if (!std::holds_alternative<std::vector<float>*>(setting.value)) return;
     const auto list_of = [](Setting& spoilt) -> std::vector<float>& {
       return *std::get<std::vector<float>*>(spoilt.value);
     };
     const auto length = HasSubstr("length of " + std::string(setting.key));
-    EXPECT_THAT(complaint_of(method, i, [&](Setting& spoilt) { list_of(spoilt).clear(); }), length);
-    EXPECT_THAT(complaint_of(method, i, [&](Setting& spoilt) { list_of(spoilt).resize(1001, 1); }),
+    EXPECT_THAT(error_of(method, i, [&](Setting& spoilt) { list_of(spoilt).clear(); }), length);
+    EXPECT_THAT(error_of(method, i, [&](Setting& spoilt) { list_of(spoilt).resize(1001, 1); }),
                 length);
     for (const double number : numbers_beyond(setting.allowed)) {
-      const std::string complaint = complaint_of(
+      const std::string error = error_of(
           method, i, [&](Setting& spoilt) { list_of(spoilt).back() = static_cast<float>(number); });
-      EXPECT_THAT(complaint, HasSubstr(std::string(setting.key) + "[")) << number;
-      ++refused;
+      EXPECT_THAT(error, HasSubstr(std::string(setting.key) + "[")) << number;
+      ++rejected;
     }
   });
-  EXPECT_GT(refused, 0U);
+  EXPECT_GT(rejected, 0U);
 }
 
 }  // namespace

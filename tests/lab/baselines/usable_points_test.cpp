@@ -34,20 +34,20 @@ TEST(UsablePoints, AreTheFinitePointsInInputOrder) {
   EXPECT_THAT(gathered.points.index(), ElementsAre(0, 2, 4));
 }
 
-TEST(UsablePoints, TheOthersAreLabelledAndTheirOwnAreLeftAlone) {
+TEST(UsablePoints, LabelOnlyTheOtherPoints) {
   const Gathered gathered({{1, 2, 3}, {nan, 2, 3}, {0, -0.0f, 0}, {10001, 0, 0}, {0, 0, -3e38f}});
 
   EXPECT_THAT(gathered.labels, ElementsAre(Label::nonground, Label::invalid, Label::invalid,
                                            Label::out_of_range, Label::out_of_range));
 }
 
-TEST(UsablePoints, ReachToTenKilometres) {
+TEST(UsablePoints, IncludePointsUpToTenKilometres) {
   const Gathered gathered({{max_coordinate, -max_coordinate, max_coordinate}});
 
   EXPECT_EQ(gathered.points.size(), 1u);
 }
 
-TEST(UsablePoints, ThoseBelowAHeightCanBeLabelledAndForgotten) {
+TEST(UsablePoints, BelowAHeightCanBeLabelledAndRemoved) {
   Gathered gathered({{1, 2, -3}, {nan, 2, -9}, {4, 5, -1}, {7, 8, -2}, {9, 9, -2.1f}});
 
   gathered.points.remove_below(-2, Label::noise, gathered.labels);
@@ -58,7 +58,7 @@ TEST(UsablePoints, ThoseBelowAHeightCanBeLabelledAndForgotten) {
                                            Label::nonground, Label::noise));
 }
 
-TEST(UsablePoints, OfASmallerScanAreNotMixedWithThoseOfTheLargerBefore) {
+TEST(UsablePoints, OfASmallerScanReplaceAllPointsOfALargerOne) {
   Gathered gathered({{1, 1, 1}, {2, 2, 2}, {3, 3, 3}});
   const std::vector<Point> smaller = {{4, 5, 6}};
 
