@@ -174,7 +174,7 @@ def write_labels(
     codes = np.asarray(labels)
     if codes.ndim != 1 or codes.dtype.kind not in "ui" or (codes.size and not 0 <= codes.min() <= codes.max() <= 4):
         raise ValueError(
-            f"labels: array of {codes.dtype}, shape {codes.shape}, is not supported (expected (N,) integers from 0 to 4)"
+            f"labels: {codes.dtype} array of shape {codes.shape} is not supported (expected (N,) integers from 0 to 4)"
         )
     compact = np.ascontiguousarray(codes, np.uint8)
     _core.write_labels(name, compact, label_map == "semantic-kitti", name.lower().endswith(".npy"))

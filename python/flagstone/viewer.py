@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Scans in three dimensions, in a notebook, a browser or a window, by Rerun."""
+"""Interactive 3D view of scans with Rerun, in a notebook, a browser or a window."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 
 Where = Literal["notebook", "browser", "window"]
 
-_SERVER_MEMORY = "25%"  # of the machine's; of what is more, the earliest scans are forgotten
-_served: list[Any] = []  # recordings that browsers may still ask for
+_SERVER_MEMORY = "25%"  # of the machine's memory; beyond it, the server drops the oldest scans
+_served: list[Any] = []  # recordings that browsers may still request
 
 
 def show(
@@ -42,35 +42,34 @@ def show(
     save: str | os.PathLike[str] | None = None,
     where: Where | None = None,
 ) -> None:
-    """Shows segmented scans in three dimensions, to turn, to zoom into and to point at.
+    """Shows segmented scans in an interactive 3D view.
 
-    Points are coloured by label, patches are tinted by verdict, each on its plane with its normal, and the ground is a
-    shaded surface. The mouse over a point says its height above the ground, over a patch why it has its verdict; a
-    click on a normal lists all of the patch's numbers in the selection panel. Patches without a plane are not drawn.
-
-    Several scans become a time line.
+    Points are coloured by label. Patches are tinted by verdict and drawn on their planes with their normals; patches
+    without a plane are not drawn. The ground is a shaded surface. Hover over a point to see its height above the
+    ground, and over a patch to see the values behind its verdict. Click a normal to list all values of its patch in
+    the selection panel. Several scans become a timeline.
 
     Args:
-        points: (N, >=3), as `Segmenter.segment` takes them, metres; or, without `result`, pairs of points and result,
-            one a scan; a generator may make them one by one.
-        result: What segmenting the points gave.
-        save: Path of a recording to write, ending in `.rrd`, instead of showing anything: open it later with
-            `rerun FILE.rrd`. It appears whole or not at all.
-        where: "notebook": below the cell; "browser": in the default browser, served by this process; "window": in a
-            window of its own, which outlives this process. Without it, in a notebook there, else in the browser. The
-            address is printed. A script that shows in the browser waits until it is interrupted with Ctrl-C; if there
-            is neither a browser nor a terminal, it goes on at once.
+        points: (N, >=3) in metres, as `Segmenter.segment` accepts them. Without `result`, an iterable of pairs
+            (points, result), one per scan; it can be a generator.
+        result: Result of segmenting the points.
+        save: Path of a recording (`.rrd`) to write instead of showing it. Open it with `rerun FILE.rrd`. The file is
+            written atomically.
+        where: "notebook": below the cell. "browser": in the default browser, served by this process; the address is
+            printed. "window": in a separate window, which stays open after this process ends. The default is
+            "notebook" in a notebook, otherwise "browser". A script that shows scans in the browser waits until you
+            press Ctrl-C. It does not wait if there is neither a browser nor a terminal.
 
     Raises:
-        ImportError: Rerun is not installed, or for notebooks rerun-notebook.
-        TypeError: These are no points, or no pairs of points and result.
-        ValueError: A result does not belong to its points, or both `save` and `where` are given.
+        ImportError: Rerun is not installed; in notebooks, rerun-notebook is not installed.
+        TypeError: The points are not floats in CPU memory, or an element is not a pair (points, result).
+        ValueError: A result does not match its points, or both `save` and `where` are set.
         OSError: The recording cannot be written.
     """
     if save is not None and where is not None:
-        raise ValueError(f"where: {where!r} together with save; a recording is either saved or shown: call show twice")
+        raise ValueError(f"where: {where!r} cannot be combined with save (call show twice, to show and to save)")
     if where not in (None, "notebook", "browser", "window"):
-        raise ValueError(f"where: {where!r}; allowed are 'notebook', 'browser' and 'window'")
+        raise ValueError(f"where: {where!r} is not a viewer (expected 'notebook', 'browser' or 'window')")
     rr = needs("rerun", extra="viewer")
     scans = [(points, result)] if result is not None else points
     recording = rr.RecordingStream("flagstone", recording_id=str(uuid.uuid4()))
@@ -96,17 +95,17 @@ def _log_all(recording: rerun.RecordingStream, scans: Any) -> None:
             points = result = None
         if not isinstance(result, Segmentation):
             raise TypeError(
-                f"points: {type(scan).__name__} where a pair of points and result is wanted: show(points, result), "
-                "or show([(points, result), ...])"
+                f"points: {type(scan).__name__} is not a pair of points and result (expected show(points, result) or "
+                "show([(points, result), ...]))"
             )
         log_scan(recording, number, points, result)
 
 
 def _save(recording: rerun.RecordingStream, path: Path, scans: Any) -> None:
-    """Writes beside the file and renames, so that who is interrupted leaves what was there before."""
+    """Writes a temporary file and renames it, so that an interrupted call keeps an existing recording."""
     part = path.with_name(f".{path.name}.{os.getpid()}.part")
     if not path.parent.is_dir():
-        raise FileNotFoundError(f"{path.parent}: no such folder; make it, or save elsewhere")
+        raise FileNotFoundError(f"{path.parent}: directory does not exist (create it, or choose another path)")
     try:
         recording.save(part, default_blueprint=blueprint())
         _log_all(recording, scans)
@@ -139,20 +138,20 @@ def _show_in_browser(recording: rerun.RecordingStream, scans: Any) -> None:
     rr.serve_web_viewer(web_port=port, connect_to=address, open_browser=has_browser)
     _served.append(recording)
     url = f"http://localhost:{port}/?url={urllib.parse.quote(address, safe='')}"
-    what = "shown at" if has_browser else "no browser found; open"
+    where = f"shown at {url}" if has_browser else f"no browser found; open {url}"
     if hasattr(sys, "ps1") or sys.flags.interactive or _in_notebook():
-        print(f"flagstone: {what} {url}", file=sys.stderr)
+        print(f"flagstone: {where}", file=sys.stderr)
     elif has_browser or (sys.stdin is not None and sys.stdin.isatty()):
-        print(f"flagstone: {what} {url} (Ctrl-C to go on)", file=sys.stderr)
+        print(f"flagstone: {where} (press Ctrl-C to continue)", file=sys.stderr)
         with contextlib.suppress(KeyboardInterrupt):
             while True:
                 time.sleep(3600)
     else:
-        print(f"flagstone: no browser found; {url} is served while this program runs", file=sys.stderr)
+        print(f"flagstone: no browser found; {url} is available while this program runs", file=sys.stderr)
 
 
 def _has_browser() -> bool:
-    """Whether a browser with windows can be opened: one in a terminal would take the terminal over."""
+    """Whether a graphical browser is available. A text browser would take over the terminal."""
     try:
         browser = webbrowser.get()
     except webbrowser.Error:
@@ -170,7 +169,7 @@ def _free_port() -> int:
 
 
 def _in_notebook() -> bool:
-    """Whether a notebook's kernel runs this; a terminal's IPython does not count."""
+    """Whether this code runs in the kernel of a notebook. IPython in a terminal does not count."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython is not None else None
     return type(shell).__name__ == "ZMQInteractiveShell"
@@ -194,7 +193,7 @@ _NUMBERS = (
 
 
 def blueprint() -> rerun.blueprint.Blueprint:
-    """The view that a recording opens on: from behind and above, as a driver might from a tall truck."""
+    """The initial view of a recording: from behind and above, as from a tall truck."""
     rrb = needs("rerun.blueprint", extra="viewer")
 
     def view(name: str, *contents: str) -> Any:
@@ -220,17 +219,22 @@ def blueprint() -> rerun.blueprint.Blueprint:
 
 
 def log_scan(recording: rerun.RecordingStream, number: int, points: PointsLike, result: Segmentation) -> None:
-    """Writes a scan, its labels, its patches and its surface into a recording.
+    """Adds a scan with its labels, patches and surface to a recording.
 
     Args:
-        recording: What to write into.
-        number: Its place on the time line.
+        recording: Recording to add to.
+        number: Index of the scan on the timeline.
         points: (N, >=3), metres.
-        result: What segmenting them gave.
+        result: Result of segmenting the points.
+
+    Raises:
+        ValueError: The result does not match the points.
     """
     x, y, z = columns_of(points)
     if len(result) != len(x):
-        raise ValueError(f"result: {len(result)} labels for {len(x)} points; pass what segmenting these points gave")
+        raise ValueError(
+            f"result: {len(result)} labels do not match {len(x)} points (pass the result of segmenting these points)"
+        )
     recording.set_time(TIMELINE, sequence=number)
     _log_points(recording, np.stack([x, y, z], axis=1).astype(np.float32, copy=False), result)
     _log_patches(recording, result)
@@ -238,11 +242,11 @@ def log_scan(recording: rerun.RecordingStream, number: int, points: PointsLike, 
 
 
 def _log_points(recording: rerun.RecordingStream, points: npt.NDArray[np.float32], result: Segmentation) -> None:
-    """An entity a label, so that each can be switched off; with each point its height, of methods that know it."""
+    """Logs one entity per label, so that you can hide each label. Points have their height above the ground, if any."""
     rr = needs("rerun", extra="viewer")
-    placed = np.isfinite(points).all(axis=1)
+    finite = np.isfinite(points).all(axis=1)
     for label in _DRAWN:
-        shown = placed & (result.labels == label)
+        shown = finite & (result.labels == label)
         parts = [rr.Points3D(points[shown], colors=[LABELS[label]], radii=[rr.Radius.ui_points(1.2)])]
         if result.surface:
             heights = {"height_above_ground": result.heights[shown]}
@@ -251,13 +255,13 @@ def _log_points(recording: rerun.RecordingStream, points: npt.NDArray[np.float32
 
 
 def _log_patches(recording: rerun.RecordingStream, result: Segmentation) -> None:
-    """An entity a patch, since the viewer tells apart what the mouse is over by entity.
+    """Logs one entity per patch, because the viewer shows tooltips per entity.
 
-    A tip shows all of an entity if that is no more than three values: here corners, colour and one line of numbers.
-    All numbers, each by itself, are with the normals.
+    A tooltip shows the values of an entity only if there are at most three: corners, colour and one line of text. The
+    normals have all values separately.
     """
     rr = needs("rerun", extra="viewer")
-    recording.log("patches", rr.Clear(recursive=True), strict=True)  # those of the scan before
+    recording.log("patches", rr.Clear(recursive=True), strict=True)  # patches of the previous scan
     patches = result.patches
     for patch, quad in zip(patches, patch_quads(result), strict=True):
         if not len(quad):
@@ -266,7 +270,7 @@ def _log_patches(recording: rerun.RecordingStream, result: Segmentation) -> None
         recording.log(
             f"patches/{verdict.name.lower()}/zone_{patch['zone']}/ring_{patch['ring']}/sector_{patch['sector']}",
             rr.Mesh3D(vertex_positions=quad.reshape(-1, 3), albedo_factor=(*VERDICTS[verdict], round(255 * TINT))),
-            rr.DynamicArchetype("flagstone.Patch", components=in_one_line(patch)),
+            rr.DynamicArchetype("flagstone.Patch", components=tooltip(patch)),
             strict=True,
         )
     with_plane = patches[patches["normal"].any(axis=1)]
@@ -287,15 +291,15 @@ def _log_patches(recording: rerun.RecordingStream, result: Segmentation) -> None
     )
 
 
-def in_one_line(patch: Any) -> dict[str, str]:
-    """The numbers that say most of a patch, under a name for them: as many as a tip has room for, 70 characters."""
+def tooltip(patch: Any) -> dict[str, str]:
+    """The main values of a patch, with a name for them. A tooltip has room for about 70 characters."""
     points = f"{patch['ground_count']}/{patch['point_count']} ground"
     if patch["uprightness"] or patch["elevation"] or patch["flatness"]:
         terms = " · ".join(f"{name} {patch[name]:.2g}" for name in ("uprightness", "elevation", "flatness"))
         return {"likelihood": f"{patch['likelihood']:.2g} = {terms}; {points}"}
     slope = np.degrees(np.arccos(np.clip(patch["normal"][2], -1, 1)))
-    spread = 100 * np.sqrt(max(patch["eigenvalues"][2], 0))
-    return {"plane": f"slope {slope:.1f} degrees, spread {spread:.1f} cm; {points}"}
+    deviation = 100 * np.sqrt(max(patch["eigenvalues"][2], 0))
+    return {"plane": f"slope {slope:.1f} degrees, RMS distance {deviation:.1f} cm; {points}"}
 
 
 def _log_surface(recording: rerun.RecordingStream, result: Segmentation) -> None:

@@ -202,17 +202,17 @@ def test_points_are_rasters_in_a_pdf(scan: Scan, result: flagstone.Segmentation,
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"result": [0, 1]}, r"result: labels of shape \(2,\) for 3 points"),
-        ({"result": [0, 1, 7]}, "codes of 0 to 4"),
-        ({"result": [0.0, 1.0, 1.0]}, "codes of 0 to 4"),
-        ({"color": "labels"}, "result: there is none"),
-        ({"color": "rainbow"}, "allowed are 'labels', 'heights' and 'z'"),
+        ({"result": [0, 1]}, r"result: labels of shape \(2,\) do not match 3 points"),
+        ({"result": [0, 1, 7]}, "expected codes 0 to 4"),
+        ({"result": [0.0, 1.0, 1.0]}, "expected codes 0 to 4"),
+        ({"color": "labels"}, "result: missing, but color='labels' needs it"),
+        ({"color": "rainbow"}, "expected 'labels', 'heights' or 'z'"),
         ({"result": [0, 1, 1], "color": "heights"}, "segment with flagstone.Surface"),
-        ({"result": [0, 1, 1], "reference": [True]}, r"reference: bool of shape \(1,\) for 3 points"),
-        ({"result": [0, 1, 1], "reference": [40, 40, 1]}, "wanted is a mask"),
-        ({"result": [0, 1, 1], "reference": [True] * 3, "color": "z"}, "reference: colours compare labels"),
-        ({"result": [0, 1, 1], "patches": True}, "patches: their bins are not known"),
-        ({"range": 0}, "range: 0; wanted are metres, above 0"),
+        ({"result": [0, 1, 1], "reference": [True]}, r"reference: bool array of shape \(1,\) does not match 3 points"),
+        ({"result": [0, 1, 1], "reference": [40, 40, 1]}, "expected a bool mask"),
+        ({"result": [0, 1, 1], "reference": [True] * 3, "color": "z"}, "reference: cannot be combined with color='z'"),
+        ({"result": [0, 1, 1], "patches": True}, "patches: their outlines are unknown"),
+        ({"range": 0}, r"range: 0 is out of range \(expected metres, above 0\)"),
         ({"range": float("nan")}, "range: nan"),
     ],
 )
@@ -225,7 +225,7 @@ def test_what_cannot_be_drawn_is_said_in_one_line(arguments: dict[str, Any], mes
 
 
 def test_methods_without_a_surface_are_told_apart(scan: Scan) -> None:
-    with pytest.raises(ValueError, match="no surface in it"):
+    with pytest.raises(ValueError, match="contains no surface"):
         surface(flagstone.Patchwork().segment(scan))
 
 

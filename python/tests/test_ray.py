@@ -115,7 +115,7 @@ def test_other_filesystems_get_the_same_bytes_and_a_deadly_scan_costs_itself_alo
     where = {"source": str(scans), "destination": str(tmp_path / "labels"), "filesystem": DeadlyFiles()}
     summary = flagstone.ray.segment(**where, workers=1)
     deadly, torn = summary.failures
-    assert deadly.error.startswith(f"{scans}/00/deadly.bin: 2 workers died while they worked on it")
+    assert deadly.error.startswith(f"{scans}/00/deadly.bin: 2 workers crashed while processing this scan")
     assert torn.error.startswith(f"{scans}/02/torn.bin: byte 0: ")
     assert files(tmp_path / "labels") == files(tmp_path / "expected")
     for path in (scans / "00" / "deadly.bin", scans / "02" / "torn.bin"):
@@ -129,7 +129,7 @@ def test_labels_are_not_written_through_a_link_to_a_scan(scans: Path, tmp_path: 
     (tmp_path / "labels" / "a.label").symlink_to(scans / "02" / "g.bin")
     summary = flagstone.ray.segment(scans, tmp_path / "labels", workers=1)
     assert [failure.error for failure in summary.failures] == [
-        f"{scans}/a.bin: {tmp_path}/labels/a.label: links to a scan; remove the link or choose another destination"
+        f"{scans}/a.bin: {tmp_path}/labels/a.label: is a link to a scan (remove it, or choose another destination)"
     ]
     assert files(scans) == before
 

@@ -170,7 +170,7 @@ def test_a_driver_that_is_killed_costs_no_label(
     printed, error = again.communicate(timeout=PATIENCE)
     print(f"{len(so_far)} labels stood when the driver was killed, {len(known)} were written down\n{printed}{error}")
     assert again.returncode == 0, error
-    assert f"; {len(so_far)} were already labelled" in printed
+    assert f"; {len(so_far)} already labelled" in printed
     assert whole(labels) == expected
     assert len(flagstone.ray.statistics(labels)) == SCANS
 
@@ -187,7 +187,7 @@ def test_a_run_that_is_interrupted_says_what_is_done(
     known = len(flagstone.ray.statistics(labels))
     print(printed, error)
     assert run.returncode == 1
-    assert f"flagstone-ray: interrupted, {known} of {SCANS} scans are done; run it again for the rest\n" in error
+    assert f"flagstone-ray: interrupted: {known} of {SCANS} scans are finished (run again to resume)\n" in error
     assert "Traceback" not in error
     assert printed.startswith(f"{known} of {SCANS} scans labelled")
     assert whole(labels).items() <= expected.items()

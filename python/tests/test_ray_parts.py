@@ -81,7 +81,7 @@ class TestLocation:
         )
 
     def test_of_an_unknown_url_is_refused_in_one_line(self) -> None:
-        with pytest.raises(ValueError, match=r"^nowhere://a/b: no filesystem for this URL") as caught:
+        with pytest.raises(ValueError, match=r"^nowhere://a/b: no filesystem supports this URL") as caught:
             location_of("nowhere://a/b")
         assert "\n" not in str(caught.value)
 
@@ -163,7 +163,7 @@ class TestStatistics:
 
     def test_say_which_file_is_none_of_theirs(self, tmp_path: Path) -> None:
         (tmp_path / "x.parquet").write_bytes(b"torn")
-        with pytest.raises(ValueError, match=r"x\.parquet: not statistics of flagstone"):
+        with pytest.raises(ValueError, match=r"x\.parquet: not a statistics file"):
             read_rows(Location(str(tmp_path)))
 
 
@@ -251,11 +251,11 @@ def test_errors_are_one_line_that_names_the_scan_once() -> None:
 def test_a_summary_lists_what_failed_and_why() -> None:
     failures = tuple(Failure(f"{i:02}.bin", f"/s/{i:02}.bin: torn") for i in range(25))
     text = str(Summary(30, 2, 3, failures, 30, 480, 0.5, 2, 3.0, 6.0, 1.5, "/d/flagstone-statistics"))
-    assert text.startswith("3 of 30 scans labelled, 30 points; 2 were already labelled\n6.0 scans a second")
+    assert text.startswith("3 of 30 scans labelled, 30 points; 2 already labelled\n6.0 scans per second")
     assert "25 failed:\n  /s/00.bin: torn\n" in text
     assert "/s/19.bin" in text
     assert "/s/20.bin" not in text
-    assert "and 5 more, in the statistics" in text
+    assert "and 5 more, listed in the statistics" in text
 
 
 class TestUsage:
@@ -269,15 +269,15 @@ class TestUsage:
     @pytest.mark.parametrize(
         ("options", "message"),
         [
-            (["--format", "pcd"], "format='pcd': allowed are label, u8"),
-            (["--label-map", "x"], "label_map='x': allowed are flagstone, semantic-kitti"),
-            (["--columns", "2"], "columns=2: not a whole number within 3 to 1024"),
-            (["--workers", "0"], "workers=0: not a whole number within 1 to 100000"),
+            (["--format", "pcd"], "format: 'pcd' is not supported (expected label or u8)"),
+            (["--label-map", "x"], "label_map: 'x' is not supported (expected flagstone or semantic-kitti)"),
+            (["--columns", "2"], "columns: 2 is out of range (expected an integer from 3 to 1024)"),
+            (["--workers", "0"], "workers: 0 is out of range (expected an integer from 1 to 100000)"),
             (["--method", "magic"], "magic"),
-            (["--set", "point.margin"], "--set point.margin: is not KEY=VALUE"),
+            (["--set", "point.margin"], "--set: 'point.margin' is not an assignment (expected KEY=VALUE)"),
             (["--set", "point.margin=nan"], "point.margin"),
-            (["--tilt", "1,2"], "--tilt 1,2: is not three numbers X,Y,Z"),
-            (["--tilt", "estimate"], "tilt='estimate': workers see scans in any order"),
+            (["--tilt", "1,2"], "--tilt: '1,2' is not a direction (expected three numbers X,Y,Z)"),
+            (["--tilt", "estimate"], "tilt: 'estimate' is not supported here"),
         ],
     )
     def test_wrong_options_are_refused(
@@ -291,12 +291,12 @@ class TestUsage:
 
     @pytest.mark.parametrize("word", ["estimate", "track"])
     def test_heights_to_be_found_out_are_refused(self, scan: Path, word: str) -> None:
-        with pytest.raises(ValueError, match=f"sensor_height='{word}': workers see scans in any order"):
+        with pytest.raises(ValueError, match=f"sensor_height: '{word}' is not supported here"):
             flagstone.ray.segment(scan, segmenter=flagstone.Surface(sensor_height=word))  # type: ignore[arg-type]
 
     def test_a_source_without_scans_is_refused(self, tmp_path: Path) -> None:
         for source in (tmp_path, tmp_path / "missing"):
-            with pytest.raises(FileNotFoundError, match="no scan in this folder or below it"):
+            with pytest.raises(FileNotFoundError, match="no scans in this directory or its subdirectories"):
                 flagstone.ray.segment(source, tmp_path / "out")
 
     def test_scans_that_would_share_labels_are_refused(self, scan: Path) -> None:
@@ -306,12 +306,12 @@ class TestUsage:
 
     def test_a_scan_named_as_its_labels_is_refused(self, scan: Path) -> None:
         (scan / "a.bin").rename(scan / "a.label")
-        with pytest.raises(ValueError, match=r"a\.label: is named as its own labels would be"):
+        with pytest.raises(ValueError, match=r"a\.label: has the name of its own label file"):
             flagstone.ray.segment(scan / "a.label")
 
     def test_names_that_are_not_utf8_are_refused(self, scan: Path) -> None:
         Path(os.fsdecode(bytes(scan) + b"/\xe9.bin")).write_bytes(b"")
-        with pytest.raises(ValueError, match=r"the name '\\udce9\.bin' is not UTF-8; rename it"):
+        with pytest.raises(ValueError, match=r"the file name '\\udce9\.bin' is not UTF-8"):
             flagstone.ray.segment(scan)
 
     def test_a_destination_of_other_settings_is_refused(self, scan: Path) -> None:
@@ -320,13 +320,15 @@ class TestUsage:
         writer = StatisticsWriter(Location(str(scan / "flagstone-statistics")), made_with)
         writer.add(rows_of({"path": "a.bin"}))
         writer.flush()
-        with pytest.raises(ValueError, match=r"another settings\.sensor_height, 2\.5 instead of 1\.73"):
+        with pytest.raises(
+            ValueError, match=r"existing labels were written with settings\.sensor_height = 2\.5, not 1\.73"
+        ):
             flagstone.ray.segment(scan)
 
     def test_a_cluster_that_is_not_there_is_one_line(self, scan: Path, capsys: pytest.CaptureFixture[str]) -> None:
         assert command.main([str(scan), "--in-place", "--address", "127.0.0.1:1"]) == 2
         error = capsys.readouterr().err.splitlines()[-1]
-        assert error.startswith("flagstone-ray: Ray at 127.0.0.1:1: cannot be had: ")
+        assert error.startswith("flagstone-ray: Ray at 127.0.0.1:1: cannot connect: ")
 
 
 @pytest.mark.parametrize(("scans", "workers"), [(1, 8), (17, 2), (2000, 2), (50_000, 3)])

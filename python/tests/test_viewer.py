@@ -235,7 +235,7 @@ def test_interrupted_save_leaves_what_was_there(scan: Scan, tmp_path: Path) -> N
 
 def test_nothing_is_left_of_a_recording_that_cannot_be_written(scan: Scan, tmp_path: Path) -> None:
     result = flagstone.Surface().segment(scan)
-    with pytest.raises(FileNotFoundError, match="nowhere: no such folder"):
+    with pytest.raises(FileNotFoundError, match="nowhere: directory does not exist"):
         flagstone.show(scan, result, save=tmp_path / "nowhere" / "scan.rrd")
 
 
@@ -305,8 +305,8 @@ def test_notebook_widget_is_given_the_recording(scan: Scan, monkeypatch: pytest.
 @pytest.mark.parametrize(
     ("arguments", "error", "message"),
     [
-        ({"where": "moon"}, ValueError, "where: 'moon'; allowed are"),
-        ({"where": "browser", "save": "scan.rrd"}, ValueError, "either saved or shown"),
+        ({"where": "moon"}, ValueError, "where: 'moon' is not a viewer"),
+        ({"where": "browser", "save": "scan.rrd"}, ValueError, "cannot be combined with save"),
     ],
 )
 def test_unknown_destinations_are_refused(
@@ -318,9 +318,9 @@ def test_unknown_destinations_are_refused(
 
 def test_results_of_other_points_are_refused(scan: Scan, tmp_path: Path) -> None:
     result = flagstone.Surface().segment(scan)
-    with pytest.raises(ValueError, match=f"result: {len(scan)} labels for 7 points"):
+    with pytest.raises(ValueError, match=f"result: {len(scan)} labels do not match 7 points"):
         flagstone.show(scan[:7], result, save=tmp_path / "scan.rrd")
-    with pytest.raises(TypeError, match="a pair of points and result is wanted"):
+    with pytest.raises(TypeError, match="is not a pair of points and result"):
         flagstone.show(scan, save=tmp_path / "scan.rrd")
     assert not list(tmp_path.iterdir())
 

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Pictures on Matplotlib axes, in the look of the command's.
+"""Plots of scans and of the ground, on Matplotlib axes, in the style of the command's images.
 
-Text, lines and axes are vectors, points and shading are rasters, so that the PDF of a scan stays small.
+Text, lines and axes are vector graphics. Points and shading are raster graphics, so PDF files stay small.
 """
 
 from flagstone.plot._birds_eye import birds_eye

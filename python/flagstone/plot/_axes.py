@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Axes that look down on the ground: metres, x forward up, y left to the left."""
+"""Axes of bird's-eye views, in metres: x points up, y points left."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.colors import LinearSegmentedColormap
 
-_MOST_RINGS = 100
+_MAX_RINGS = 100
 
 
-def view_from_above(axes: Axes | None, range_: float, *, background: Color) -> Axes:
-    """These axes, or those of a new figure, showing |x|, |y| <= `range_` metres.
+def birds_eye_axes(axes: Axes | None, range_: float, *, background: Color) -> Axes:
+    """Sets up `axes`, or the axes of a new figure, to show |x|, |y| <= `range_` metres.
 
     Raises:
-        ValueError: There is no such range.
+        ValueError: The range is not a finite number above 0.
     """
     if not (np.isfinite(range_) and range_ > 0):
-        raise ValueError(f"range: {range_}; wanted are metres, above 0")
+        raise ValueError(f"range: {range_} is out of range (expected metres, above 0)")
     if axes is None:
         _, axes = needs("matplotlib.pyplot", extra="plot").subplots(figsize=(7, 7.4), layout="constrained")
     axes.set_aspect("equal")
@@ -39,15 +39,15 @@ def view_from_above(axes: Axes | None, range_: float, *, background: Color) -> A
 
 
 def width_in_points(axes: Axes) -> float:
-    """How wide the axes are on paper, in points of 1/72 inch."""
+    """Width of the axes on paper, in points of 1/72 inch."""
     return 72 * axes.get_window_extent().width / axes.figure.dpi
 
 
 def draw_rings(axes: Axes, range_: float) -> None:
-    """Circles at round distances from the sensor, with captions where a straight road leaves the fewest points."""
+    """Draws range rings. Their labels are on the diagonal, where a straight road has the fewest points."""
     patches, effects = needs("matplotlib.patches", extra="plot"), needs("matplotlib.patheffects", extra="plot")
     step = _ring_step(range_)
-    for ring in range(1, min(int(1.42 * range_ / step), _MOST_RINGS) + 1):
+    for ring in range(1, min(int(1.42 * range_ / step), _MAX_RINGS) + 1):
         radius = ring * step
         axes.add_patch(
             patches.Circle(
@@ -70,7 +70,7 @@ def draw_rings(axes: Axes, range_: float) -> None:
 
 
 def draw_sensor(axes: Axes) -> None:
-    """An arrowhead at the sensor, pointing forward."""
+    """Draws an arrowhead at the sensor that points forward."""
     arrow = [(0, 0.9), (0.65, -0.75), (0, -0.42), (-0.65, -0.75), (0, 0.9)]
     axes.plot(
         [0],
@@ -86,21 +86,21 @@ def draw_sensor(axes: Axes) -> None:
 
 
 def color_map(stops: Sequence[tuple[float, Sequence[float]]]) -> LinearSegmentedColormap:
-    """Colours between those that stand at shares of 0 to 1, each red, green and blue of 0 to 1."""
+    """A colour map that interpolates between colours (red, green, blue, 0 to 1) at positions from 0 to 1."""
     colors = needs("matplotlib.colors", extra="plot")
     map_: LinearSegmentedColormap = colors.LinearSegmentedColormap.from_list("flagstone", list(stops))
     return map_
 
 
 def add_color_bar(axes: Axes, map_: LinearSegmentedColormap, between: tuple[float, float], caption: str) -> None:
-    """A bar of the colours beside the axes, as high as they are, from one value to another."""
+    """Adds a colour bar next to the axes, with their height, for values in the interval `between`."""
     cm, colors = needs("matplotlib.cm", extra="plot"), needs("matplotlib.colors", extra="plot")
     scale = cm.ScalarMappable(colors.Normalize(*between), map_)
     axes.figure.colorbar(scale, cax=axes.inset_axes((1.03, 0, 0.03, 1)), label=caption)
 
 
 def _ring_step(range_: float) -> float:
-    """1, 2 or 5 times a power of ten, such that at least three rings fit."""
+    """Largest step of 1, 2 or 5 times a power of ten for which at least three rings fit."""
     largest = range_ / 3
     power = 10.0 ** np.floor(np.log10(largest))
     return float(next(factor * power for factor in (5, 2, 1) if factor * power <= largest))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""A scan from above."""
+"""Bird's-eye view of a scan."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from flagstone._optional import needs
 from flagstone._palette import LABELS, PANEL, TINT, VERDICTS, ZONE_LINE, Color, in_words, rgb
 from flagstone._points import Column, PointsLike, columns_of
 from flagstone.codes import Label, Verdict
-from flagstone.plot._axes import add_color_bar, color_map, draw_rings, draw_sensor, view_from_above, width_in_points
+from flagstone.plot._axes import add_color_bar, birds_eye_axes, color_map, draw_rings, draw_sensor, width_in_points
 from flagstone.segmentation import Segmentation
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 _Floats = npt.NDArray[np.floating]
 
 _HEIGHTS_ABOVE_GROUND = (-0.5, 3.5)  # metres
-# From the lowest height to the highest: below the ground, on it, standing on it, high above it.
+# From the lowest height to the highest: below the ground, ground, objects on the ground, high above the ground.
 _HEIGHT_COLORS: tuple[tuple[float, Color], ...] = (
     (0, (214, 104, 158)),
     (0.125, (246, 201, 58)),
@@ -34,7 +34,7 @@ _HEIGHT_COLORS: tuple[tuple[float, Color], ...] = (
     (1, (190, 170, 245)),
 )
 _UNKNOWN_HEIGHT: Color = (112, 121, 133)
-_LEVELS = 64  # colours of heights
+_LEVELS = 64  # number of colours for heights
 
 
 def birds_eye(
@@ -47,33 +47,34 @@ def birds_eye(
     range: float | None = None,
     patches: bool = False,
 ) -> Axes:
-    """Draws a scan from above: x, forward, points up and y, left, points left.
+    """Draws a scan in bird's-eye view: x (forward) points up, y (left) points left.
 
-    Points that have no place (a coordinate is not finite, or the label is `invalid`) are not drawn.
+    Points without a position (a coordinate is not finite, or the label is `invalid`) are not drawn.
 
     Args:
-        points: (N, >=3), as `Segmenter.segment` takes them, metres.
-        result: What segmenting them gave; or what another program says of them: (N,) codes of `Label`, or a mask that
-            is true for ground.
-        axes: What to draw on; without it, a new figure.
-        color: What colours mean. "labels": the label, yellow for ground; "heights": the height above the ground, of
-            methods that know it; "z": the z of the points. Without it the labels, or z where there is no result.
-        reference: (N,) mask, true for what really is ground. Colours then say where labels are right: true positives
-            green, false positives red, false negatives blue. Whatever is not labelled ground counts as not ground. Of
-            a masked array (`numpy.ma`), what is masked is not scored, and grey.
-        range: Half the side of the picture, metres. Without it the distance that holds 98 % of the points, rounded up
-            to 10 m.
-        patches: Tint the bin of each patch by its verdict. Needs a method whose patches are squares (`surface`) or
-            sectors of rings (`patchwork`).
+        points: (N, >=3) in metres, as `Segmenter.segment` accepts them.
+        result: Result of segmenting these points. Or the output of another program: (N,) codes of `Label`, or a mask
+            that is true for ground.
+        axes: Axes to draw on; by default those of a new figure.
+        color: "labels" colours points by label, "heights" by height above the ground, "z" by z. The default is
+            "labels", or "z" if there is no result. "heights" requires a method that computes heights, such as
+            `surface`.
+        reference: (N,) ground-truth mask, true for ground. Colours then show correct and wrong labels: true positives
+            are green, false positives red, false negatives blue. Every label except ground counts as not ground.
+            Masked elements of a masked array (`numpy.ma`) are not scored and are grey.
+        range: Half the side of the plot, metres. By default the distance within which 98 % of the points lie, rounded
+            up to 10 m.
+        patches: Tint each patch by its verdict. Requires a method whose patches are squares (`surface`) or ring
+            sectors (`patchwork`).
 
     Returns:
-        The axes: metres, y from right to left and x upward. Draw more on them with `axes.plot(y, x)`, save the figure
-        with `axes.figure.savefig("scan.pdf")`.
+        The axes, in metres: y increases to the left, x upward. Add to the plot with `axes.plot(y, x)`, save it with
+        `axes.figure.savefig("scan.pdf")`.
 
     Raises:
         ImportError: Matplotlib is not installed.
-        TypeError: These are no points.
-        ValueError: The result or the reference does not belong to these points, or lacks what is to be drawn.
+        TypeError: The points are not floats in CPU memory.
+        ValueError: The result or the reference does not match the points, or lacks the data to draw.
     """
     x, y, z = columns_of(points)
     labels = None if result is None else labels_of(result, len(x))
@@ -81,12 +82,12 @@ def birds_eye(
     if labels is not None:
         placed &= labels != Label.INVALID
     color = color or ("z" if labels is None else "labels")
-    # Everything that can be wrong is found out before anything is drawn.
+    # All arguments are checked before anything is drawn.
     kinds = _kinds(labels, reference, color)
     values = None if kinds is not None else _values(result, z, color)
     bins = _bins(result) if patches else []
 
-    axes = view_from_above(axes, _suitable_range(x[placed], y[placed]) if range is None else range, background=PANEL)
+    axes = birds_eye_axes(axes, _suitable_range(x[placed], y[placed]) if range is None else range, background=PANEL)
     draw_rings(axes, axes.get_ylim()[1])
     legends: list[tuple[str, list[Artist]]] = []
     if patches and isinstance(result, Segmentation):
@@ -102,15 +103,18 @@ def birds_eye(
 
 
 def _kinds(labels: npt.NDArray[np.uint8] | None, reference: npt.ArrayLike | None, color: str) -> list[Kind] | None:
-    """The kinds of points; None where colours are values."""
+    """The kinds of points, or None if colours show values."""
     if color not in ("labels", "heights", "z"):
-        raise ValueError(f"color: {color!r}; allowed are 'labels', 'heights' and 'z'")
+        raise ValueError(f"color: {color!r} is not a colouring (expected 'labels', 'heights' or 'z')")
     if color != "labels":
         if reference is not None:
-            raise ValueError(f"reference: colours compare labels with it, so color={color!r} cannot be had too")
+            raise ValueError(
+                f"reference: cannot be combined with color={color!r} (with a reference, colours show correct and wrong "
+                "labels)"
+            )
         return None
     if labels is None:
-        raise ValueError("result: there is none, and colours are to be labels; pass what segmenting these points gave")
+        raise ValueError("result: missing, but color='labels' needs it (pass the result of segmenting these points)")
     return by_label(labels) if reference is None else by_truth(labels, reference)
 
 
@@ -118,21 +122,21 @@ def _values(result: Segmentation | npt.ArrayLike | None, z: Column, color: str) 
     if color == "z":
         return z
     if not isinstance(result, Segmentation) or np.isnan(result.heights).all():
-        raise ValueError("result: no heights in it, its method knows none; segment with flagstone.Surface")
+        raise ValueError("result: contains no heights (segment with flagstone.Surface)")
     return result.heights
 
 
 def _bins(result: Segmentation | npt.ArrayLike | None) -> list[npt.NDArray[np.float64]]:
-    """The outline of each patch's bin, (K, 2) of y and x, in the frame of the scan."""
+    """Outline of the bin of each patch, (K, 2) of y and x, in the frame of the scan."""
     bins = patch_bins(result) if isinstance(result, Segmentation) else []
     if not isinstance(result, Segmentation) or len(bins) != len(result.patches):
-        raise ValueError("patches: their bins are not known; segment with flagstone.Surface or flagstone.Patchwork")
+        raise ValueError("patches: their outlines are unknown (segment with flagstone.Surface or flagstone.Patchwork)")
     frame = level_frame(result.mount)
-    # Of a sensor that leans it matters how high a bin is drawn: where its ground is, if that is known.
+    # For a tilted sensor, the position in the plot depends on z: bins are drawn at the height of their ground.
     heights = frame.to_level(result.patches["mean"])[:, 2]
     heights[~result.patches["normal"].any(axis=1)] = -result.mount.sensor_height
     corners = [np.insert(outline(bin_), 2, z, axis=1) for bin_, z in zip(bins, heights, strict=True)]
-    return [frame.to_scan(places)[:, 1::-1] for places in corners]
+    return [frame.to_scan(positions)[:, 1::-1] for positions in corners]
 
 
 def _suitable_range(x: _Floats, y: _Floats) -> float:
@@ -142,13 +146,13 @@ def _suitable_range(x: _Floats, y: _Floats) -> float:
 
 
 def _marker_size(axes: Axes, count: int) -> float:
-    """Few points are drawn larger, or they could not be seen. Points of 1/72 inch."""
+    """Diameter of a point, in points of 1/72 inch; larger for sparse scans, so that points stay visible."""
     sparse = (120_000 / max(count, 1)) ** 0.25
     return max(0.7, width_in_points(axes) / 720 * float(np.clip(sparse, 0.8, 5)))
 
 
 def _draw(axes: Axes, x: _Floats, y: _Floats, color: Sequence[float], size: float) -> None:
-    # Markers of one look are drawn far faster than a scatter plot of as many points.
+    # Identical markers are drawn much faster with plot() than with scatter().
     axes.plot(
         y,
         x,
@@ -165,7 +169,7 @@ def _draw(axes: Axes, x: _Floats, y: _Floats, color: Sequence[float], size: floa
 def _draw_kinds(
     axes: Axes, x: _Floats, y: _Floats, placed: npt.NDArray[np.bool_], kinds: list[Kind], size: float
 ) -> list[Artist]:
-    """Draws the points of each kind; returns the entries for the legend."""
+    """Draws the points of each kind and returns the legend entries."""
     lines = needs("matplotlib.lines", extra="plot")
     entries: list[Artist] = []
     for kind in kinds:
@@ -175,20 +179,20 @@ def _draw_kinds(
             label = f"{kind.name} {_percent(count, len(kind.mask))}"
             look = {"marker": "o", "markersize": 6, "markeredgewidth": 0, "color": rgb(kind.color)}
             entries.append(lines.Line2D([], [], linestyle="none", label=label, **look))
-    return [*entries[1:], entries[0]] if kinds[0].mask.any() else entries  # what lies undermost comes last
+    return [*entries[1:], entries[0]] if kinds[0].mask.any() else entries  # the kind drawn first is listed last
 
 
 def _draw_values(axes: Axes, x: _Floats, y: _Floats, values: _Floats, color: str, size: float) -> None:
-    """Draws points coloured by a height, the highest on top, with a bar that says which colour is which."""
+    """Draws points coloured by height, the highest on top, and a colour bar."""
     between, caption = _HEIGHTS_ABOVE_GROUND, "height above the ground, metres"
     if color == "z":
         low, high = np.quantile(values, (0.02, 0.98)) if len(values) else (0, 1)
         between, caption = (float(low), float(max(high, low + 0.1))), "z, metres"
-    map_ = color_map([(share, rgb(stop)) for share, stop in _HEIGHT_COLORS])
+    map_ = color_map([(position, rgb(stop)) for position, stop in _HEIGHT_COLORS])
     known = np.isfinite(values)
     _draw(axes, x[~known], y[~known], rgb(_UNKNOWN_HEIGHT), size)
-    share = (values[known] - between[0]) / (between[1] - between[0])
-    level = np.clip(share * _LEVELS, 0, _LEVELS - 1).astype(int)
+    fraction = (values[known] - between[0]) / (between[1] - between[0])
+    level = np.clip(fraction * _LEVELS, 0, _LEVELS - 1).astype(int)
     x, y = x[known], y[known]
     for i in np.unique(level):
         _draw(axes, x[level == i], y[level == i], map_((i + 0.5) / _LEVELS), size)
@@ -196,7 +200,7 @@ def _draw_values(axes: Axes, x: _Floats, y: _Floats, values: _Floats, color: str
 
 
 def _tint(axes: Axes, bins: list[npt.NDArray[np.float64]], verdicts: npt.NDArray[np.uint16]) -> list[Artist]:
-    """Fills bins with the colours of their verdicts; returns the entries for the legend."""
+    """Fills bins with the colours of their verdicts and returns the legend entries."""
     collections, patches = needs("matplotlib.collections", extra="plot"), needs("matplotlib.patches", extra="plot")
     entries: list[Artist] = []
     for verdict in Verdict:
@@ -214,7 +218,7 @@ def _tint(axes: Axes, bins: list[npt.NDArray[np.float64]], verdicts: npt.NDArray
 
 
 def _add_legends(axes: Axes, legends: list[tuple[str, list[Artist]]]) -> None:
-    """One below the other, under the axes and their labels."""
+    """Places the legends one below the other, under the axes and their labels."""
     transforms = needs("matplotlib.transforms", extra="plot")
     columns = int(np.clip(width_in_points(axes) / 90, 1, 5))
     below = 34  # points of 1/72 inch
@@ -235,8 +239,8 @@ def _add_legends(axes: Axes, legends: list[tuple[str, list[Artist]]]) -> None:
             columnspacing=1.2,
         )
         if title != legends[-1][0]:
-            axes.add_artist(legend)  # or the next one would take its place
-            legend.set_clip_on(False)  # so that it counts where figures are laid out
+            axes.add_artist(legend)  # otherwise the next legend replaces it
+            legend.set_clip_on(False)  # so that the layout of the figure includes it
         below += 12 * (1 + -(-len(entries) // columns)) + 6
 
 
@@ -247,59 +251,60 @@ def _percent(part: int, whole: int) -> str:
 
 
 class Kind(NamedTuple):
-    """Which points look so."""
+    """Points that are drawn in the same style."""
 
     name: str
     color: Color
     mask: npt.NDArray[np.bool_]
-    """(N,): true for its points."""
+    """(N,): true for the points of this kind."""
     size: float = 1
-    """Diameter relative to that of ordinary points."""
+    """Diameter relative to ordinary points."""
 
 
 def labels_of(result: Segmentation | npt.ArrayLike, points: int) -> npt.NDArray[np.uint8]:
-    """(N,): codes of labels, from a result or from what another program says.
+    """(N,): label codes of a result, or those from another program.
 
     Raises:
-        ValueError: They are not as many as the points, or other codes.
+        ValueError: The number of labels differs from the number of points, or a code is invalid.
     """
     labels = result.labels if isinstance(result, Segmentation) else np.asarray(result)
     if labels.shape != (points,):
         raise ValueError(
-            f"result: labels of shape {labels.shape} for {points} points; pass what segmenting these points gave"
+            f"result: labels of shape {labels.shape} do not match {points} points (pass the result of segmenting these "
+            "points)"
         )
     if labels.dtype.kind not in "bui" or not np.isin(labels, list(Label)).all():
-        raise ValueError(f"result: {labels.dtype} that are no labels; wanted are codes of 0 to 4, or a mask of ground")
+        raise ValueError(f"result: {labels.dtype} values are not labels (expected codes 0 to 4, or a ground mask)")
     return labels.astype(np.uint8)
 
 
 def by_label(labels: npt.NDArray[np.uint8]) -> list[Kind]:
-    """Kinds by label, in the order of drawing: what comes later lies on top."""
+    """Kinds by label, in drawing order: later kinds are on top."""
     order = (Label.OUT_OF_RANGE, Label.GROUND, Label.NONGROUND, Label.NOISE)
     sizes = {Label.NOISE: 1.3}
     return [Kind(in_words(label), LABELS[label], labels == label, sizes.get(label, 1)) for label in order]
 
 
 def by_truth(labels: npt.NDArray[np.uint8], reference: npt.ArrayLike) -> list[Kind]:
-    """Kinds by comparing labels and reference, in the order of drawing.
+    """Kinds by comparison of labels with ground truth, in drawing order.
 
-    Errors are larger, so that they show among many right points and without telling red from green.
+    Errors are drawn larger, so that they are visible among many correct points, also to colour-blind readers.
 
     Raises:
-        ValueError: The reference is no mask of as many points.
+        ValueError: The reference is not a mask with one element per point.
     """
     truth: np.ma.MaskedArray[Any, np.dtype[Any]] = np.ma.asarray(reference)
     if truth.shape != labels.shape or truth.dtype.kind != "b":
         raise ValueError(
-            f"reference: {truth.dtype} of shape {truth.shape} for {len(labels)} points; wanted is a mask (N,), "
-            "true for ground"
+            f"reference: {truth.dtype} array of shape {truth.shape} does not match {len(labels)} points (expected a "
+            "bool mask (N,), true for ground)"
         )
     scored = ~np.ma.getmaskarray(truth)
-    is_ground, said = np.ma.getdata(truth), labels == Label.GROUND
+    is_ground, labelled = np.ma.getdata(truth), labels == Label.GROUND
     return [
         Kind("not scored", (70, 77, 87), ~scored),
-        Kind("true positive", (44, 166, 96), scored & is_ground & said),
-        Kind("true negative", (140, 148, 158), scored & ~is_ground & ~said),
-        Kind("false negative", (66, 140, 255), scored & is_ground & ~said, 1.5),
-        Kind("false positive", (255, 72, 56), scored & ~is_ground & said, 1.5),
+        Kind("true positive", (44, 166, 96), scored & is_ground & labelled),
+        Kind("true negative", (140, 148, 158), scored & ~is_ground & ~labelled),
+        Kind("false negative", (66, 140, 255), scored & is_ground & ~labelled, 1.5),
+        Kind("false positive", (255, 72, 56), scored & ~is_ground & labelled, 1.5),
     ]

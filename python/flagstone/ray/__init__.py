@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Scans by the million: labels for a folder or a bucket of scans, on one machine or on a Ray cluster.
+"""Labels for millions of scans in a directory or bucket, on one machine or on a Ray cluster.
 
-`segment` labels every scan of a tree, `statistics` reads the table of what was done. The command
-`flagstone-ray` does the same from a shell.
+`segment` labels all scans. `statistics` reads the table of results. `flagstone-ray` is the command for `segment`.
 """
 
 from flagstone.ray.job import segment

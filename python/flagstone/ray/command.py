@@ -14,7 +14,7 @@ import flagstone
 from flagstone.ray.job import segment
 from flagstone.ray.summary import Interrupted
 
-ALL_DONE, SOME_FAILED, WRONG_USAGE = 0, 1, 2
+SUCCESS, SOME_FAILED, USAGE_ERROR = 0, 1, 2
 
 EXAMPLES = """\
 examples:
@@ -22,41 +22,61 @@ examples:
   flagstone-ray s3://bucket/scans --output s3://bucket/labels --address auto
   flagstone-ray scans/ --in-place --method patchwork --sensor hdl-32e --set distance_margin=0.1
 
-Run again, it does what is left. Exit codes: 0 all done, 1 some scans failed, 2 wrong usage.
+Run the same command again to resume an interrupted run or to retry failed scans.
+
+exit codes: 0, success; 1, some scans failed; 2, usage error.
 """
 
 
 def make_parser() -> argparse.ArgumentParser:
-    """The options; names and meanings are those of `flagstone segment`."""
+    """Returns a parser whose options have the names and meanings of those of `flagstone segment`."""
     parser = argparse.ArgumentParser(
         prog="flagstone-ray",
-        description="Label every point of all scans of a folder or bucket, on this machine or on a Ray cluster.",
+        description="Label every point of all scans in a directory or bucket, on this machine or on a Ray cluster.",
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("source", help="folder of scans, or one scan: a path, or a URL such as s3://bucket/scans")
+    parser.add_argument("source", help="directory of scans, or one scan: a path, or a URL such as s3://bucket/scans")
     where = parser.add_mutually_exclusive_group(required=True)
-    where.add_argument("-o", "--output", metavar="DIR", help="folder or URL for the labels, mirrors the source")
+    where.add_argument(
+        "-o", "--output", metavar="DIR", help="directory or URL for the labels, with the subdirectories of the source"
+    )
     where.add_argument("--in-place", action="store_true", help="write the labels next to the scans")
-    parser.add_argument("--method", default="surface", metavar="NAME", help="how to segment; default: surface")
-    parser.add_argument("--preset", default="default", metavar="NAME", help="settings patchwork starts from")
-    parser.add_argument("--sensor", metavar="NAME|FILE", help="derive settings from this sensor")
-    parser.add_argument("--config", metavar="FILE", help="TOML file of settings, as `flagstone config` prints")
+    parser.add_argument("--method", default="surface", metavar="NAME", help="segmentation method (default: surface)")
+    parser.add_argument("--preset", default="default", metavar="NAME", help="preset for patchwork and czm+...")
+    parser.add_argument("--sensor", metavar="NAME|FILE", help="derive settings from a sensor")
+    parser.add_argument("--config", metavar="FILE", help="read settings from a TOML file (see `flagstone config`)")
     parser.add_argument(
-        "--set", action="append", default=[], metavar="KEY=VALUE", help="one setting, e.g. point.margin=0.2; may repeat"
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="override one setting, e.g. point.margin=0.2 (repeatable)",
     )
-    parser.add_argument("--sensor-height", type=float, metavar="M", help="metres of the sensor above the ground")
-    parser.add_argument("--tilt", metavar="X,Y,Z", help="where up is for a sensor that leans")
     parser.add_argument(
-        "--format", default="label", metavar="label|u8", help="uint32 each, or uint8 each in a NumPy file"
+        "--sensor-height", type=float, metavar="M", help="height of the sensor above the ground, metres"
+    )
+    parser.add_argument("--tilt", metavar="X,Y,Z", help="up direction of a tilted sensor, in the sensor frame")
+    parser.add_argument(
+        "--format",
+        default="label",
+        metavar="label|u8",
+        help="one uint32 per point, or one uint8 per point as a NumPy array (default: label)",
     )
     parser.add_argument(
-        "--label-map", default="flagstone", metavar="flagstone|semantic-kitti", help="codes in the label files"
+        "--label-map",
+        default="flagstone",
+        metavar="flagstone|semantic-kitti",
+        help="codes in the label files (default: flagstone)",
     )
-    parser.add_argument("--columns", type=int, metavar="N", help="floats a point in .bin files")
-    parser.add_argument("--overwrite", action="store_true", help="label all scans again, finished ones too")
-    parser.add_argument("--address", help="Ray cluster to join; default: RAY_ADDRESS, or Ray started for this run")
-    parser.add_argument("--workers", type=int, metavar="N", help="cores to use; default: all")
+    parser.add_argument(
+        "--columns", type=int, metavar="N", help="floats per point in .bin files (default: 5 for .pcd.bin, otherwise 4)"
+    )
+    parser.add_argument("--overwrite", action="store_true", help="label all scans again, including finished ones")
+    parser.add_argument(
+        "--address", help="Ray cluster to join (default: RAY_ADDRESS, otherwise Ray is started on this machine)"
+    )
+    parser.add_argument("--workers", type=int, metavar="N", help="number of cores to use (default: all)")
     parser.add_argument("--version", action="version", version=flagstone.__version__)
     return parser
 
@@ -65,10 +85,10 @@ def main(arguments: list[str] | None = None) -> int:
     """Runs the command.
 
     Args:
-        arguments: What stands behind the command's name; None: as the shell gave it.
+        arguments: Command-line arguments without the program name; those of the process by default.
 
     Returns:
-        The exit code: 0 all done, 1 some scans failed, 2 wrong usage.
+        Exit code: 0, success; 1, some scans failed; 2, usage error.
     """
     options = make_parser().parse_args(arguments)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -94,7 +114,7 @@ def main(arguments: list[str] | None = None) -> int:
             workers=options.workers,
         )
     except (ValueError, TypeError, FileNotFoundError, ImportError, ConnectionError) as error:
-        return fail(error, WRONG_USAGE)
+        return fail(error, USAGE_ERROR)
     except (OSError, RuntimeError) as error:
         return fail(error, SOME_FAILED)
     except Interrupted as interrupt:
@@ -103,41 +123,41 @@ def main(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         return fail("interrupted before the first scan", SOME_FAILED)
     print(summary)
-    return SOME_FAILED if summary.failures else ALL_DONE
+    return SOME_FAILED if summary.failures else SUCCESS
 
 
 def fail(error: object, code: int) -> int:
-    """Says in one line what is wrong."""
+    """Prints an error in one line and returns the exit code."""
     print(f"flagstone-ray: {error}", file=sys.stderr)
     return code
 
 
 def up(text: str) -> Any:
-    """Where up is, of X,Y,Z; a word as it stands, for the segmenter to judge.
+    """Parses X,Y,Z. A word is returned unchanged, for the segmenter to check.
 
     Raises:
-        ValueError: It is neither.
+        ValueError: The text is neither.
     """
     if text.isalpha():
         return text
     try:
         x, y, z = (float(part) for part in text.split(","))
     except ValueError:
-        raise ValueError(f"--tilt {text}: is not three numbers X,Y,Z") from None
+        raise ValueError(f"--tilt: '{text}' is not a direction (expected three numbers X,Y,Z)") from None
     return x, y, z
 
 
 def settings(assignments: list[str]) -> dict[str, Any]:
-    """KEY=VALUE as arguments of `flagstone.make_segmenter`, a.b=1 as {"a": {"b": 1}}.
+    """Converts KEY=VALUE to arguments of `flagstone.make_segmenter`, for example a.b=1 to {"a": {"b": 1}}.
 
     Raises:
-        ValueError: There is no equals sign.
+        ValueError: The equals sign is missing.
     """
     found: dict[str, Any] = {}
     for assignment in assignments:
         key, equals, text = assignment.partition("=")
         if not equals:
-            raise ValueError(f"--set {assignment}: is not KEY=VALUE")
+            raise ValueError(f"--set: '{assignment}' is not an assignment (expected KEY=VALUE)")
         *tables, name = key.strip().split(".")
         table = found
         for part in tables:
@@ -147,7 +167,7 @@ def settings(assignments: list[str]) -> dict[str, Any]:
 
 
 def value(text: str) -> Any:
-    """A value as TOML writes it: true, a number, a string, a list."""
+    """Parses a value in TOML syntax: a boolean, number, string or list."""
     if text in ("true", "false"):
         return text == "true"
     try:

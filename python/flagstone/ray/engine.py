@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Ray started or joined, quietly, and batches of scans sent to its workers."""
+"""Starts or joins Ray without its messages, and sends batches of scans to its workers."""
 
 from __future__ import annotations
 
@@ -19,24 +19,24 @@ from flagstone.ray.worker import Scan, ScanWorker, Task
 if TYPE_CHECKING:
     import pyarrow
 
-OBJECT_STORE_BYTES = 256 * 2**20  # only paths and statistics go through it
+OBJECT_STORE_BYTES = 256 * 2**20  # it transports only paths and statistics
 ENVIRONMENT = {
     "RAY_BACKEND_LOG_LEVEL": "fatal",
     "RAY_enable_output_error_log_if_still_retry": "0",
     "RAY_USAGE_STATS_ENABLED": "0",
 }
-WAITING_BATCHES = 2  # at each worker: one under work, one next
+WAITING_BATCHES = 2  # per worker: one in progress, one next
 
 
 @contextlib.contextmanager
 def connected(address: str | None) -> Iterator[None]:
-    """Ray, for as long as the context lasts.
+    """Connects to Ray for the duration of the context.
 
-    Joins the cluster at `address` or in the environment's RAY_ADDRESS, which submitted jobs have; else starts Ray on
-    this machine with all cores and ends it afterwards. Where the caller has joined one already, that one is used.
+    Uses the cluster that the caller has already joined. Otherwise joins the cluster at `address`, or at RAY_ADDRESS,
+    which Ray sets for submitted jobs. Otherwise starts Ray on this machine with all cores and stops it afterwards.
 
     Raises:
-        ConnectionError: There is no Ray at the address.
+        ConnectionError: Ray does not respond at the address.
     """
     ray = needs("ray", "ray")
     with quiet():
@@ -57,7 +57,7 @@ def connected(address: str | None) -> Iterator[None]:
                 )
         except (OSError, RuntimeError, ValueError) as error:
             reason = " ".join(str(error).split())
-            raise ConnectionError(f"Ray at {address}: cannot be had: {reason}") from error
+            raise ConnectionError(f"Ray at {address}: cannot connect: {reason}") from error
         try:
             yield
         finally:
@@ -65,10 +65,10 @@ def connected(address: str | None) -> Iterator[None]:
 
 
 def check_answers(address: str) -> None:
-    """Tries host and port, for which Ray itself would wait for minutes.
+    """Tries to connect to host and port, because Ray itself would wait for minutes.
 
     Raises:
-        OSError: Nobody answers there.
+        OSError: The connection fails.
     """
     host, _, port = address.removeprefix("ray://").rpartition(":")
     if host and port.isdecimal():
@@ -77,7 +77,7 @@ def check_answers(address: str) -> None:
 
 @contextlib.contextmanager
 def quiet() -> Iterator[None]:
-    """Ray's messages turned off, and its reports to its makers."""
+    """Disables the messages of Ray and its usage reports."""
     added = {name: value for name, value in ENVIRONMENT.items() if name not in os.environ}
     os.environ.update(added)
     try:
@@ -89,7 +89,7 @@ def quiet() -> Iterator[None]:
 
 @contextlib.contextmanager
 def quiet_start() -> Iterator[None]:
-    """File descriptor 2 turned away, to which Ray's C++ parts say how loud they will be; SIGTERM stays the caller's."""
+    """Redirects file descriptor 2, because the C++ part of Ray prints to it. Restores the caller's SIGTERM handler."""
     is_main = threading.current_thread() is threading.main_thread()
     on_terminate = signal.getsignal(signal.SIGTERM)
     kept = os.dup(2)
@@ -106,46 +106,47 @@ def quiet_start() -> Iterator[None]:
 
 
 def core_count() -> int:
-    """The cores of the cluster."""
+    """Number of cores of the cluster."""
     return max(1, int(needs("ray", "ray").cluster_resources().get("CPU", 1)))
 
 
 def send(task: Task, batches: Iterator[list[Scan]], workers: int) -> Generator[pyarrow.Table, None, None]:
-    """The rows of the batches as they are done, in any order.
+    """Sends batches to workers and yields the statistics of each finished batch, in any order.
 
-    Workers are actors. Ray restarts one that died, on another node if its own is lost, and gives it its batches again.
+    Workers are actors. If a worker dies, Ray restarts it (on another node if its node is lost) and sends it the same
+    batches again.
 
     Args:
-        task: What to do.
-        batches: Scans; each batch goes to a worker whole.
-        workers: Actors, a core each. If there are fewer cores, those that start do all the work.
+        task: Description of the work, the same for all workers.
+        batches: Batches of scans; each batch is sent to one worker.
+        workers: Number of actors, one core each. If there are fewer cores, only the actors that start do the work.
 
     Raises:
-        RuntimeError: Ray gave up.
+        RuntimeError: Ray reported an error that it cannot recover from.
     """
     ray = needs("ray", "ray")
     actor = ray.remote(num_cpus=1, max_restarts=-1, max_task_retries=-1)(ScanWorker)
     pool = [actor.remote(task) for _ in range(workers)]
     starting = {worker.ready.remote(): worker for worker in pool}
-    at_work: dict[Any, Any] = {}  # the worker of each batch that is not done yet
+    in_progress: dict[Any, Any] = {}  # worker of each unfinished batch
     batch: list[Scan] | None = next(batches, None)
     try:
-        while batch or at_work:
-            done = ray.wait([*at_work, *starting], num_returns=1)[0][0]
+        while batch or in_progress:
+            done = ray.wait([*in_progress, *starting], num_returns=1)[0][0]
             rows = ray.get(done)
             is_new = done in starting
-            worker = (starting if is_new else at_work).pop(done)
+            worker = (starting if is_new else in_progress).pop(done)
             for _ in range(WAITING_BATCHES if is_new else 1):
                 if batch:
-                    at_work[worker.label.remote(batch)] = worker
+                    in_progress[worker.label.remote(batch)] = worker
                     batch = next(batches, None)
-            if not any(other is worker for other in at_work.values()):
-                ray.kill(worker)  # its core may be what a worker of a lost node waits for
+            if not any(other is worker for other in in_progress.values()):
+                ray.kill(worker)  # a worker of a lost node may be waiting for this core
             if rows is not None:
                 yield rows
     except ray.exceptions.RayError as error:
-        reason = str(error).strip().splitlines()[-1]  # above it stands where in Ray that was
-        raise RuntimeError(f"Ray gave up: {reason}; what is done stays done, run it again for the rest") from error
+        reason = str(error).strip().splitlines()[-1]  # the lines above it are a traceback in Ray
+        raise RuntimeError(f"Ray failed: {reason} (finished scans are kept; run again to resume)") from error
     finally:
         for worker in pool:
             ray.kill(worker)

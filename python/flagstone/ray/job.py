@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Labels for all scans of a folder or a bucket."""
+"""Labels for all scans in a directory or bucket."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     import pyarrow
 
 LABEL_MAPS = ("flagstone", "semantic-kitti")
-LARGEST_BATCH = 256  # scans: about a second of work, against milliseconds of the time of driver and worker
+LARGEST_BATCH = 256  # scans: about a second of work, compared with milliseconds of overhead per batch
 SMALLEST_BATCH = 16
 
 
@@ -44,43 +44,49 @@ def segment(
     workers: int | None = None,
     progress: bool = True,
 ) -> Summary:
-    """Labels every scan of a folder or bucket, on the cores of this machine or of a Ray cluster.
+    """Labels every scan in a directory or bucket, on the cores of this machine or of a Ray cluster.
 
-    Names and bytes of the label files are those that `flagstone segment SOURCE --output DESTINATION` writes. Run again,
-    it does what is left: a scan is finished if the statistics have its row and its labels have the right size, or if
-    a killed run lost the row of labels it had written. Labels appear whole or not at all. One run at a time may write
-    to a destination. A scan that cannot be read, a worker that dies and a node that is
-    lost cost nothing but themselves; what failed, and why, is in the summary and in the statistics.
+    The label files are bit-identical to those of `flagstone segment SOURCE --output DESTINATION`, and have the same
+    names. Each file is written atomically. Only one run at a time may write to a destination.
+
+    Call it again with the same arguments to resume an interrupted run: finished scans are skipped, failed scans are
+    tried again. A scan is finished if the statistics contain its row and its label file has the correct size. A scan
+    is also finished if its labels were written but its row was lost when a run was killed.
+
+    An unreadable scan, a dead worker or a lost node does not stop the run. The summary and the statistics list the
+    scans that failed, with the reasons.
 
     Args:
-        source: Folder of scans (`.bin`, `.pcd.bin`, `.pcd`, `.ply`, `.npy`, in folders below it too), or one scan: a
-            local path, or a URL that PyArrow or fsspec knows (`s3://`, `gs://`, `abfs://`, `hdfs://`, ...). On a
-            cluster, local paths must lead to the same files on every node.
-        destination: Folder or URL for the labels, which mirrors the source's folders; None: beside the scans.
-        segmenter: What segments, as `flagstone.Surface`, `Patchwork` and `make_segmenter` make it; each worker has its
-            own. None: `flagstone.Surface()`. One that estimates or tracks its height or tilt is refused, since
-            workers see scans in any order.
-        format: `label`, a uint32 a point in `NAME.label`; or `u8`, a uint8 a point in `NAME.label.npy`.
-        label_map: Codes in the label files: `flagstone` (0 to 4), or `semantic-kitti` (40 ground, 0 else).
-        columns: Floats a point in `.bin` files, 3 to 1024; None: 5 for `.pcd.bin`, else 4.
-        filesystem: A PyArrow or fsspec filesystem that source and destination are paths of; None: those that they name.
-        overwrite: Label all scans, finished or not, and start new statistics.
-        address: The Ray cluster to join, `auto` on one of its nodes or `HOST:PORT` of its head; None: the
-            environment's RAY_ADDRESS, or Ray started here for this run.
-        workers: Actors, a core each; None: as many as there are cores.
-        progress: Whether to show progress and time left on standard error: a bar on a terminal, elsewhere a line every
-            few seconds.
+        source: Directory of scans (`.bin`, `.pcd.bin`, `.pcd`, `.ply`, `.npy`), searched recursively, or one scan. A
+            local path, or a URL that PyArrow or fsspec supports (`s3://`, `gs://`, `abfs://`, `hdfs://`, ...). On a
+            cluster, local paths must refer to the same files on every node.
+        destination: Directory or URL for the labels, with the subdirectories of the source. By default, labels are
+            written next to the scans.
+        segmenter: A `flagstone.Surface`, a `Patchwork`, or a segmenter from `make_segmenter`. Each worker gets a copy.
+            By default `flagstone.Surface()`. It must not estimate or track the height or tilt, because workers process
+            scans in any order.
+        format: "label" writes one uint32 per point to `NAME.label`, "u8" one uint8 per point to `NAME.label.npy`.
+        label_map: Codes in the label files: "flagstone" (0 to 4) or "semantic-kitti" (40 for ground, 0 otherwise).
+        columns: Floats per point in `.bin` files, 3 to 1,024; by default 5 for `.pcd.bin`, otherwise 4.
+        filesystem: PyArrow or fsspec filesystem of `source` and `destination`; by default the one that each names.
+        overwrite: Label all scans again, including finished ones, and start new statistics.
+        address: Ray cluster to join: `auto` on one of its nodes, or `HOST:PORT` of its head node. By default the
+            environment variable RAY_ADDRESS; without it, Ray is started on this machine for this run.
+        workers: Number of actors, one core each, 1 to 100,000; by default the number of cores.
+        progress: Show progress and the time left on standard error: a bar on a terminal, otherwise one line every few
+            seconds.
 
     Returns:
-        How many scans were labelled, what failed and why, and what the time went into.
+        Numbers of scans and points, failures with reasons, and times.
 
     Raises:
-        FileNotFoundError: There is no scan in the source.
-        ValueError: A value is not allowed, two scans would write to one file, or the destination holds labels that
-            were made with other settings.
+        FileNotFoundError: The source contains no scans.
+        ValueError: An argument is invalid, two scans would write to the same file, or the labels in the destination
+            were written with other settings.
         ImportError: Ray is not installed.
         ConnectionError: The cluster cannot be joined.
-        Interrupted: A KeyboardInterrupt; what is done stays done, and its `summary` says what that is.
+        Interrupted: The run was interrupted. This is a KeyboardInterrupt; its `summary` covers the finished scans,
+            whose labels are kept.
     """
     check_choice("format", format, tuple(LABEL_ENDINGS))
     check_choice("label_map", label_map, LABEL_MAPS)
@@ -89,7 +95,7 @@ def segment(
     segmenter = segmenter if segmenter is not None else flagstone.Surface()
     check_mount(segmenter)
     needs("ray", "ray")
-    made_with = json.loads(  # as it is read again
+    made_with = json.loads(  # the form in which it is read back
         json.dumps(
             {
                 "version": flagstone.__version__,
@@ -126,7 +132,7 @@ def segment(
 
 
 def run(task: Task, scans: list[Scan], workers: int, writer: StatisticsWriter, tally: Tally, bar: Progress) -> None:
-    """Sends the scans and takes their rows; what came until an interrupt or error is kept."""
+    """Sends the scans to workers and stores their rows. After an interrupt or error, finished rows are kept."""
     bar.total = len(scans)
     bar.note("starting workers")
     tally.workers = min(workers, -(-len(scans) // SMALLEST_BATCH))
@@ -137,7 +143,7 @@ def run(task: Task, scans: list[Scan], workers: int, writer: StatisticsWriter, t
                     writer.add(rows)
                     tally.add(rows)
                 bar.add(rows.num_rows)
-    except (KeyboardInterrupt, SystemExit):  # the latter is how Ray answers SIGTERM
+    except (KeyboardInterrupt, SystemExit):  # Ray raises SystemExit after SIGTERM
         raise Interrupted(tally.summary()) from None
     finally:
         writer.flush()
@@ -145,7 +151,7 @@ def run(task: Task, scans: list[Scan], workers: int, writer: StatisticsWriter, t
 
 @contextlib.contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Lets SIGINT and SIGTERM wait until the context ends: what is written is also counted."""
+    """Delays SIGINT and SIGTERM until the context ends, so that rows that are written are also counted."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -163,7 +169,7 @@ def uninterrupted() -> Iterator[None]:
 
 
 def in_batches(scans: list[Scan], workers: int) -> Iterator[list[Scan]]:
-    """Large ones first, smaller ones towards the end, so that all workers finish together."""
+    """Yields large batches first and smaller ones towards the end, so that all workers finish together."""
     first = 0
     while first < len(scans):
         size = (len(scans) - first) // (2 * workers)
@@ -173,7 +179,7 @@ def in_batches(scans: list[Scan], workers: int) -> Iterator[list[Scan]]:
 
 
 def rows_of_lost(points: dict[str, int], scans: Scans) -> pyarrow.Table:
-    """Rows of the scans that have labels and lost theirs: with path, bytes and points alone."""
+    """Rows for scans with labels but without a row. Only path, bytes and points are set."""
     import pyarrow as pa
 
     rows = [{"path": path, "bytes": scans[path].size, "points": count} for path, count in points.items()]
@@ -181,23 +187,23 @@ def rows_of_lost(points: dict[str, int], scans: Scans) -> pyarrow.Table:
 
 
 def check_mount(segmenter: flagstone.Segmenter) -> None:
-    """Raises ValueError where the segmenter is to find out from scans how the sensor stands."""
+    """Raises ValueError if the segmenter estimates the mounting pose from scans."""
     mount = segmenter.settings["mount"]
     for name, setting in (("sensor_height", "height"), ("tilt", "tilt")):
         if mount[setting] in ("estimate", "track"):
             raise ValueError(
-                f"{name}={mount[setting]!r}: workers see scans in any order, and each would get a "
-                "different estimate; find the value with `flagstone doctor` and pass it"
+                f"{name}: {mount[setting]!r} is not supported here, because workers process scans in any order and "
+                "each would get a different estimate (find the value with `flagstone doctor` and pass it)"
             )
 
 
 def check_choice(name: str, value: object, allowed: tuple[str, ...]) -> None:
-    """Raises ValueError where the value is none of those allowed."""
+    """Raises ValueError if the value is not one of those allowed."""
     if value not in allowed:
-        raise ValueError(f"{name}={value!r}: allowed are {', '.join(allowed)}")
+        raise ValueError(f"{name}: {value!r} is not supported (expected {' or '.join(allowed)})")
 
 
-def check_number(name: str, value: int | None, least: int, most: int) -> None:
-    """Raises ValueError where there is a value and it is not within the range."""
-    if value is not None and not (isinstance(value, int) and least <= value <= most):
-        raise ValueError(f"{name}={value!r}: not a whole number within {least} to {most}")
+def check_number(name: str, value: int | None, minimum: int, maximum: int) -> None:
+    """Raises ValueError if the value is neither None nor an integer in the range."""
+    if value is not None and not (isinstance(value, int) and minimum <= value <= maximum):
+        raise ValueError(f"{name}: {value!r} is out of range (expected an integer from {minimum} to {maximum})")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Where scans lie and labels go: a local folder, or a folder of any other filesystem."""
+"""Directories of scans and labels, local or on another filesystem."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from flagstone._atomic_file import atomic_write
 if TYPE_CHECKING:
     import pyarrow.fs
 
-# A put of an object store is whole or not there. Elsewhere a file is written under another name and moved.
+# Object stores write files atomically. On other filesystems a temporary file is written and moved.
 OBJECT_STORES = frozenset({"s3", "s3a", "gcs", "gs", "abfs", "abfss", "az", "oss", "oci", "r2"})
 
 
 class File(NamedTuple):
-    """A file met in a folder."""
+    """A file found in a directory."""
 
-    name: str  # below the folder
+    name: str  # relative to the directory
     size: int  # bytes
-    modified: float | None  # seconds since 1970; None if the file system does not say
+    modified: float | None  # seconds since 1970; None if the filesystem does not provide it
 
 
 @dataclass(frozen=True)
 class Location:
-    """A folder, by its path and the filesystem it is in: None for the local one."""
+    """A directory: its path and its filesystem, None for the local one."""
 
     path: str
     filesystem: pyarrow.fs.FileSystem | None = None
@@ -43,15 +43,15 @@ class Location:
         return self.filesystem is None
 
     def at(self, name: str) -> str:
-        """The path of the file that is `name` here."""
+        """Path of the file `name` in this directory."""
         return posixpath.join(self.path, name)
 
     def below(self, name: str) -> Location:
-        """A folder in this one."""
+        """A subdirectory."""
         return Location(self.at(name), self.filesystem)
 
     def file(self) -> File | None:
-        """The file that this path names, by the last part of it; None if it does not name a file."""
+        """The file at this path, with the last component of the path as its name; None if it is not a file."""
         name = posixpath.basename(self.path)
         if self.filesystem is None:
             path = Path(self.path)
@@ -60,7 +60,7 @@ class Location:
         return _arrow_file(name, info) if info.is_file else None
 
     def files(self) -> Iterator[File]:
-        """Every file in this folder and below it; none if there is no such folder."""
+        """All files in this directory and its subdirectories; none if the directory does not exist."""
         if self.filesystem is None:
             yield from _local_files(self.path)
             return
@@ -78,7 +78,7 @@ class Location:
             return bytes(stream.read())
 
     def write(self, name: str, data: bytes) -> None:
-        """Writes a file whole or not at all, and makes the folders it needs."""
+        """Writes a file atomically and creates missing directories."""
         path = self.at(name)
         folder, _ = posixpath.split(path)
         if self.filesystem is None:
@@ -105,7 +105,7 @@ class Location:
             self.filesystem.delete_file(self.at(name))
 
     def is_left_over(self, name: str) -> bool:
-        """Whether a file is one that a killed process of flagstone had half written."""
+        """Whether a file is a temporary file of a flagstone process that was killed."""
         left = re.fullmatch(r"\.flagstone-(?:(\d+)-(?:py)?\d+|[0-9a-f]{32})\.tmp", posixpath.basename(name))
         if left is None:
             return False
@@ -116,14 +116,14 @@ class Location:
 
 
 def location_of(where: str | os.PathLike[str], filesystem: Any = None) -> Location:
-    """The folder that a path or URL names.
+    """The directory for a path or URL.
 
     Args:
-        where: A local path, or a URL that PyArrow or fsspec knows (`s3://`, `gs://`, `hdfs://`, `abfs://`, ...).
-        filesystem: A PyArrow or fsspec filesystem that `where` is a path of; None: the one it names.
+        where: A local path, or a URL that PyArrow or fsspec supports (`s3://`, `gs://`, `hdfs://`, `abfs://`, ...).
+        filesystem: PyArrow or fsspec filesystem of `where`; by default the one that `where` names.
 
     Raises:
-        ValueError: No filesystem is known for the URL.
+        ValueError: No filesystem supports the URL.
     """
     text = os.fspath(where)
     found = None
@@ -134,12 +134,12 @@ def location_of(where: str | os.PathLike[str], filesystem: Any = None) -> Locati
     import pyarrow.fs
 
     if found is None or isinstance(found, pyarrow.fs.LocalFileSystem):
-        return Location(str(Path(text).absolute()))  # workers run in other folders
+        return Location(str(Path(text).absolute()))  # workers have other working directories
     return Location(text.rstrip("/"), found)
 
 
 def is_object_store(filesystem: pyarrow.fs.FileSystem) -> bool:
-    """By its name, which is such as `s3`, or `py::fsspec+('s3', 's3a')` where fsspec has it."""
+    """Whether a filesystem is an object store, by its name: `s3`, or for fsspec `py::fsspec+('s3', 's3a')`."""
     name = filesystem.type_name.removeprefix("py::fsspec+")
     return not OBJECT_STORES.isdisjoint(name.translate(str.maketrans("'(),", "    ")).split())
 
@@ -147,7 +147,7 @@ def is_object_store(filesystem: pyarrow.fs.FileSystem) -> bool:
 def _from_url(url: str) -> tuple[pyarrow.fs.FileSystem, str]:
     import pyarrow.fs
 
-    with contextlib.suppress(pyarrow.ArrowInvalid):  # Arrow's own come first; the others are fsspec's
+    with contextlib.suppress(pyarrow.ArrowInvalid):  # filesystems of Arrow take precedence over those of fsspec
         found, path = pyarrow.fs.FileSystem.from_uri(url)
         return found, path
     import fsspec.core
@@ -155,7 +155,7 @@ def _from_url(url: str) -> tuple[pyarrow.fs.FileSystem, str]:
     try:
         found, path = fsspec.core.url_to_fs(url)
     except (ImportError, ValueError) as error:
-        raise ValueError(f"{url}: no filesystem for this URL: {error}") from None
+        raise ValueError(f"{url}: no filesystem supports this URL: {error}") from None
     return _as_arrow(found), path
 
 
@@ -191,7 +191,7 @@ def _is_running(process: int) -> bool:
 
 
 def _local_files(top: str) -> Iterator[File]:
-    """As the command `flagstone segment` walks: links to files are followed, links to folders are not."""
+    """Lists files as `flagstone segment` does: follows links to files, but not links to directories."""
     folders = [""]
     while folders:
         folder = folders.pop()

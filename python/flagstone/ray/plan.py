@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What is to be done: the scans of a folder, less those that are finished."""
+"""Selection of scans: those in a directory that are not finished yet."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from flagstone import io
 from flagstone.ray.location import File, Location
 from flagstone.ray.statistics import FOLDER, is_part, latest_begin, read_rows
 
-Scans = dict[str, File]  # by name below the source
+Scans = dict[str, File]  # by path relative to the source
 
 
 def find_scans(location: Location) -> tuple[Location, Scans]:
-    """The folder that names are below, and the scans in it, sorted by name.
+    """The directory that names are relative to, and its scans, sorted by name.
 
     Raises:
-        FileNotFoundError: There is no scan.
+        FileNotFoundError: There are no scans.
     """
     folder, _, name = location.path.rpartition("/")
     single = location.file()
@@ -27,50 +27,51 @@ def find_scans(location: Location) -> tuple[Location, Scans]:
     scans = {file.name: file for file in sorted(location.files()) if is_scan(file.name)}
     if not scans:
         raise FileNotFoundError(
-            f"{location}: no scan in this folder or below it; scans end in .bin, .pcd.bin, .pcd, .ply or .npy"
+            f"{location}: no scans in this directory or its subdirectories (expected .bin, .pcd.bin, .pcd, .ply or "
+            ".npy)"
         )
     return location, scans
 
 
 def check_names(source: Location, scans: Scans, format: str) -> None:
-    """Refuses scans whose labels would be one file, and names that the statistics cannot hold.
+    """Checks the names of scans.
 
     Raises:
-        ValueError: There are such.
+        ValueError: Two scans have the same label file, or the statistics cannot store a name.
     """
     taken: dict[str, str] = {}
     for name in scans:
         try:
             name.encode()
         except UnicodeEncodeError:
-            raise ValueError(f"{source}: the name {name!r} is not UTF-8; rename it") from None
+            raise ValueError(f"{source}: the file name {name!r} is not UTF-8 (rename the file)") from None
         label = label_name(name, format)
         if label == name:
-            raise ValueError(f"{source.at(name)}: is named as its own labels would be; rename it")
+            raise ValueError(f"{source.at(name)}: has the name of its own label file (rename the scan)")
         other = taken.setdefault(label, name)
         if other is not name:
             raise ValueError(
-                f"{source.at(other)} and {source.at(name)} would both write to {label}; move one of them elsewhere"
+                f"{source.at(other)} and {source.at(name)} would both write to {label} (rename one of them)"
             )
 
 
 class Finished(NamedTuple):
-    """What earlier runs have done."""
+    """Scans that earlier runs have finished."""
 
     scans: set[str]
     without_row: dict[str, int]
-    """Points of those whose row was lost when a run was killed."""
+    """Number of points of the finished scans whose row was lost when a run was killed."""
 
 
 def finished_scans(scans: Scans, destination: Location, format: str, made_with: dict[str, Any]) -> Finished:
-    """The scans that need not be done; removes what a killed run had half written.
+    """The finished scans. Also removes temporary files of killed runs.
 
-    A scan is finished if the statistics have its row, without an error and of a scan of as many bytes, and the file of
-    its labels has the size that so many labels have. It is also finished if a killed run has lost its row: if its
-    labels were written after the latest run began, and after the scan.
+    A scan is finished if the statistics contain its row, without an error and with the current size of the scan, and
+    its label file has the size for its number of points. It is also finished if a killed run lost its row: then its
+    labels were written after the latest run started, and after the scan.
 
     Raises:
-        ValueError: The destination holds labels that were made with other settings.
+        ValueError: The labels in the destination were written with other settings.
     """
     statistics = destination.below(FOLDER)
     rows, before = read_rows(statistics, ["path", "bytes", "points", "error"])
@@ -84,7 +85,7 @@ def finished_scans(scans: Scans, destination: Location, format: str, made_with: 
         outputs[file.name] = file
     finished, with_row = set(), set()
     for path, size, points, error in zip(*(column.to_pylist() for column in rows.columns), strict=True):
-        finished.discard(path)  # of several rows the last counts
+        finished.discard(path)  # the last row of a scan counts
         labels = outputs.get(label_name(path, format))
         has_labels = error is None and labels is not None and labels.size == label_bytes(points, format)
         if has_labels and path in scans and scans[path].size == size:
@@ -103,35 +104,35 @@ def finished_scans(scans: Scans, destination: Location, format: str, made_with: 
 
 
 def is_newer(file: File, than: float | None) -> bool:
-    """Whether a file was written no earlier; False if it is not known."""
+    """Whether a file was written at or after a time; False if either is unknown."""
     return file.modified is not None and than is not None and file.modified >= than
 
 
 def check_same(destination: Location, before: list[dict[str, Any]], now: dict[str, Any]) -> None:
-    """Refuses to mix labels of different settings.
+    """Checks that existing labels were written with the same settings.
 
     Raises:
-        ValueError: There are labels of other settings.
+        ValueError: They were written with other settings.
     """
     for made in before:
         for key in now:
             if made.get(key) != now[key]:
                 raise ValueError(
-                    f"{destination}: its labels were made with another {difference(key, made.get(key), now[key])}; "
-                    "choose another destination, or label all scans again with overwrite=True (--overwrite)"
+                    f"{destination}: existing labels were written with {difference(key, made.get(key), now[key])} "
+                    "(choose another destination, or label all scans again with overwrite=True or --overwrite)"
                 )
 
 
 def difference(key: str, before: Any, now: Any) -> str:
-    """The first setting that is another, with its values."""
+    """The first setting that differs, with both values."""
     if isinstance(before, dict) and isinstance(now, dict):
         inner = next(name for name in [*now, *before] if before.get(name) != now.get(name))
         return difference(f"{key}.{inner}", before.get(inner), now.get(inner))
-    return f"{key}, {before} instead of {now}"
+    return f"{key} = {before}, not {now}"
 
 
 def forget(destination: Location) -> None:
-    """Removes the statistics, so that no scan is finished."""
+    """Removes the statistics, so that all scans are labelled again."""
     folder = destination.below(FOLDER)
     for file in list(folder.files()):
         if is_part(file.name):
@@ -139,16 +140,16 @@ def forget(destination: Location) -> None:
 
 
 LABEL_ENDINGS = {"label": ".label", "u8": ".label.npy"}
-NPY_HEADER = 128  # bytes; what NumPy pads the header of an array of one dimension to
+NPY_HEADER = 128  # bytes; size of the padded header that NumPy writes for one-dimensional arrays
 
 
 def is_scan(name: str) -> bool:
-    """Whether a file is taken for a scan, by its name alone."""
-    return io.is_scan_name(name.encode(errors="replace").decode())  # of names that are not UTF-8 the ending says it
+    """Whether a file is treated as a scan, by its name."""
+    return io.is_scan_name(name.encode(errors="replace").decode())  # the extension is valid even if the rest is not
 
 
 def label_name(scan: str, format: str) -> str:
-    """The name of a scan's labels, `.label` or `.label.npy` in place of the scan's ending."""
+    """Name of the label file of a scan: its extension is replaced by `.label` or `.label.npy`."""
     stem = posixpath.splitext(scan)[0]
     if scan.lower().endswith(".pcd.bin"):
         stem = posixpath.splitext(stem)[0]
@@ -156,11 +157,11 @@ def label_name(scan: str, format: str) -> str:
 
 
 def label_bytes(points: int, format: str) -> int:
-    """The size of a file of so many labels: four bytes each, or one each after a header."""
+    """Size of a label file: four bytes per label, or a header and one byte per label."""
     return 4 * points if format == "label" else NPY_HEADER + points
 
 
 def label_count(size: int, format: str) -> int | None:
-    """How many labels a file of so many bytes holds; None if it is not whole."""
+    """Number of labels in a file of `size` bytes; None if the size is invalid."""
     points, rest = divmod(size, 4) if format == "label" else (size - NPY_HEADER, 0)
     return points if rest == 0 and points >= 0 else None

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The table of what was done: a row a scan, in Parquet files beside the labels."""
+"""Table of results with one row per scan, in Parquet files next to the labels."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ if TYPE_CHECKING:
 
 FOLDER = "flagstone-statistics"
 LABELS = ("nonground", "ground", "noise", "out_of_range", "invalid")
-MADE_WITH = b"flagstone"  # what the labels were made with, as JSON, in the metadata of each file
+MADE_WITH = b"flagstone"  # metadata key of each file: version, method and settings as JSON
 
 
 def schema() -> pyarrow.Schema:
-    """The columns of the table."""
+    """Columns of the table."""
     import pyarrow as pa
 
     return pa.schema(
         [
-            ("path", pa.string()),  # of the scan, below the source
-            ("bytes", pa.int64()),  # of the scan's file
+            ("path", pa.string()),  # of the scan, relative to the source
+            ("bytes", pa.int64()),  # size of the scan file
             ("points", pa.int64()),
             *((label, pa.int64()) for label in LABELS),
             ("read_ms", pa.float64()),
@@ -38,16 +38,16 @@ def schema() -> pyarrow.Schema:
             ("started_at", pa.timestamp("us", tz="UTC")),
             ("finished_at", pa.timestamp("us", tz="UTC")),
             ("node", pa.string()),
-            ("error", pa.string()),  # null where all went well
+            ("error", pa.string()),  # null for success
         ]
     )
 
 
 class StatisticsWriter:
-    """Collects rows and writes them as files of their own, each whole: a run that is killed loses few rows.
+    """Collects rows and writes them to several files, each atomically, so that a killed run loses few rows.
 
-    The first file has no rows. It is written before the first label, so that a run that is killed early has left what
-    its labels are made with, and when it began.
+    The first file has no rows. It is written before the first label and records the settings and the start time, even
+    if the run is killed early.
     """
 
     def __init__(self, folder: Location, made_with: dict[str, Any]) -> None:
@@ -56,11 +56,11 @@ class StatisticsWriter:
         self._run = datetime.now(timezone.utc).strftime("%Y%m%dT%H%M%S.%f")
         self._tables: list[pyarrow.Table] = []
         self._files = 0
-        self._pause = 2.0  # seconds between files; longer and longer, so that a week's run leaves hundreds, not 300,000
+        self._pause = 2.0  # seconds between files; it increases, to limit the number of files of long runs
         self._next = time.monotonic() + self._pause
 
     def begin(self) -> None:
-        """Writes the file without rows."""
+        """Writes the first file, without rows."""
         self._write(self._schema.empty_table())
 
     def add(self, rows: pyarrow.Table) -> None:
@@ -69,7 +69,7 @@ class StatisticsWriter:
             self.flush()
 
     def flush(self) -> None:
-        """Writes what has been gathered."""
+        """Writes the collected rows."""
         if self._tables:
             import pyarrow as pa
 
@@ -88,7 +88,7 @@ class StatisticsWriter:
 
 
 def read_rows(folder: Location, columns: list[str] | None = None) -> tuple[pyarrow.Table, list[dict[str, Any]]]:
-    """All rows in the order they were written, and with what their labels were made, each kind once."""
+    """All rows in the order in which they were written, and the distinct settings that their labels were made with."""
     import pyarrow as pa
     import pyarrow.parquet
 
@@ -98,7 +98,7 @@ def read_rows(folder: Location, columns: list[str] | None = None) -> tuple[pyarr
         try:
             table = pyarrow.parquet.read_table(pa.BufferReader(folder.read(name)), columns=columns)
         except pa.ArrowInvalid as error:
-            raise ValueError(f"{folder.at(name)}: not statistics of flagstone: {error}; remove it") from None
+            raise ValueError(f"{folder.at(name)}: not a statistics file: {error} (remove the file)") from None
         tables.append(table)
         made = json.loads((table.schema.metadata or {}).get(MADE_WITH, b"{}"))
         if made not in made_with:
@@ -108,37 +108,39 @@ def read_rows(folder: Location, columns: list[str] | None = None) -> tuple[pyarr
 
 
 def latest_begin(folder: Location) -> float | None:
-    """When the latest run began, by the clock of the file system; None if that is not known."""
+    """Start time of the latest run, by the clock of the filesystem; None if unknown."""
     begins = [file for file in folder.files() if is_part(file.name) and file.name.endswith("-00000.parquet")]
     return max(begins).modified if begins else None
 
 
 def is_part(name: str) -> bool:
-    """Whether a file in the folder of statistics is a part of them: not hidden, not half written."""
+    """Whether a file in the statistics directory contains statistics. Hidden files are temporary files."""
     return name.endswith(".parquet") and "/" not in name and not name.startswith(".")
 
 
 def statistics(destination: str | os.PathLike[str], *, filesystem: Any = None) -> pandas.DataFrame:
-    """What was done in a destination of `flagstone.ray.segment`, a row a scan.
+    """Reads the statistics of `flagstone.ray.segment`.
 
     Args:
-        destination: The folder or URL that the labels are in; the source, where they lie beside the scans.
-        filesystem: A PyArrow or fsspec filesystem that `destination` is a path of; None: the one it names.
+        destination: Directory or URL of the labels. If they are next to the scans, the source.
+        filesystem: PyArrow or fsspec filesystem of `destination`; by default the one that `destination` names.
 
     Returns:
-        A frame with the columns `path` (below the source), `bytes`, `points`, one for each of the five labels with
-        its points, `read_ms`, `segment_ms`, `write_ms`, `started_at` and `finished_at` (UTC), `node` and `error`
-        (missing if all went well). Of a scan that was done several times, the last. Of a scan whose row was lost when a
-        run was killed, only `path`, `bytes` and `points`.
+        Data frame with one row per scan, sorted by path. Columns: `path` (relative to the source), `bytes`, `points`,
+        the number of points of each of the five labels, `read_ms`, `segment_ms`, `write_ms`, `started_at` and
+        `finished_at` (UTC), `node`, and `error` (missing for success). If a scan was labelled several times, its row
+        describes the last time. If a killed run lost the row of a scan, only `path`, `bytes` and `points` are set.
 
     Raises:
         FileNotFoundError: There are no statistics.
-        ValueError: A file among them is none of ours.
+        ValueError: A file in the statistics directory is not a statistics file.
     """
     where = location_of(destination, filesystem)
     rows, _ = read_rows(where.below(FOLDER))
     if rows.num_rows == 0:
-        raise FileNotFoundError(f"{where.at(FOLDER)}: no statistics; is {where} what flagstone-ray wrote to?")
+        raise FileNotFoundError(
+            f"{where.at(FOLDER)}: no statistics (check that flagstone.ray.segment wrote to {where})"
+        )
     frame = rows.to_pandas()
     last: pandas.DataFrame = frame[~frame["path"].duplicated(keep="last")]
     return last.sort_values("path", ignore_index=True)

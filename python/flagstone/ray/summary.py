@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What came of a run."""
+"""Summary of a run."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ class Failure(NamedTuple):
     """A scan that could not be labelled.
 
     Attributes:
-        path: The scan, below the source.
-        error: Why, in one line.
+        path: Path of the scan, relative to the source.
+        error: Reason, in one line.
     """
 
     path: str
@@ -28,21 +28,22 @@ class Failure(NamedTuple):
 
 @dataclass(frozen=True)
 class Summary:
-    """What came of a run; printed, it is a few lines for people.
+    """Result of a run. `print` shows it in a few lines.
 
     Attributes:
-        scans: Scans in the source.
-        already_labelled: Those that an earlier run had labelled.
-        labelled: Those that this run labelled.
-        failures: Those that it could not label, and why.
-        points: Points labelled in this run.
-        bytes: Bytes of scans read for that.
-        seconds: From the first scan begun to the last one done; listing scans and starting Ray are not in it.
-        workers: Actors at work, a core each.
-        read_ms: Milliseconds of reading, added up over the scans of this run.
-        segment_ms: Milliseconds of segmenting, added up.
-        write_ms: Milliseconds of writing, added up.
-        statistics: The folder of Parquet files with a row a scan.
+        scans: Number of scans in the source.
+        already_labelled: Number of scans labelled by earlier runs.
+        labelled: Number of scans labelled by this run.
+        failures: Scans that could not be labelled, with reasons.
+        points: Number of points labelled by this run.
+        bytes: Size of the scans that this run labelled.
+        seconds: Time from the start of the first scan to the end of the last one, without listing scans and starting
+            Ray.
+        workers: Number of actors, one core each.
+        read_ms: Total time of reading, milliseconds.
+        segment_ms: Total time of segmentation, milliseconds.
+        write_ms: Total time of writing, milliseconds.
+        statistics: Directory of the Parquet files with one row per scan.
     """
 
     scans: int
@@ -61,29 +62,29 @@ class Summary:
     def __str__(self) -> str:
         lines = [f"{self.labelled} of {self.scans} scans labelled, {self.points} points"]
         if self.already_labelled:
-            lines[0] += f"; {self.already_labelled} were already labelled"
+            lines[0] += f"; {self.already_labelled} already labelled"
         if self.labelled and self.seconds > 0:
             lines.append(self._throughput())
         if self.failures:
             lines.append(f"{len(self.failures)} failed:")
             lines += [f"  {failure.error}" for failure in self.failures[:FAILURES_LISTED]]
             if len(self.failures) > FAILURES_LISTED:
-                lines.append(f"  and {len(self.failures) - FAILURES_LISTED} more, in the statistics")
+                lines.append(f"  and {len(self.failures) - FAILURES_LISTED} more, listed in the statistics")
         lines.append(f"statistics: {self.statistics}")
         return "\n".join(lines)
 
     def _throughput(self) -> str:
         return (
-            f"{self.labelled / self.seconds:.1f} scans a second, {self.bytes / 1e6 / self.seconds:.1f} MB/s read by "
-            f"{self.workers} {'worker' if self.workers == 1 else 'workers'}; a scan: "
-            f"{self.bytes / 1e6 / self.labelled:.2f} MB, {self.read_ms / self.labelled:.2f} ms reading, "
-            f"{self.segment_ms / self.labelled:.2f} ms segmenting, {self.write_ms / self.labelled:.2f} ms writing"
+            f"{self.labelled / self.seconds:.1f} scans per second, {self.bytes / 1e6 / self.seconds:.1f} MB/s with "
+            f"{self.workers} {'worker' if self.workers == 1 else 'workers'}; per scan: "
+            f"{self.bytes / 1e6 / self.labelled:.2f} MB, read {self.read_ms / self.labelled:.2f} ms, "
+            f"segment {self.segment_ms / self.labelled:.2f} ms, write {self.write_ms / self.labelled:.2f} ms"
         )
 
 
 @dataclass
 class Tally:
-    """Adds up the rows of a run."""
+    """Sums of the rows of a run."""
 
     scans: int
     already_labelled: int
@@ -92,8 +93,8 @@ class Tally:
     labelled: int = 0
     points: int = 0
     bytes: int = 0
-    started_at: datetime | None = None  # the first scan, by the clocks of the workers' nodes
-    finished_at: datetime | None = None  # the last one
+    started_at: datetime | None = None  # of the first scan, by the clocks of the nodes
+    finished_at: datetime | None = None  # of the last scan
     workers: int = 0
     read_ms: float = 0
     segment_ms: float = 0
@@ -130,13 +131,13 @@ class Tally:
 
 
 class Interrupted(KeyboardInterrupt):
-    """A run was interrupted. What is done stays done; run it again for the rest.
+    """A run was interrupted. Finished scans are kept; run again to resume.
 
     Attributes:
-        summary: What came of it until then.
+        summary: Results until the interruption.
     """
 
     def __init__(self, summary: Summary) -> None:
         done = summary.labelled + summary.already_labelled
-        super().__init__(f"interrupted, {done} of {summary.scans} scans are done; run it again for the rest")
+        super().__init__(f"interrupted: {done} of {summary.scans} scans are finished (run again to resume)")
         self.summary = summary

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What runs in each Ray actor: scans read, segmented, their labels written."""
+"""The Ray actor that reads scans, segments them and writes their labels."""
 
 from __future__ import annotations
 
@@ -31,20 +31,20 @@ if TYPE_CHECKING:
     import pyarrow
 
 LabelMap = Literal["flagstone", "semantic-kitti"]
-Scan = tuple[str, int]  # name below the source, bytes
+Scan = tuple[str, int]  # path relative to the source, bytes
 
-# A remote filesystem answers late, not slowly: so many scans are on their way at once.
+# Remote filesystems have a high latency but also a high throughput, so many scans are read in parallel.
 REMOTE_SCANS_AT_ONCE = 32
-# One more might be chance: a node out of memory, somebody's kill.
+# A single death of a worker may have another cause than the scan, for example a node that ran out of memory.
 DEATHS_ALLOWED = 1
 
 
 @dataclass(frozen=True)
 class Task:
-    """What all workers of a run have in common."""
+    """Description of the work, the same for all workers of a run."""
 
     method: str
-    settings: dict[str, Any]  # all of them, so that no file of settings is needed on the worker's node
+    settings: dict[str, Any]  # all settings, so that the node of a worker needs no settings file
     source: Location
     destination: Location
     format: str  # label, u8
@@ -56,27 +56,27 @@ class Task:
 
 
 class ScanWorker:
-    """Labels batches of scans; keeps its segmenter, whose buffers are made once."""
+    """Labels batches of scans with one segmenter, whose buffers are allocated once."""
 
     def __init__(self, task: Task) -> None:
         self._task = task
         self._segmenter = task.segmenter()
         self._turn = threading.Lock()
-        self._folders: set[str] = set()  # made already
+        self._folders: set[str] = set()  # directories that exist
         self._node, notes = identity()
         self._in_progress = InProgressLog(notes)
         is_local = task.source.is_local and task.destination.is_local
         self._threads = None if is_local else ThreadPoolExecutor(REMOTE_SCANS_AT_ONCE)
 
     def ready(self) -> None:
-        """Answers once the worker has started."""
+        """Returns once the worker has started."""
 
     def label(self, batch: list[Scan]) -> pyarrow.Table:
-        """Labels scans; returns their rows of the statistics."""
+        """Labels scans and returns their rows of the statistics."""
         suspects = [scan for scan in batch if self._in_progress.deaths(scan[0])]
         others = [scan for scan in batch if not self._in_progress.deaths(scan[0])]
         rows = list(self._threads.map(self._work, others) if self._threads else map(self._work, others))
-        rows += map(self._work, suspects)  # alone, so that it is plain who did it
+        rows += map(self._work, suspects)  # one at a time, to identify the scan that crashes the worker
         return needs("pyarrow", "ray").Table.from_pylist(rows, schema=schema())
 
     def _work(self, scan: Scan) -> dict[str, Any]:
@@ -86,7 +86,7 @@ class ScanWorker:
             self._check_survivable(name)
             with self._in_progress.on(name):
                 self._label(name, row)
-        except Exception as error:  # whatever is wrong with one scan, the others are done
+        except Exception as error:  # an error in one scan must not affect the other scans
             row["error"] = one_line(error, self._task.source.at(name))
         row["finished_at"] = now()
         return row
@@ -94,7 +94,7 @@ class ScanWorker:
     def _check_survivable(self, name: str) -> None:
         deaths = self._in_progress.deaths(name)
         if deaths > DEATHS_ALLOWED:
-            raise RuntimeError(f"{deaths} workers died while they worked on it (out of memory?)")
+            raise RuntimeError(f"{deaths} workers crashed while processing this scan (it may need too much memory)")
 
     def _label(self, name: str, row: dict[str, Any]) -> None:
         with took(row, "read_ms"):
@@ -122,7 +122,7 @@ class ScanWorker:
             return
         path = destination.at(name)
         if Path(path).is_symlink() and is_scan(os.path.realpath(path)):
-            raise ValueError(f"{path}: links to a scan; remove the link or choose another destination")
+            raise ValueError(f"{path}: is a link to a scan (remove it, or choose another destination)")
         folder, _, _ = path.rpartition("/")
         if folder not in self._folders:
             Path(folder).mkdir(parents=True, exist_ok=True)
@@ -131,7 +131,7 @@ class ScanWorker:
 
 
 def label_file(labels: npt.NDArray[np.uint8], format: str, label_map: LabelMap) -> bytes:
-    """The bytes that `flagstone.io.write_labels` writes, for filesystems it cannot write to."""
+    """The contents of a label file, identical to those that `flagstone.io.write_labels` writes to local files."""
     codes = labels if label_map == "flagstone" else np.where(labels == flagstone.Label.GROUND, 40, 0)
     if format == "label":
         return codes.astype("<u4").tobytes()
@@ -141,7 +141,7 @@ def label_file(labels: npt.NDArray[np.uint8], format: str, label_map: LabelMap) 
 
 
 def one_line(error: Exception, path: str) -> str:
-    """What is wrong, in one line that begins with the scan's path."""
+    """The error in one line that starts with the path of the scan."""
     text = " ".join(str(error).split()) or type(error).__name__
     if isinstance(error, OSError) and error.strerror:
         text = f"{error.filename or path}: {error.strerror}"
@@ -149,31 +149,31 @@ def one_line(error: Exception, path: str) -> str:
 
 
 def identity() -> tuple[str, Path]:
-    """The node's name, and where an actor that is restarted there finds its notes again."""
+    """Name of the node, and path of the notes, which is the same after this actor is restarted on the node."""
     context = needs("ray", "ray").get_runtime_context()
-    node = f"{socket.gethostname()}/{context.get_node_id()[:8]}"  # several nodes may be on one host
+    node = f"{socket.gethostname()}/{context.get_node_id()[:8]}"  # a host may run several nodes
     folder = Path(context.get_temp_dir()) / context.get_session_name()
     return node, folder / f"flagstone-{context.get_actor_id()}.notes"
 
 
 def now() -> datetime:
-    """The time in UTC."""
+    """Current time in UTC."""
     return datetime.now(timezone.utc)
 
 
 @contextlib.contextmanager
 def took(row: dict[str, Any], name: str) -> Iterator[None]:
-    """Puts the milliseconds that the context took into the row."""
+    """Stores the duration of the context in the row, in milliseconds."""
     begun = time.perf_counter()
     yield
     row[name] = 1000 * (time.perf_counter() - begun)
 
 
 class InProgressLog:
-    """Notes of a worker, which the same worker finds again once it has been restarted on its node.
+    """Notes of the scans in progress, which a worker reads again after it is restarted on the same node.
 
-    Ray gives a batch whose worker died to the worker's successor, again and again. A scan that takes too much memory
-    would kill every one of them; the notes say which it is.
+    If a worker dies, Ray sends its batch to the restarted worker, any number of times. A scan that needs too much
+    memory would crash the worker each time. The notes identify this scan.
     """
 
     def __init__(self, notes: Path) -> None:
@@ -181,11 +181,11 @@ class InProgressLog:
         if notes.exists():
             for line in notes.read_text(encoding="ascii").splitlines():
                 self._deaths[line[1:]] += 1 if line.startswith("+") else -1
-        self._file = notes.open("ab", buffering=0)  # each line is with the system before the next step
+        self._file = notes.open("ab", buffering=0)  # unbuffered, so that notes survive a crash
 
     @contextlib.contextmanager
     def on(self, scan: str) -> Iterator[None]:
-        """While a scan is under work."""
+        """Marks a scan as in progress for the duration of the context."""
         self._note("+", scan)
         try:
             yield
@@ -193,7 +193,7 @@ class InProgressLog:
             self._note("-", scan)
 
     def deaths(self, scan: str) -> int:
-        """How many of this worker's predecessors died while they had the scan under work."""
+        """Number of times that this worker died while it processed the scan."""
         return self._deaths[ascii(scan)]
 
     def _note(self, sign: str, scan: str) -> None:
