@@ -8,7 +8,7 @@
     python3 bench/experiments.py check                                     # do the tables match the results?
 
 `run` needs the command (build/flagstone), the real scans in FLAGSTONE_DATA and, for `external`, the packages that
-bench/peers.py lists. It simulates five sequences of 200 scans in the work directory, or reuses those that are there.
+bench/external_tools.py lists. It simulates five sequences of 200 scans in the work directory, or reuses those that are there.
 """
 
 import json
@@ -128,13 +128,13 @@ def run_speed(runner):
 
 
 def run_external(runner):
-    text = runner.call(f"{sys.executable} bench/peers.py $FLAGSTONE_DATA/kitti --output $WORK/peers")
+    text = runner.call(f"{sys.executable} bench/external_tools.py $FLAGSTONE_DATA/kitti --output $WORK/external")
     labels = re.findall(r"--labels (\S+)", text.splitlines()[-1])
     arguments = " ".join(f"--labels {label}" for label in labels)
     arguments = arguments.replace(str(runner.runs.work), "$WORK")
     for protocol in ("patchwork", "patchwork++"):
         found = runner.evaluate(
-            f"peers/{protocol}",
+            f"external/{protocol}",
             f"flagstone eval $FLAGSTONE_DATA/kitti --protocol {protocol} --methods patchwork --threads 1 {arguments}",
         )
         found["hz"] = {line.split()[0]: float(line.split()[1]) for line in text.splitlines() if " Hz mean" in line}
@@ -311,21 +311,21 @@ def speed_table(results):
 
 
 def external_table(results):
-    one, other = (results["experiments"][f"peers/{p}"] for p in ("patchwork", "patchwork++"))
+    one, other = (results["experiments"][f"external/{p}"] for p in ("patchwork", "patchwork++"))
     rows = []
     for m, method in enumerate(one["methods"]):
-        hz = method["hz"] or one["hz"].get(method["name"])
+        hz = one["hz"].get(method["name"])
         rows.append(
             [
                 method["title"],
                 with_interval(method["f1"]),
                 with_interval(other["methods"][m]["f1"]),
                 percent(method["by_area"]["f1"]),
-                f"{hz:.1f}",
+                f"{hz:.1f}" if hz else "–",
             ]
         )
     head = ["", "F1, `patchwork`", "F1, `patchwork++`", "F1 per BEV cell, `patchwork`", "Hz"]
-    command = "    python3 bench/peers.py $FLAGSTONE_DATA/kitti --output $WORK/peers"
+    command = "    python3 bench/external_tools.py $FLAGSTONE_DATA/kitti --output $WORK/external"
     return (
         f"{table(head, rows)}\n\n{one['scans']} scans, {one['date']}, {one['machine']}:\n\n"
         f"{command}\n    {one['command']}\n    {other['command']}"

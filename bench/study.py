@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 class Runs:
-    """Runs commands in which $WORK and $FLAGSTONE_DATA stand for directories, so that a reader can repeat them."""
+    """Runs commands with $WORK and $FLAGSTONE_DATA in place of directories, so that a reader can repeat them."""
 
     def __init__(self, work, flagstone):
         self.work = work

@@ -1,17 +1,16 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Measures the method `surface` and writes the tables of docs/benchmarks/accuracy.md and robustness.md. Needs Python 3.11 and NumPy.
+"""Measures the method `surface` and writes the tables of docs/benchmarks/accuracy.md and robustness.md.
 
-    python3 bench/surface_study.py run --work /tmp/study               # all of it, some ten minutes
-    python3 bench/surface_study.py run --work /tmp/study --only robustness
+    python3 bench/surface_study.py run --work /tmp/study                    # all of it, about ten minutes
+    python3 bench/surface_study.py run --work /tmp/study --only robustness  # one part; the other results are kept
     python3 bench/surface_study.py try --work /tmp/study --only ablation --set point.margin=0.15
-    python3 bench/surface_study.py page                                # the tables, from docs/results/surface.json
-    python3 bench/surface_study.py check                               # are the page's tables those of the results?
+    python3 bench/surface_study.py page                                     # the tables, from docs/results/surface.json
+    python3 bench/surface_study.py check                                    # do the tables match the results?
 
-`run` wants the command built (build/flagstone) and the real scans in FLAGSTONE_DATA. The first time it simulates
-six sequences of 200 scans in the work folder (4 GB, some minutes); later runs keep them. `try` prints tables and
-writes nothing: the settings of --set hold throughout, for the rows with nothing changed too. Tables stand in the
-page between <!-- table NAME --> and <!-- end -->.
+`run` needs Python 3.11, NumPy, the command (build/flagstone) and the real scans in FLAGSTONE_DATA. It simulates six
+sequences of 200 scans in the work directory (4 GB, some minutes), or reuses those that are there. `try` prints tables
+and writes nothing; the settings of --set apply to every row, including the rows for unchanged settings.
 """
 
 import json
@@ -40,17 +39,17 @@ PAGES = (ROOT / "docs" / "benchmarks" / "accuracy.md", ROOT / "docs" / "benchmar
 RESULTS = ROOT / "docs" / "results" / "surface.json"
 
 
-# --- the scans, and `flagstone eval` over them ----------------------------------------------------------------
+# --- scan sets, and `flagstone eval` on them ------------------------------------------------------------------
 
 SCENES = ["flat_street", "steep_street", "parked_cars", "bushes_and_lawn", "bumpy_field", "steps"]
 
-# SemanticKITTI scans with all their points; the others of that folder are means of voxels.
+# SemanticKITTI scans with all their points. The other scans of that directory are voxel means.
 FULL_KITTI = [*(f"00-{frame:06}" for frame in (0, 1, 2, 5, 10, 15)), "08-000000", "08-000536"]
 LIVOX_HEIGHTS = {"01-000000": 1.2, "04-000000": 1.8, "10-000000": 1.1}
 
 
 class Scans(typing.NamedTuple):
-    """A set of scans: the arguments of `flagstone eval` for it; several where its scans need different ones."""
+    """A set of scans. `arguments` are those of `flagstone eval`, one entry for each sensor height in the set."""
 
     title: str
     arguments: tuple
@@ -58,10 +57,10 @@ class Scans(typing.NamedTuple):
 
 
 def scan_sets(work):
-    """By name. Folders of links to real scans are made in the work folder."""
+    """The scan sets by name. Creates directories of links to real scans in the work directory."""
     data = pathlib.Path(os.environ.get("FLAGSTONE_DATA", ROOT.parent / "shared" / "data"))
     if not (data / "kitti").is_dir():
-        sys.exit(f"{data}: no folder of real scans with kitti/; FLAGSTONE_DATA names it")
+        sys.exit(f"{data}: no directory kitti/ in it (set FLAGSTONE_DATA to the directory of real scans)")
     link_scans(data / "kitti", FULL_KITTI, work / "kitti")
     for name in LIVOX_HEIGHTS:
         link_scans(data / "livox", [name], work / "livox" / name)
@@ -84,26 +83,26 @@ def scan_sets(work):
         ),
     }
     for number, scene in enumerate(SCENES):
-        # The first scan of each drive: as many worlds as scans.
+        # The first scan of each simulated run: every scan is from a different scene instance.
         arguments = f"$WORK/simulated --sequences {number:02} --every 10 --sensor-height 1.73 --protocol simulation"
         sets[scene] = Scans(scene.replace("_", " "), (arguments,), True)
     return sets
 
 
-def link_scans(data, names, folder):
-    """A folder with velodyne/ and labels/ of some of the scans of another."""
-    for kind, ending in (("velodyne", "bin"), ("labels", "label")):
-        (folder / kind).mkdir(parents=True, exist_ok=True)
+def link_scans(data, names, directory):
+    """Creates a directory with velodyne/ and labels/ that contain links to some of the scans in `data`."""
+    for kind, extension in (("velodyne", "bin"), ("labels", "label")):
+        (directory / kind).mkdir(parents=True, exist_ok=True)
         for name in names:
-            link = folder / kind / f"{name}.{ending}"
-            target = data / kind / f"{name}.{ending}"
+            link = directory / kind / f"{name}.{extension}"
+            target = data / kind / f"{name}.{extension}"
             if link.is_symlink():
                 link.unlink()
             link.symlink_to(target.resolve())
 
 
 class Study(Runs):
-    """Where the scans are, which settings of `surface` hold throughout, and what was evaluated so far."""
+    """Scan sets, settings of `surface` that apply to every evaluation, and the evaluations done so far."""
 
     def __init__(self, work, flagstone, settings=()):
         super().__init__(work, flagstone)
@@ -112,7 +111,7 @@ class Study(Runs):
         self.sets = scan_sets(work)
 
     def simulate(self, frames=200):
-        """Writes the simulated sequences; what is there already is kept."""
+        """Writes the simulated sequences. Existing scans are kept."""
         for number, scene in enumerate(SCENES):
             show_progress(f"simulating {scene}")
             self.call(
@@ -126,7 +125,7 @@ class Study(Runs):
         return " ".join(words)
 
     def evaluate(self, name, methods=("surface",), settings=()):
-        """The results of a set, one for each of its `arguments`; settings are those of `surface`."""
+        """The results of a set, one for each entry of its `arguments`. `settings` are settings of `surface`."""
         commands = [self.command(arguments, methods, settings) for arguments in self.sets[name].arguments]
         for command in commands:
             if command not in self.known:
@@ -134,23 +133,23 @@ class Study(Runs):
         return [self.known[command] for command in commands]
 
     def surface_defaults(self):
-        """Those of `surface` that hold throughout."""
+        """The settings of `surface` that apply to every evaluation."""
         return surface_settings(self, "".join(f" --set {setting}" for setting in self.settings))
 
 
 def surface_settings(runs, options=""):
     """The settings of `surface` except the sensor height, by key."""
-    import tomllib  # from Python 3.11 on; tables are written and checked with less
+    import tomllib  # needs Python 3.11, which `page` and `check` do not need
 
     text = runs.call(f"flagstone config --method surface{options}")
-    text = text.partition("\n[mount]")[0]  # how the sensor is mounted belongs to no method
+    text = text.partition("\n[mount]")[0]  # the mounting pose is not a setting of a method
     values = flat(tomllib.loads(text))
     values.pop("sensor_height")
     return values
 
 
 def flat(values, prefix=""):
-    """{"a": {"b": 1}} as {"a.b": 1}."""
+    """Flattens a dictionary: {"a": {"b": 1}} becomes {"a.b": 1}."""
     found = {}
     for key, value in values.items():
         found.update(flat(value, f"{prefix}{key}.") if isinstance(value, dict) else {prefix + key: value})
@@ -158,7 +157,7 @@ def flat(values, prefix=""):
 
 
 def per_scan(results, method):
-    """The scans of one method in the results of a set."""
+    """All scans of one method in the results of a set."""
     return {
         "per_scan": [
             scan
@@ -170,19 +169,19 @@ def per_scan(results, method):
     }
 
 
-# --- what `surface` loses without one of its parts, and what each setting does --------------------------------
+# --- ablation and sensitivity to settings ---------------------------------------------------------------------
 
-# A part, and the settings that take it out; {margin} and the like stand for the settings' own values.
+# Parts of the method and the settings that disable them. {point.margin} is replaced by the value of that setting.
 REMOVALS = [
     ("uprightness: patches up to 60° steep", ["acceptance.upright_angle=30"]),
-    ("contrast of patches", ["acceptance.max_clutter_ratio=inf"]),
-    ("cone", ["acceptance.max_height=1000"]),
+    ("clutter ratio of patches", ["acceptance.max_clutter_ratio=inf"]),
+    ("height limit", ["acceptance.max_height=1000"]),
     ("consistency with nearer patches", ["acceptance.max_step=inf"]),
     ("all refinement: the coarse surface alone", ["refinement.levels=0"]),
-    ("cells of 1 m and less", ["refinement.levels=1"]),
-    ("cells of 0.5 m and less", ["refinement.levels=2"]),
+    ("cells of 1 m and smaller", ["refinement.levels=1"]),
+    ("cells of 0.5 m and smaller", ["refinement.levels=2"]),
     ("cells of 0.25 m", ["refinement.levels=3"]),
-    ("contrast of cells", ["refinement.max_clutter_ratio=inf"]),
+    ("clutter ratio of cells", ["refinement.max_clutter_ratio=inf"]),
     ("lower bound", ["refinement.lower_bound_weight=0"]),
     ("narrower gates on finer levels", ["refinement.gate_factor=1"]),
     ("smaller margin at obstacles", ["point.obstacle_margin={point.margin}"]),
@@ -190,7 +189,7 @@ REMOVALS = [
     ("noise below the surface", ["point.noise_depth=1000"]),
 ]
 
-# Settings are halved and doubled, except these.
+# Settings are halved and doubled, except these, which take the values listed.
 OTHER_VALUES = {
     "max_range": (50, 80),
     "acceptance.upright_angle": (40, 60),
@@ -200,14 +199,14 @@ OTHER_VALUES = {
 
 
 def difference(study, names, settings):
-    """F1 with settings less F1 without, over the scans of some sets."""
+    """F1 with `settings` minus F1 without, over the scans of some sets."""
     changed = [result for name in names for result in study.evaluate(name, settings=settings)]
     before = [result for name in names for result in study.evaluate(name)]
     return paired(per_scan(changed, "surface"), per_scan(before, "surface"), "f1")
 
 
 def level_of(study, name):
-    """F1 of a set, mean over scans."""
+    """Mean F1 of a set."""
     return mean_of([scan["f1"] for scan in per_scan(study.evaluate(name), "surface")["per_scan"]])
 
 
@@ -249,9 +248,9 @@ def measure_settings(study):
 
 
 def ablation_table(results, titles, simulated):
-    """Over the real scans, or the simulated ones."""
+    """The ablation on the real or the simulated scans."""
     names = [name for name, scans in titles.items() if scans["simulated"] == simulated]
-    whole = ["F1 of the whole method", "", *(with_interval(results["whole"][name]) for name in names)]
+    whole = ["nothing: F1 of the full method", "", *(with_interval(results["whole"][name]) for name in names)]
     rows = [
         [
             row["part"],
@@ -260,7 +259,7 @@ def ablation_table(results, titles, simulated):
         ]
         for row in results["rows"]
     ]
-    head = ["without", "that is", *(titles[name]["title"] for name in names)]
+    head = ["removed part", "setting", *(titles[name]["title"] for name in names)]
     return table(head, [whole, *rows], left=2)
 
 
@@ -274,11 +273,11 @@ def effects_table(results, titles):
         ]
         for row in results["rows"]
     ]
-    head = ["setting", "changed", *(titles[name]["title"] for name in names[:-1]), "simulated"]
+    head = ["setting", "change", *(titles[name]["title"] for name in names[:-1]), "simulated"]
     return table(head, rows, left=2)
 
 
-# --- accuracy beside `patchwork` and the baselines, by range and by area; heights -----------------------------
+# --- accuracy compared with `patchwork` and the baselines, by range and per BEV cell; heights -------------------
 
 COMPARED_METHODS = ["surface", "patchwork", "ransac", "gpf", "line_fit", "cascaded", "r_gpf", "r_gpf+u"]
 BANDS = ["0–10 m", "10–20 m", "20–40 m", "40–80 m"]
@@ -286,7 +285,7 @@ HEIGHT_BANDS = [(0, 20), (20, 40), (40, 80)]
 
 
 def measure_accuracy(study):
-    """By set of scans: `methods`, and by how much `surface` exceeds `patchwork`."""
+    """For each scan set: the metrics of all methods, and `surface` minus `patchwork`."""
     found = {}
     for name in study.sets:
         show_progress(f"accuracy {len(found) + 1} of {len(study.sets)}: {name}")
@@ -304,8 +303,8 @@ def method_row(results, method):
     scans = per_scan(results, method)["per_scan"]
     return {
         "name": method,
-        **{figure: mean_of([scan[figure] for scan in scans]) for figure in ("precision", "recall", "f1", "iou")},
-        # Pooled over the scans that were evaluated together, then the mean.
+        **{metric: mean_of([scan[metric] for scan in scans]) for metric in ("precision", "recall", "f1", "iou")},
+        # Micro-average over the scans that were evaluated together, then the mean.
         "by_range": [mean_if_any([entry["by_range"][band]["f1"] for entry in entries]) for band in range(len(BANDS))],
         "by_area": mean_if_any([entry["by_area"]["f1"] for entry in entries]),
     }
@@ -317,16 +316,16 @@ def mean_if_any(values):
 
 
 def over_patchwork(results):
-    ours, theirs = (per_scan(results, method) for method in ("surface", "patchwork"))
-    f1 = {scan["scan"]: scan["f1"] for scan in theirs["per_scan"]}
+    surface, patchwork = (per_scan(results, method) for method in ("surface", "patchwork"))
+    f1 = {scan["scan"]: scan["f1"] for scan in patchwork["per_scan"]}
     return {
-        **{figure: paired(ours, theirs, figure) for figure in ("precision", "recall", "f1")},
-        "better": sum(scan["f1"] > f1[scan["scan"]] for scan in ours["per_scan"]),
+        **{metric: paired(surface, patchwork, metric) for metric in ("precision", "recall", "f1")},
+        "better": sum(scan["f1"] > f1[scan["scan"]] for scan in surface["per_scan"]),
     }
 
 
 def measure_heights(study):
-    """By simulated scene: errors of heights, of points of the ground and of all."""
+    """For each simulated scene: height errors of ground points and of all points."""
     found = {}
     for name, scans in study.sets.items():
         if not scans.simulated:
@@ -343,7 +342,7 @@ def measure_heights(study):
 
 
 def accuracy_tables(results, titles):
-    """One table a set of scans, and the differences to `patchwork` over all of them."""
+    """One table for each scan set, and the differences from `patchwork` on all sets."""
     found = {}
     for name, title in titles.items():
         found[f"accuracy-{name}"] = accuracy_table(results[name], title["title"], results["made_by"])
@@ -365,7 +364,7 @@ def accuracy_table(result, title, made_by):
         ]
         for method in result["methods"]
     ]
-    head = [title, "P", "R", "F1 ± 95 %", "IoU", *BANDS, "by area"]
+    head = [title, "P", "R", "F1 ± 95 %", "IoU", *BANDS, "BEV cells"]
     commands = "\n".join(f"    {command}" for command in result["commands"])
     scans = result["over_patchwork"]["f1"]["scans"]
     return f"{table(head, rows)}\n\n{scans} scans, {made_by['date']}, {made_by['machine']}:\n\n{commands}"
@@ -382,15 +381,15 @@ def over_patchwork_table(results, titles):
         rows.append(
             [
                 title["title"],
-                *(percentage_points(over[figure]) for figure in ("precision", "recall", "f1")),
+                *(percentage_points(over[metric]) for metric in ("precision", "recall", "f1")),
                 f"{over['better']} of {over['f1']['scans']}",
             ]
         )
-    return table(["`surface` less `patchwork`, points", "P", "R", "F1", "F1 better in"], rows)
+    return table(["`surface` minus `patchwork`", "P", "R", "F1", "scans with higher F1"], rows)
 
 
 def heights_table(results, titles, points):
-    """Of points of the `ground`, or `everywhere`."""
+    """Height errors. `points` is `ground` (ground points only) or `everywhere`."""
     rows = []
     for name, title in titles.items():
         if not title["simulated"]:
@@ -401,17 +400,17 @@ def heights_table(results, titles, points):
             [
                 title["title"],
                 *(
-                    centimetres(bands[band][figure]["mean"])
+                    centimetres(bands[band][metric]["mean"])
                     for band in HEIGHT_BANDS
-                    for figure in ("median", "percentile95", "bias")
+                    for metric in ("median", "percentile95", "bias")
                 ),
                 percent(heights["with_height"], 1),
             ]
         )
     head = [
-        "cm",
+        "height error, cm",
         *(text for low, high in HEIGHT_BANDS for text in (f"{low}–{high} m: median", "95 %", "bias")),
-        "with a height, %",
+        "points with a height, %",
     ]
     return table(head, rows)
 
@@ -420,16 +419,16 @@ def centimetres(metres):
     return "–" if metres is None else f"{100 * metres:.1f}"
 
 
-# --- which points `surface` gets wrong: their classes, and how high they truly lie above the ground -----------
+# --- wrong points by class and by true height -----------------------------------------------------------------
 
-MOST_CLASSES = 5  # named of each kind of error
+MAX_CLASSES = 5  # listed for each kind of error
 
-# Bands of true height above the ground, metres: upper ends.
+# Upper limits of the bands of true height above the ground, metres.
 TRUE_HEIGHT_BANDS = (-0.1, 0.05, 0.1, 0.15, 0.2, 0.3)
 
 
 def scans_by_set(study):
-    """Set -> (what `flagstone segment` takes, where the labels are, classes.json)."""
+    """By set: arguments of `flagstone segment`, label files, contents of classes.json."""
     real = pathlib.Path(study.directories["$FLAGSTONE_DATA"])
     sets = {
         "kitti": (
@@ -449,15 +448,15 @@ def scans_by_set(study):
 
 
 def measure_errors(study):
-    """By real set: wrong points by class, as shares of the true ground points; vegetation of KITTI is not scored."""
+    """For each real set: wrong points by class, as fractions of the ground points. KITTI's vegetation is not scored."""
     found = {}
     for name, (inputs, label_files, classes) in scans_by_set(study).items():
         show_progress(f"errors on {name}")
         ignored = {*classes["ignored"], *([70] if name == "kitti" else [])}
-        with tempfile.TemporaryDirectory(prefix="flagstone-errors-") as place:
+        with tempfile.TemporaryDirectory(prefix="flagstone-errors-") as directory:
             for arguments in inputs:
-                study.call(f"flagstone segment {arguments} --method surface{set_options(study)} --output {place}")
-            found[name] = errors_by_class(pathlib.Path(place), label_files, classes, ignored)
+                study.call(f"flagstone segment {arguments} --method surface{set_options(study)} --output {directory}")
+            found[name] = errors_by_class(pathlib.Path(directory), label_files, classes, ignored)
     return found
 
 
@@ -465,7 +464,7 @@ def set_options(study):
     return "".join(f" --set {setting}" for setting in study.settings)
 
 
-def errors_by_class(folder, label_files, classes, ignored):
+def errors_by_class(directory, label_files, classes, ignored):
     import numpy as np
 
     wrong, missed, ground_points = {}, {}, 0
@@ -473,7 +472,7 @@ def errors_by_class(folder, label_files, classes, ignored):
         name = file.name.removesuffix("_lidarseg.bin").removesuffix(".label")
         is_bytes = file.name.endswith("_lidarseg.bin")
         truth = np.fromfile(file, "u1" if is_bytes else "<u4").astype(np.uint32) & 0xFFFF
-        ours = np.fromfile(folder / f"{name}.label", "<u4") == 1
+        ours = np.fromfile(directory / f"{name}.label", "<u4") == 1
         is_ground = np.isin(truth, classes["ground"])
         scored = ~np.isin(truth, list(ignored))
         ground_points += int(is_ground.sum())
@@ -481,36 +480,36 @@ def errors_by_class(folder, label_files, classes, ignored):
             for number, count in zip(*np.unique(truth[chosen], return_counts=True)):
                 counts[int(number)] = counts.get(int(number), 0) + int(count)
 
-    def shares(counts):
+    def fractions(counts):
         names = classes["names"]
-        ranked = sorted(counts.items(), key=lambda entry: -entry[1])[:MOST_CLASSES]
+        ranked = sorted(counts.items(), key=lambda entry: -entry[1])[:MAX_CLASSES]
         return {
             "all": sum(counts.values()) / ground_points,
             "classes": {names.get(str(number), str(number)): count / ground_points for number, count in ranked},
         }
 
-    return {"taken": shares(wrong), "missed": shares(missed), "ground_points": ground_points}
+    return {"taken": fractions(wrong), "missed": fractions(missed), "ground_points": ground_points}
 
 
 def measure_true_heights(study):
-    """By simulated scene: points taken for ground that are none, by their true height, as shares of the ground."""
+    """For each simulated scene: false ground points by true height, as fractions of the ground points."""
     import numpy as np
 
     found = {}
     for number, scene in enumerate(SCENES):
         show_progress(f"errors by height, {scene}")
-        folder = study.work / "simulated" / "sequences" / f"{number:02}"
-        scans = sorted((folder / "velodyne").glob("*0.bin"))  # the first of each drive
+        directory = study.work / "simulated" / "sequences" / f"{number:02}"
+        scans = sorted((directory / "velodyne").glob("*0.bin"))  # the first of each simulated run
         bands = np.zeros(len(TRUE_HEIGHT_BANDS) + 1)
         ground_points = missed = 0
-        with tempfile.TemporaryDirectory(prefix="flagstone-errors-") as place:
+        with tempfile.TemporaryDirectory(prefix="flagstone-errors-") as directory:
             files = " ".join(f"$WORK/simulated/sequences/{number:02}/velodyne/{scan.name}" for scan in scans)
-            study.call(f"flagstone segment {files} --method surface{set_options(study)} --output {place}")
+            study.call(f"flagstone segment {files} --method surface{set_options(study)} --output {directory}")
             for scan in scans:
                 height = np.fromfile(scan, "<f4").reshape(-1, 4)[:, 2]
-                height = height - np.load(folder / "ground" / f"{scan.stem}.ground.npy")
-                truth = np.fromfile(folder / "labels" / f"{scan.stem}.label", "<u4")
-                ours = np.fromfile(pathlib.Path(place) / f"{scan.stem}.label", "<u4") == 1
+                height = height - np.load(directory / "ground" / f"{scan.stem}.ground.npy")
+                truth = np.fromfile(directory / "labels" / f"{scan.stem}.label", "<u4")
+                ours = np.fromfile(pathlib.Path(directory) / f"{scan.stem}.label", "<u4") == 1
                 is_ground = np.isin(truth & 0xFFFF, (40, 44, 48, 49, 60, 72))
                 taken = ours & ~is_ground & np.isfinite(height)
                 bands += np.bincount(np.searchsorted(TRUE_HEIGHT_BANDS, height[taken]), minlength=len(bands))
@@ -525,12 +524,12 @@ def errors_table(results, titles):
     for name, title in titles.items():
         kinds = [results[name][kind] for kind in ("taken", "missed")]
         rows.append([title, *(text for kind in kinds for text in (percent(kind["all"]), class_list(kind["classes"])))])
-    head = ["% of ground points", "taken for ground", "of these", "missed", "of these"]
+    head = ["% of ground points", "false ground", "by class", "missed ground", "by class"]
     return table(head, rows)
 
 
-def class_list(shares):
-    return ", ".join(f"{name} {percent(share)}" for name, share in shares.items())
+def class_list(fractions):
+    return ", ".join(f"{name} {percent(fraction)}" for name, fraction in fractions.items())
 
 
 def true_heights_table(results):
@@ -550,46 +549,46 @@ def true_heights_table(results):
         for scene, row in results.items()
         if scene in SCENES
     ]
-    return table(["% of ground points", "taken for ground", *bands, "missed"], rows)
+    return table(["% of ground points", "false ground", *bands, "missed ground"], rows)
 
 
-# --- what a sensor that stands otherwise, or sees less than the methods are told, costs -----------------------
+# --- robustness: perturbed scans -------------------------------------------------------------------------------
 
-# Every disturbed copy of a scan is scored beside the labels that the same method gave to the same points of the
-# whole, undisturbed scan: what differs is due to the disturbance, not to which points are left.
+# Each perturbed copy of a scan is compared with the labels that the same method gave to the same points of the
+# unperturbed scan. The differences are therefore due to the perturbation, not to the selection of points.
 
-DISTURBED_METHODS = ("surface", "patchwork")
+PERTURBED_METHODS = ("surface", "patchwork")
 
 
 def measure_robustness(study):
-    # Not above: tables are written and checked without NumPy.
-    from surface_disturbances import DISTURBANCES, HEIGHT, write_copies
+    # Imports NumPy, which `page` and `check` do not need.
+    from surface_perturbations import HEIGHT, PERTURBATIONS, write_copies
 
-    with tempfile.TemporaryDirectory(prefix="flagstone-robustness-") as place:
-        place = pathlib.Path(place)
-        for method in DISTURBED_METHODS:
+    with tempfile.TemporaryDirectory(prefix="flagstone-robustness-") as directory:
+        directory = pathlib.Path(directory)
+        for method in PERTURBED_METHODS:
             settings = "".join(f" --set {setting}" for setting in study.settings if method == "surface")
             study.call(
                 f"flagstone segment $WORK/kitti/velodyne --method {method} --sensor-height {HEIGHT}{settings}"
-                f" --output {place}/before/{method}"
+                f" --output {directory}/before/{method}"
             )
         rows = []
-        for number, disturbance in enumerate(DISTURBANCES):
-            show_progress(f"robustness {number + 1} of {len(DISTURBANCES)}: {disturbance.name}")
-            folder = place / f"disturbed-{number}"
-            write_copies(study.work / "kitti", place / "before", DISTURBED_METHODS, disturbance.disturb, folder)
-            arguments = f"{folder} --protocol patchwork++ --sensor-height {disturbance.sensor_height:g}"
-            arguments += "".join(f" --labels before-{method}={folder / method}" for method in DISTURBED_METHODS)
-            result = study.evaluate_command(study.command(arguments, DISTURBED_METHODS))
-            rows.append({"disturbance": disturbance.name, **row_of(result)})
+        for number, perturbation in enumerate(PERTURBATIONS):
+            show_progress(f"robustness {number + 1} of {len(PERTURBATIONS)}: {perturbation.name}")
+            copies = directory / f"perturbed-{number}"
+            write_copies(study.work / "kitti", directory / "before", PERTURBED_METHODS, perturbation.perturb, copies)
+            arguments = f"{copies} --protocol patchwork++ --sensor-height {perturbation.sensor_height:g}"
+            arguments += "".join(f" --labels before-{method}={copies / method}" for method in PERTURBED_METHODS)
+            result = study.evaluate_command(study.command(arguments, PERTURBED_METHODS))
+            rows.append({"perturbation": perturbation.name, **row_of(result)})
     return {"rows": rows}
 
 
 def row_of(result):
-    """By method: F1 and by how much it differs from that of the undisturbed scan."""
+    """For each method: F1, and its difference from the F1 of the unperturbed scan."""
     methods = {method["name"]: method for method in result["methods"]}
     row = {}
-    for method in DISTURBED_METHODS:
+    for method in PERTURBED_METHODS:
         now, before = methods[method], methods[f"before-{method}"]
         differences = {scan["scan"]: scan["f1"] for scan in now["per_scan"]}
         for scan in before["per_scan"]:
@@ -605,10 +604,10 @@ def row_of(result):
 def robustness_table(results):
     rows = [
         [
-            row["disturbance"],
+            row["perturbation"],
             *(
                 text
-                for method in DISTURBED_METHODS
+                for method in PERTURBED_METHODS
                 for text in (
                     percent(row[method]["f1"]["mean"]),
                     percentage_points(row[method]["difference"]),
@@ -619,15 +618,15 @@ def robustness_table(results):
         for row in results["rows"]
     ]
     head = [
-        "disturbed",
-        *(text for method in DISTURBED_METHODS for text in (f"`{method}`: F1", "change", "worst scan")),
+        "perturbation",
+        *(text for method in PERTURBED_METHODS for text in (f"`{method}`: F1", "change", "worst scan")),
     ]
     return table(head, rows)
 
 
 # --- the study ------------------------------------------------------------------------------------------------
 
-# What is measured, by name: makes results that JSON can hold.
+# Functions that return results that can be written as JSON.
 MEASUREMENTS = {
     "ablation": measure_ablation,
     "settings": measure_settings,
@@ -641,7 +640,7 @@ ON_REAL_SCANS_ALONE = {"errors", "robustness"}
 
 
 def tables(results):
-    """Every table of what was measured, by name."""
+    """All tables of the results, by name."""
     sets = results["sets"]
     found = {}
     if "ablation" in results:
@@ -665,7 +664,7 @@ def tables(results):
 
 
 def measure(options):
-    """Results by name, and of which sets of scans."""
+    """Results by name, and the scan sets."""
     study = Study(options.work, options.flagstone, getattr(options, "set", ()))
     names = options.only
     if set(names) - ON_REAL_SCANS_ALONE:
@@ -682,9 +681,9 @@ def measure(options):
 
 
 def changed_defaults(results, flagstone):
-    """Settings of `surface` whose defaults are not those that were measured."""
-    with tempfile.TemporaryDirectory(prefix="flagstone-defaults-") as place:
-        defaults = surface_settings(Runs(pathlib.Path(place), flagstone))
+    """Settings of `surface` whose defaults have changed since the results were measured."""
+    with tempfile.TemporaryDirectory(prefix="flagstone-defaults-") as directory:
+        defaults = surface_settings(Runs(pathlib.Path(directory), flagstone))
     measured = {row["setting"]: row["default"] for row in results["settings"]["rows"]}
     return [
         f"{key} is {defaults.get(key, 'unknown')}, measured with {measured.get(key)}"

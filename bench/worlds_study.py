@@ -189,7 +189,7 @@ def settings_tables(results):
 SENSOR = "hdl-64e"
 HEIGHT = SENSORS[SENSOR]
 TILT = math.radians(20)
-PEER = "pypatchworkpp-patchworkpp"
+TOOL = "pypatchworkpp-patchworkpp"
 
 # What makes points below the ground noise, switched off.
 WITHOUT_NOISE_RULES = (
@@ -266,7 +266,7 @@ FAULTS = [
 def measure_faults(runs):
     simulate(runs, SENSOR, SCENES, f"worlds/{SENSOR}")
     simulate(runs, SENSOR, SCENES, f"worlds/{SENSOR}-wet", " --weather wet")
-    has_peer = importlib.util.find_spec("pypatchworkpp") is not None
+    has_tool = importlib.util.find_spec("pypatchworkpp") is not None
     rows = []
     for number, fault in enumerate(FAULTS):
         show_progress(f"fault {number + 1} of {len(FAULTS)}: {fault.name}")
@@ -280,8 +280,8 @@ def measure_faults(runs):
             for part in ("before", "after"):
                 options = getattr(fault, part)
                 row[part] = f1_of(runs, folder, options) if options else None
-            if has_peer:
-                row["peer"] = f1_of_peer(runs, folder, pathlib.Path(place) / "peers")
+            if has_tool:
+                row["external"] = f1_of_tool(runs, folder, pathlib.Path(place) / "external")
             rows.append(row)
     return {"rows": rows}
 
@@ -311,16 +311,16 @@ def f1_of(runs, folder, options):
     return {method["name"]: mean_f1(method) for method in runs.evaluate_command(command)["methods"]}
 
 
-def f1_of_peer(runs, folder, labels):
+def f1_of_tool(runs, folder, labels):
     """None if it does not survive the scans."""
     done = subprocess.run(
-        [sys.executable, ROOT / "bench" / "peers.py", folder, "--output", labels, "--peers", PEER],
+        [sys.executable, ROOT / "bench" / "external_tools.py", folder, "--output", labels, "--tools", TOOL],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
     if done.returncode != 0:
         return None
-    command = f"flagstone eval {folder} --protocol simulation --methods none --labels {PEER}={labels / PEER}"
+    command = f"flagstone eval {folder} --protocol simulation --methods none --labels {TOOL}={labels / TOOL}"
     return mean_f1(runs.evaluate_command(command)["methods"][0])
 
 
@@ -330,7 +330,7 @@ def faults_tables(results):
         cells = [
             percent(row[part][method] if row[part] else None) for method in METHODS for part in ("before", "after")
         ]
-        peer = percent(row["peer"]) if row.get("peer") is not None else "–"
+        peer = percent(row["external"]) if row.get("external") is not None else "–"
         rows.append([row["fault"], row["protection"], *cells, peer])
     head = [
         "fault",

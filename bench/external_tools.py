@@ -1,15 +1,15 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Runs other people's ground segmentation over a dataset and writes their labels for `flagstone eval --labels`.
+"""Runs other implementations of ground segmentation over a dataset and writes labels for `flagstone eval --labels`.
 
     python3 -m pip install numpy pypatchworkpp==1.4.1 open3d cloth-simulation-filter
-    python3 bench/peers.py DATASET --output /tmp/peers
+    python3 bench/external_tools.py DATASET --output /tmp/external
 
-The last line printed is the command that scores them beside our methods. Packages that are not installed are
-left out, and said so. Datasets are those of `flagstone eval`: a tree of sequences/NN/velodyne, a folder with
-velodyne/, or NAME.pcd.bin files. Every peer runs with its own defaults on one core, after one scan to warm up;
-its labels are uint32, 1 for ground, in the order of the scan. Timed is the peer alone, from points in its own
-form to the indices of ground points.
+The last line printed is the command that scores the labels together with flagstone's methods. Packages that are not
+installed are listed and skipped. Datasets are those of `flagstone eval`: sequences/NN/velodyne, velodyne/ or
+NAME.pcd.bin files. Every tool runs with its own defaults on one core, after one scan to warm up. Label files contain
+one uint32 per point, 1 for ground, in the order of the scan. The time measured is that of the tool alone, from points in
+its own format to the indices of ground points.
 """
 
 import argparse
@@ -22,26 +22,26 @@ import sys
 import time
 import typing
 
-os.environ.setdefault("OMP_NUM_THREADS", "1")  # before any of the packages is loaded
+os.environ.setdefault("OMP_NUM_THREADS", "1")  # must be set before the packages are loaded
 
 import numpy as np
 
 
-class Peer(typing.NamedTuple):
-    """A program to compare with."""
+class ExternalTool(typing.NamedTuple):
+    """An implementation to compare with."""
 
-    convert: typing.Callable  # points (N, 4), float32: x, y, z, intensity -> the same as the peer holds them
-    prepare: typing.Callable  # () -> a function of what convert() returns that finds indices of ground points
+    convert: typing.Callable  # points (N, 4), float32: x, y, z, intensity -> the format of the tool
+    prepare: typing.Callable  # () -> function from converted points to indices of ground points
 
 
-def pypatchworkpp_peer(method, sensor_height):
+def pypatchworkpp_tool(method, sensor_height):
     package = importlib.import_module("pypatchworkpp")
     classes = {
         "patchwork": (package.PatchworkParams, package.patchwork),
         "patchworkpp": (package.Parameters, package.patchworkpp),
     }
 
-    def prepare():  # anew for every scan: patchworkpp adapts itself to earlier ones
+    def prepare():  # a new segmenter for each scan, because patchworkpp adapts to earlier scans
         make_parameters, make = classes[method]
         parameters = make_parameters()
         parameters.sensor_height = sensor_height
@@ -54,11 +54,11 @@ def pypatchworkpp_peer(method, sensor_height):
 
         return ground
 
-    return Peer(np.asfortranarray, prepare)  # it keeps points by columns
+    return ExternalTool(np.asfortranarray, prepare)  # pypatchworkpp stores points by columns
 
 
 def open3d_ransac(_sensor_height):
-    """The largest plane: threshold 0.2 m, like flagstone's own RANSAC, and 1,000 trials."""
+    """The largest plane: threshold 0.2 m, as in flagstone's RANSAC, and 1,000 iterations."""
     open3d = importlib.import_module("open3d")
 
     def cloud_of(points):
@@ -69,12 +69,12 @@ def open3d_ransac(_sensor_height):
         _, inliers = cloud.segment_plane(distance_threshold=0.2, ransac_n=3, num_iterations=1000)
         return inliers
 
-    return Peer(cloud_of, lambda: ground)
+    return ExternalTool(cloud_of, lambda: ground)
 
 
 def cloth_simulation(_sensor_height):
     """W. Zhang et al., "An Easy-to-Use Airborne LiDAR Data Filtering Method Based on Cloth Simulation",
-    Remote Sensing 8(6), 2016; cells of 0.5 m, which suit streets."""
+    Remote Sensing 8(6), 2016. Cells of 0.5 m, which suit streets."""
     package = importlib.import_module("CSF")
 
     def ground(points):
@@ -86,19 +86,19 @@ def cloth_simulation(_sensor_height):
         csf.do_filtering(found, others, False)
         return np.array(found, int)
 
-    return Peer(lambda points: points, lambda: ground)
+    return ExternalTool(lambda points: points, lambda: ground)
 
 
-PEERS = {
-    "pypatchworkpp-patchwork": lambda height: pypatchworkpp_peer("patchwork", height),
-    "pypatchworkpp-patchworkpp": lambda height: pypatchworkpp_peer("patchworkpp", height),
+TOOLS = {
+    "pypatchworkpp-patchwork": lambda height: pypatchworkpp_tool("patchwork", height),
+    "pypatchworkpp-patchworkpp": lambda height: pypatchworkpp_tool("patchworkpp", height),
     "open3d-ransac": open3d_ransac,
     "csf": cloth_simulation,
 }
 
 
 def scans_of(dataset, sequences, every):
-    """Pairs of a scan's name, as `flagstone eval` has it, and its file."""
+    """Pairs of the name of a scan, as in `flagstone eval`, and its file."""
     if (dataset / "sequences").is_dir():
         names = sequences or sorted(p.name for p in (dataset / "sequences").iterdir())
         for name in names:
@@ -119,49 +119,49 @@ def read(file):
 
 @contextlib.contextmanager
 def silence():
-    """Sends what the packages print to nowhere; they print from C++."""
+    """Discards standard output, to which the packages print from C++."""
     sys.stdout.flush()
-    kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)
+    saved, null = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 1)
     try:
         yield
     finally:
-        os.dup2(kept, 1)
-        os.close(kept)
-        os.close(nowhere)
+        os.dup2(saved, 1)
+        os.close(saved)
+        os.close(null)
 
 
 def usable_points(points):
-    """Which points have a place; no others are shown to a peer."""
+    """Indices of points with finite coordinates that are not all zero. Only these are passed to a tool."""
     return np.flatnonzero(np.isfinite(points[:, :3]).all(axis=1) & (points[:, :3] != 0).any(axis=1))
 
 
-def segment(peer, points):
-    """One code a point, and the seconds it took."""
+def segment(tool, points):
+    """One code per point, and the time in seconds."""
     usable = usable_points(points)
-    shown = peer.convert(points[usable])
+    converted = tool.convert(points[usable])
     with silence():
-        ground = peer.prepare()
+        ground = tool.prepare()
         start = time.perf_counter()
-        found = ground(shown)
+        found = ground(converted)
         seconds = time.perf_counter() - start
     codes = np.zeros(len(points), np.uint32)
     codes[usable[found]] = 1
     return codes, seconds
 
 
-def run(name, peer, scans, folder):
-    segment(peer, read(scans[0][1]))  # warm-up
+def run(name, tool, scans, directory):
+    segment(tool, read(scans[0][1]))  # warm-up
     times = []
     for i, (scan, file) in enumerate(scans):
-        codes, seconds = segment(peer, read(file))
+        codes, seconds = segment(tool, read(file))
         times.append(seconds)
-        out = folder / f"{scan}.label"
+        out = directory / f"{scan}.label"
         out.parent.mkdir(parents=True, exist_ok=True)
         codes.tofile(out)
         if sys.stderr.isatty():
             print(f"\r{name}: {i + 1} of {len(scans)} scans", end="", file=sys.stderr)
-    slowest = np.sort(times)[-max(1, len(times) // 100) :]  # at least one
+    slowest = np.sort(times)[-max(1, len(times) // 100) :]
     if sys.stderr.isatty():
         print("\r\x1b[K", end="", file=sys.stderr)
     print(
@@ -174,30 +174,30 @@ def run(name, peer, scans, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("dataset", type=pathlib.Path)
-    parser.add_argument("--output", type=pathlib.Path, required=True, help="a folder per peer is made in it")
-    parser.add_argument("--peers", default=",".join(PEERS), help="which of them, default: %(default)s")
-    parser.add_argument("--sensor-height", type=float, default=1.73, help="metres, default: %(default)s")
-    parser.add_argument("--sequences", default="", help="e.g. 05,10; default: all")
-    parser.add_argument("--every", type=int, default=1, help="one scan in N of each sequence")
+    parser.add_argument("--output", type=pathlib.Path, required=True, help="output directory; one subdirectory per tool")
+    parser.add_argument("--tools", default=",".join(TOOLS), help="tools to run (default: %(default)s)")
+    parser.add_argument("--sensor-height", type=float, default=1.73, help="metres (default: %(default)s)")
+    parser.add_argument("--sequences", default="", help="for example 05,10 (default: all)")
+    parser.add_argument("--every", type=int, default=1, help="every N-th scan of each sequence")
     options = parser.parse_args()
 
     sequences = [s for s in options.sequences.split(",") if s]
     scans = list(scans_of(options.dataset, sequences, options.every))
     if not scans:
-        sys.exit(f"{options.dataset}: no scan in sequences/NN/velodyne, velodyne/ or *.pcd.bin")
+        sys.exit(f"{options.dataset}: no scans (expected sequences/NN/velodyne, velodyne/ or *.pcd.bin)")
     if hasattr(os, "sched_setaffinity"):
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})  # one core
 
     labels = []
-    for name in options.peers.split(","):
-        if name not in PEERS:
-            sys.exit(f"--peers {name}: allowed: {', '.join(PEERS)}")
+    for name in options.tools.split(","):
+        if name not in TOOLS:
+            sys.exit(f"--tools: unknown tool {name!r} (expected {', '.join(TOOLS)})")
         try:
-            peer = PEERS[name](options.sensor_height)
+            tool = TOOLS[name](options.sensor_height)
         except ImportError as error:
-            print(f"{name:<26} left out: {error}")
+            print(f"{name:<26} skipped: {error}")
             continue
-        run(name, peer, scans, options.output / name)
+        run(name, tool, scans, options.output / name)
         labels += ["--labels", f"{name}={options.output / name}"]
     command = ["flagstone", "eval", str(options.dataset)]
     command += ["--sequences", options.sequences] if options.sequences else []
