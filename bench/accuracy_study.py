@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Measures presets, settings derived from a sensor, and estimated height and tilt: tables of docs/benchmarks/accuracy.md.
+"""Measures presets, derived settings, and estimated height and tilt: tables of docs/benchmarks/accuracy.md.
 
     python3 bench/accuracy_study.py run --work /tmp/study                # all of it, about five minutes
     python3 bench/accuracy_study.py run --work /tmp/study --only mount   # one part; the other results are kept
@@ -80,7 +80,9 @@ def measure_presets(study):
 
 def rows_of_package(study, sets):
     labels = [f"{PACKAGE}-{name}" for name in CLASSES]
-    study.call(f"{sys.executable} bench/external_tools.py $WORK/kitti --output $WORK/external --tools {','.join(labels)}")
+    study.call(
+        f"{sys.executable} bench/external_tools.py $WORK/kitti --output $WORK/external --tools {','.join(labels)}"
+    )
     rows = [{"title": f"{PACKAGE} 1.4.1, class `{name}`", "sets": {}} for name in CLASSES]
     for name in ("kitti/patchwork", "kitti/patchwork++"):
         scans, own = sets.arguments[name][0]

@@ -6,10 +6,10 @@
     python3 bench/external_tools.py DATASET --output /tmp/external
 
 The last line printed is the command that scores the labels together with flagstone's methods. Packages that are not
-installed are listed and skipped. Datasets are those of `flagstone eval`: sequences/NN/velodyne, velodyne/ or
+installed are listed and skipped. Datasets are the same as for `flagstone eval`: sequences/NN/velodyne, velodyne/ or
 NAME.pcd.bin files. Every tool runs with its own defaults on one core, after one scan to warm up. Label files contain
-one uint32 per point, 1 for ground, in the order of the scan. The time measured is that of the tool alone, from points in
-its own format to the indices of ground points.
+one uint32 per point, 1 for ground, in the order of the scan. The timed part begins with points in the tool's own format
+and ends with the indices of ground points.
 """
 
 import argparse
@@ -174,7 +174,9 @@ def run(name, tool, scans, directory):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("dataset", type=pathlib.Path)
-    parser.add_argument("--output", type=pathlib.Path, required=True, help="output directory; one subdirectory per tool")
+    parser.add_argument(
+        "--output", type=pathlib.Path, required=True, help="output directory; one subdirectory per tool"
+    )
     parser.add_argument("--tools", default=",".join(TOOLS), help="tools to run (default: %(default)s)")
     parser.add_argument("--sensor-height", type=float, default=1.73, help="metres (default: %(default)s)")
     parser.add_argument("--sequences", default="", help="for example 05,10 (default: all)")

@@ -10,8 +10,8 @@ The worker first prints one line: "ready", or the error that stops it. It then r
     run K           one line, answered with the line "NANOSECONDS GROUND": the time for scan K, counted from 0 in the
                     order received, and the number of ground points
 
-It ends at the end of the input. If an error occurs, the answer is a line with the error. The tool keeps one segmenter for
-all scans; only pypatchworkpp's patchworkpp carries state from one scan to the next.
+It ends at the end of the input. If an error occurs, the answer is a line with the error. The tool keeps one segmenter
+for all scans; only pypatchworkpp's patchworkpp carries state from one scan to the next.
 """
 
 import os

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// PCL's plane RANSAC as a worker of `flagstone bench --compare`; bench/peer_worker.py says how they
+// PCL's plane RANSAC as a worker of `flagstone bench --compare`; bench/external_worker.py says how they
 // talk. The threshold is that of flagstone's own RANSAC, 0.2 m; 1,000 trials at most; the rest are
 // PCL's defaults.
 #include <pcl/ModelCoefficients.h>

@@ -15,8 +15,8 @@ OTHER_OBJECT = 99  # a class that the protocol scores as non-ground
 class Perturbation(typing.NamedTuple):
     """A change of a scan and the sensor height that the methods are given, metres.
 
-    `perturb(points (N, 4), classes (N,), random)` returns points, classes and, for each point, its index in the original
-    scan, or -1 for an added point.
+    `perturb(points (N, 4), classes (N,), random)` returns points, classes and, for each point, its index in the
+    original scan, or -1 for an added point.
     """
 
     name: str

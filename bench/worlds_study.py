@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Measures the methods in every simulated world with every sensor, and writes the tables of docs/benchmarks/robustness.md.
+"""Measures both methods in every simulated scene with every sensor: tables of docs/benchmarks/robustness.md.
 
-    python3 bench/worlds_study.py run --work /tmp/worlds                  # all of it
-    python3 bench/worlds_study.py run --work /tmp/worlds --only faults
-    python3 bench/worlds_study.py page                                    # tables and picture, from docs/results/worlds.json
-    python3 bench/worlds_study.py check                                   # are the page's tables those of the results?
+    python3 bench/worlds_study.py run --work /tmp/scenes                # all of it
+    python3 bench/worlds_study.py run --work /tmp/scenes --only faults  # one part; the other results are kept
+    python3 bench/worlds_study.py page                                  # tables and image from docs/results/worlds.json
+    python3 bench/worlds_study.py check                                 # do the tables match the results?
 
-`run` wants the command built (build/flagstone). The first time it simulates all worlds in the work folder (some
-GB, half an hour on two cores); later runs keep them. `faults` wants NumPy, the picture wants Matplotlib.
+`run` needs the command (build/flagstone). It simulates all scenes in the work directory (8 GB, half an hour on two
+cores), or reuses those that are there. `faults` needs NumPy, the image needs Matplotlib.
 """
 
 import importlib.util
@@ -24,7 +24,7 @@ from study import ROOT, Runs, main, percent, rounded, show_progress, table
 
 PAGES = (ROOT / "docs" / "benchmarks" / "robustness.md",)
 RESULTS = ROOT / "docs" / "results" / "worlds.json"
-PICTURE = ROOT / "docs" / "images" / "worlds-f1.png"
+IMAGE = ROOT / "docs" / "images" / "worlds-f1.png"
 
 SCENES = [
     "flat_street",
@@ -46,7 +46,7 @@ SCENES = [
     "construction_site",
     "indoor_hall",
 ]
-# In the order of the tables, with the height that each stands at in its file, metres.
+# In the order of the tables, with the mounting height of each sensor file, metres.
 SENSORS = {
     "hdl-64e": 1.73,
     "pandar64": 1.9,
@@ -58,37 +58,37 @@ SENSORS = {
     "livox-avia": 1.5,
 }
 METHODS = ("patchwork", "surface")
-FRAMES = 20  # of each scene, by each sensor: two worlds
+FRAMES = 20  # per scene and sensor: two scene instances of ten scans
 SEED = 11
 
 
-def simulate(runs, sensor, scenes, folder, options=""):
-    """One sequence a scene, numbered in the order of SCENES; what is there already is kept."""
+def simulate(runs, sensor, scenes, directory, options=""):
+    """Writes one sequence per scene, numbered in the order of SCENES. Existing scans are kept."""
     for scene in scenes:
         show_progress(f"simulating {scene} with {sensor}{options}")
         runs.call(
             f"flagstone simulate --scene {scene} --sensor {sensor} --frames {FRAMES} --seed {SEED}"
-            f" --output $WORK/{folder} --sequence {SCENES.index(scene):02}{options}"
+            f" --output $WORK/{directory} --sequence {SCENES.index(scene):02}{options}"
         )
 
 
-def by_scene(method, figure="f1"):
-    """Mean over the scans of each scene of one method's entry in an evaluation."""
+def by_scene(method, metric="f1"):
+    """Mean per scene of a metric in one method's entry of an evaluation."""
     found = {}
     for scan in method["per_scan"]:
         scene = SCENES[int(scan["scan"].split("/")[0])]
-        found.setdefault(scene, []).append(scan[figure])
+        found.setdefault(scene, []).append(scan[metric])
     return {scene: statistics.fmean(values) for scene, values in found.items()}
 
 
-# --- settings: plain, the sensor's preset, and the preset with height and tilt estimated --------------------
+# --- default settings, settings derived from the sensor, and height and tilt estimated ----------------------
 
-LEAST = 0.90  # F1 below this is a shortfall
-MOST_LOST = 0.005  # by estimating
+MIN_F1 = 0.90  # an F1 below this is listed as a shortfall
+MAX_LOSS = 0.005  # a larger loss of F1 by estimation is listed too
 
 
 def settings_of(sensor, height):
-    """Options of `flagstone eval` by the name of a column."""
+    """Options of `flagstone eval`, by column."""
     return {
         "plain": f"--sensor-height {height:g}",
         "preset": f"--sensor {sensor}",
@@ -100,30 +100,30 @@ def measure_settings(runs):
     sensors = {}
     commands = []
     for sensor, height in SENSORS.items():
-        simulate(runs, sensor, SCENES, f"worlds/{sensor}")
+        simulate(runs, sensor, SCENES, f"scenes/{sensor}")
         sensors[sensor] = {}
         for name, options in settings_of(sensor, height).items():
             show_progress(f"{sensor}, {name}")
-            command = f"flagstone eval $WORK/worlds/{sensor} --protocol patchwork++ {options}"
+            command = f"flagstone eval $WORK/scenes/{sensor} --protocol patchwork++ {options}"
             result = runs.evaluate_command(f"{command} --methods {','.join(METHODS)}")
             commands.append(result["command"])
             sensors[sensor][name] = {method["name"]: by_scene(method) for method in result["methods"]}
     return {"sensors": sensors, "commands": commands}
 
 
-def shown(value, is_short):
-    return f"**{value}**" if is_short else value
+def bold_if(condition, text):
+    return f"**{text}**" if condition else text
 
 
 def presets_table(results, method):
-    """Rows of scenes, columns of sensors; each cell: plain, then preset."""
+    """One row per scene, one column per sensor. Each cell: F1 with default, then with derived settings."""
     rows = []
     for scene in SCENES:
         cells = []
         for sensor in SENSORS:
             plain = results["sensors"][sensor]["plain"][method][scene]
             preset = results["sensors"][sensor]["preset"][method][scene]
-            cells.append(f"{percent(plain, 1)} → {shown(percent(preset, 1), preset < LEAST)}")
+            cells.append(f"{percent(plain, 1)} → {bold_if(preset < MIN_F1, percent(preset, 1))}")
         rows.append([f"`{scene}`", *cells])
     rows.append(
         [
@@ -140,27 +140,27 @@ def means(results, sensor, name, method):
 
 
 def estimated_table(results, method):
-    """What estimating height and tilt changes, points of F1."""
+    """Change of F1 by estimating height and tilt, percentage points."""
     rows = []
     for scene in SCENES:
         cells = []
         for sensor in SENSORS:
             of_sensor = results["sensors"][sensor]
             change = of_sensor["estimated"][method][scene] - of_sensor["preset"][method][scene]
-            cells.append(shown(f"{round(100 * change, 2) + 0.0:+.2f}", change < -MOST_LOST))
+            cells.append(bold_if(change < -MAX_LOSS, f"{round(100 * change, 2) + 0.0:+.2f}"))
         rows.append([f"`{scene}`", *cells])
     return table(["scene", *SENSORS], rows)
 
 
 def shortfalls(results):
-    """Where F1 with the preset is below LEAST, and where estimating costs more than MOST_LOST."""
+    """Scenes and sensors with an F1 below MIN_F1 with derived settings, or a loss by estimation above MAX_LOSS."""
     rows = []
     for method in METHODS:
         for scene in SCENES:
             for sensor in SENSORS:
                 of_sensor = results["sensors"][sensor]
                 plain, preset, estimated = (of_sensor[name][method][scene] for name in ("plain", "preset", "estimated"))
-                if preset >= LEAST and estimated >= preset - MOST_LOST:
+                if preset >= MIN_F1 and estimated >= preset - MAX_LOSS:
                     continue
                 rows.append(
                     [
@@ -170,7 +170,7 @@ def shortfalls(results):
                         *(percent(f1, 1) for f1 in (plain, preset, estimated)),
                     ]
                 )
-    return table(["method", "scene", "sensor", "plain", "preset", "estimated"], rows, left=3)
+    return table(["method", "scene", "sensor", "default", "derived", "estimated"], rows, left=3)
 
 
 def settings_tables(results):
@@ -181,17 +181,17 @@ def settings_tables(results):
     return found
 
 
-# --- faults: scans with a fault, before and after the protection against it ---------------------------------
+# --- faulty scans, without and with the protection against the fault ----------------------------------------
 #
-# Scans are those of one sensor in every scene. Under the protocol `simulation` every point counts, so that a
-# ghost that is called ground is an error.
+# One sensor in every scene. The protocol `simulation` scores every point, so a ghost point labelled ground is an
+# error.
 
 SENSOR = "hdl-64e"
 HEIGHT = SENSORS[SENSOR]
 TILT = math.radians(20)
 TOOL = "pypatchworkpp-patchworkpp"
 
-# What makes points below the ground noise, switched off.
+# Disables the rules that label points below the ground as noise.
 WITHOUT_NOISE_RULES = (
     "--set patchwork.noise_depth=inf --set patchwork.noise_margin=inf"
     " --set surface.noise_depth=1000 --set surface.point.noise_depth=1000"
@@ -199,24 +199,24 @@ WITHOUT_NOISE_RULES = (
 
 
 class Fault(typing.NamedTuple):
-    """A fault, and the options of `flagstone eval` without and with the protection; None where it is always on."""
+    """A fault, and the options of `flagstone eval` without and with the protection (None if it is always on)."""
 
     name: str
-    spoil: typing.Callable | None  # (points (N, 4), random) -> the same; None for a simulated sequence of its own
+    corrupt: typing.Callable | None  # (points (N, 4), random) -> points; None for a separately simulated sequence
     before: str | None
     after: str
     protection: str
 
 
 def pitched(points, _random):
-    return turned(points, 2, 0)
+    return rotated(points, 2, 0)
 
 
 def rolled(points, _random):
-    return turned(points, 1, 2)
+    return rotated(points, 1, 2)
 
 
-def turned(points, first, second):
+def rotated(points, first, second):
     moved = points.copy()
     moved[:, first] = math.cos(TILT) * points[:, first] - math.sin(TILT) * points[:, second]
     moved[:, second] = math.sin(TILT) * points[:, first] + math.cos(TILT) * points[:, second]
@@ -228,34 +228,34 @@ def unchanged(points, _random):
 
 
 def lost(value):
-    """One point in five without an echo."""
+    """One point in five without a return."""
 
-    def spoil(points, random):
-        spoilt = points.copy()
-        spoilt[random.random(len(points)) < 0.2, :3] = value
-        return spoilt
+    def corrupt(points, random):
+        corrupted = points.copy()
+        corrupted[random.random(len(points)) < 0.2, :3] = value
+        return corrupted
 
-    return spoil
+    return corrupt
 
 
-def told(height):
+def with_heights(height):
     return " ".join(f"--set {method}.sensor_height={height:g}" for method in METHODS)
 
 
 KNOWN = f"--sensor-height {HEIGHT}"
 FAULTS = [
     Fault("none", unchanged, KNOWN, KNOWN, ""),
-    Fault("wet road: ghosts", None, f"{KNOWN} {WITHOUT_NOISE_RULES}", KNOWN, "noise rules"),
+    Fault("wet road: ghost points", None, f"{KNOWN} {WITHOUT_NOISE_RULES}", KNOWN, "noise rules"),
     Fault("one return in five is (0, 0, 0)", lost(0), None, KNOWN, "label `invalid`"),
     Fault("one return in five is NaN", lost(math.nan), None, KNOWN, "label `invalid`"),
     Fault("pitched by 20°", pitched, KNOWN, f"{KNOWN} --tilt estimate", "tilt estimated"),
     Fault("rolled by 20°", rolled, KNOWN, f"{KNOWN} --tilt estimate", "tilt estimated"),
     *(
         Fault(
-            f"height set 0.5 m too {word}",
+            f"height 0.5 m too {word}",
             unchanged,
-            told(height),
-            f"{told(height)} --sensor-height estimate",
+            with_heights(height),
+            f"{with_heights(height)} --sensor-height estimate",
             "height estimated",
         )
         for word, height in (("large", HEIGHT + 0.5), ("small", HEIGHT - 0.5))
@@ -264,41 +264,43 @@ FAULTS = [
 
 
 def measure_faults(runs):
-    simulate(runs, SENSOR, SCENES, f"worlds/{SENSOR}")
-    simulate(runs, SENSOR, SCENES, f"worlds/{SENSOR}-wet", " --weather wet")
+    simulate(runs, SENSOR, SCENES, f"scenes/{SENSOR}")
+    simulate(runs, SENSOR, SCENES, f"scenes/{SENSOR}-wet", " --weather wet")
     has_tool = importlib.util.find_spec("pypatchworkpp") is not None
     rows = []
     for number, fault in enumerate(FAULTS):
         show_progress(f"fault {number + 1} of {len(FAULTS)}: {fault.name}")
-        with tempfile.TemporaryDirectory(prefix="flagstone-faults-", dir=runs.work) as place:
-            folder = pathlib.Path(place) / "scans"
-            if fault.spoil is None:
-                folder = runs.work / "worlds" / f"{SENSOR}-wet"
+        with tempfile.TemporaryDirectory(prefix="flagstone-faults-", dir=runs.work) as temporary:
+            directory = pathlib.Path(temporary) / "scans"
+            if fault.corrupt is None:
+                directory = runs.work / "scenes" / f"{SENSOR}-wet"
             else:
-                write_spoilt(runs.work / "worlds" / SENSOR, folder, fault.spoil)
+                write_corrupted(runs.work / "scenes" / SENSOR, directory, fault.corrupt)
             row = {"fault": fault.name, "protection": fault.protection}
             for part in ("before", "after"):
                 options = getattr(fault, part)
-                row[part] = f1_of(runs, folder, options) if options else None
+                row[part] = f1_of(runs, directory, options) if options else None
             if has_tool:
-                row["external"] = f1_of_tool(runs, folder, pathlib.Path(place) / "external")
+                row["external"] = f1_of_tool(runs, directory, pathlib.Path(temporary) / "external")
             rows.append(row)
     return {"rows": rows}
 
 
-def write_spoilt(source, target, spoil):
-    import numpy as np  # not above: tables are written and checked without it
+def write_corrupted(source, target, corrupt):
+    import numpy as np  # `page` and `check` do not need it
 
     random = np.random.default_rng(1)
     for file in sorted(source.glob("sequences/*/velodyne/*.bin")):
         sequence = target / "sequences" / file.parts[-3]
         for kind in ("velodyne", "labels"):
             (sequence / kind).mkdir(parents=True, exist_ok=True)
-        points = spoil(np.fromfile(file, "<f4").reshape(-1, 4), random)
+        points = corrupt(np.fromfile(file, "<f4").reshape(-1, 4), random)
         points.astype("<f4").tofile(sequence / "velodyne" / file.name)
         labels = file.parent.parent / "labels" / f"{file.stem}.label"
         classes = np.fromfile(labels, "<u4")
-        classes[~(points[:, :3] != 0).any(axis=1) | np.isnan(points[:, 0])] = 0  # what is lost is nothing
+        classes[~(points[:, :3] != 0).any(axis=1) | np.isnan(points[:, 0])] = (
+            0  # class 0: missing returns are not scored
+        )
         classes.tofile(sequence / "labels" / labels.name)
 
 
@@ -306,21 +308,21 @@ def mean_f1(method):
     return statistics.fmean(scan["f1"] for scan in method["per_scan"])
 
 
-def f1_of(runs, folder, options):
-    command = f"flagstone eval {folder} --protocol simulation {options} --methods {','.join(METHODS)}"
+def f1_of(runs, directory, options):
+    command = f"flagstone eval {directory} --protocol simulation {options} --methods {','.join(METHODS)}"
     return {method["name"]: mean_f1(method) for method in runs.evaluate_command(command)["methods"]}
 
 
-def f1_of_tool(runs, folder, labels):
-    """None if it does not survive the scans."""
+def f1_of_tool(runs, directory, labels):
+    """F1 of pypatchworkpp; None if it fails on the scans."""
     done = subprocess.run(
-        [sys.executable, ROOT / "bench" / "external_tools.py", folder, "--output", labels, "--tools", TOOL],
+        [sys.executable, ROOT / "bench" / "external_tools.py", directory, "--output", labels, "--tools", TOOL],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
     if done.returncode != 0:
         return None
-    command = f"flagstone eval {folder} --protocol simulation --methods none --labels {TOOL}={labels / TOOL}"
+    command = f"flagstone eval {directory} --protocol simulation --methods none --labels {TOOL}={labels / TOOL}"
     return mean_f1(runs.evaluate_command(command)["methods"][0])
 
 
@@ -330,31 +332,31 @@ def faults_tables(results):
         cells = [
             percent(row[part][method] if row[part] else None) for method in METHODS for part in ("before", "after")
         ]
-        peer = percent(row["external"]) if row.get("external") is not None else "–"
-        rows.append([row["fault"], row["protection"], *cells, peer])
+        external = percent(row["external"]) if row.get("external") is not None else "–"
+        rows.append([row["fault"], row["protection"], *cells, external])
     head = [
         "fault",
         "protection",
-        *(text for method in METHODS for text in (f"`{method}` before", "after")),
+        *(text for method in METHODS for text in (f"`{method}`, without", "with")),
         "pypatchworkpp",
     ]
     return {"faults": table(head, rows, left=2)}
 
 
-# --- the picture --------------------------------------------------------------------------------------------
+# --- the image ----------------------------------------------------------------------------------------------
 
 TITLES = {
-    "plain": "plain settings, height known",
-    "preset": "preset, height known",
-    "estimated": "preset, height and tilt estimated",
+    "plain": "default settings, height known",
+    "preset": "derived settings, height known",
+    "estimated": "derived settings, height and tilt estimated",
 }
 
 
 def draw(results):
-    """F1 of every scene and sensor as a picture: one map per method and setting."""
+    """Draws the F1 of every scene and sensor: one heat map per method and column."""
     if "settings" not in results:
         return
-    import matplotlib  # not above: the page is checked without it
+    import matplotlib  # `check` does not need it
 
     matplotlib.use("Agg")
     from matplotlib import pyplot as plt
@@ -382,8 +384,8 @@ def draw(results):
                         fontsize=7.5,
                         color="white" if dark else "black",
                     )
-    figure.colorbar(image, ax=axes, shrink=0.5, label="F1, percent, protocol patchwork++", extend="min")
-    figure.savefig(PICTURE, dpi=90)
+    figure.colorbar(image, ax=axes, shrink=0.5, label="F1 in percent, protocol patchwork++", extend="min")
+    figure.savefig(IMAGE, dpi=90)
 
 
 # --- the study ----------------------------------------------------------------------------------------------
@@ -393,7 +395,7 @@ TABLES = {"settings": settings_tables, "faults": faults_tables}
 
 
 def tables(results):
-    """Every table of what was measured, by name."""
+    """All tables of the results, by name."""
     found = {}
     for name, make in TABLES.items():
         if name in results:

@@ -171,7 +171,7 @@ std::unique_ptr<Command> add_bench_command(CLI::App& app) {
       ->type_name("COMMAND");
   command
       ->add_option("--compare-worker", options->places.worker,
-                   "bench/peer_worker.py. Default: that of the source tree around the command")
+                   "bench/external_worker.py. Default: that of the source tree around the command")
       ->needs(peers)
       ->type_name("FILE");
   command->add_flag("--json", options->json, "Print one JSON object instead of tables");

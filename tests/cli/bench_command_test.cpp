@@ -25,7 +25,7 @@ using testing::HasSubstr;
 const std::vector<std::string> stages = {"bin",   "group", "gather", "seed",    "moments",
                                          "solve", "join",  "refine", "measure", "label"};
 
-/// A worker as bench/peer_worker.py that is ready for pypatchworkpp's patchwork only, whose scans
+/// A worker as bench/external_worker.py that is ready for pypatchworkpp's patchwork only, whose scans
 /// all take 5 ms and have `ground` ground points; `before_answer` is done before each answer.
 void put_fake_worker(const std::filesystem::path& file, const std::string& ground,
                      const std::string& before_answer = ":") {

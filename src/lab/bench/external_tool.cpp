@@ -197,12 +197,12 @@ bool is_file(const std::string& path) {
 ExternalToolCommand python_tool(const ExternalToolPaths& places, const std::string& name,
                                 float sensor_height) {
   const std::string worker =
-      places.worker.empty() ? next_to_this_program("../bench/peer_worker.py") : places.worker;
+      places.worker.empty() ? next_to_this_program("../bench/external_worker.py") : places.worker;
   ExternalToolCommand tool{
       name, {places.python, worker, name, fmt::format("{}", sensor_height)}, ""};
   if (!is_file(worker)) {
     tool.missing = fmt::format(
-        "{}: no such file (pass bench/peer_worker.py of flagstone's sources with --compare-worker)",
+        "{}: no such file (pass bench/external_worker.py of flagstone's sources with --compare-worker)",
         io::printable(worker));
   }
   return tool;

@@ -59,7 +59,7 @@ class ExternalProcess {
 /// Paths of external tools.
 struct ExternalToolPaths {
   std::string python = "python3";  ///< an interpreter with the packages installed
-  std::string worker = {};         ///< bench/peer_worker.py; empty for the file of this build tree
+  std::string worker = {};         ///< bench/external_worker.py; empty for the file of this build tree
 };
 
 /// An external tool to compare with.
@@ -74,7 +74,7 @@ struct ExternalToolCommand {
 [[nodiscard]] std::vector<ExternalToolCommand> known_external_tools(const ExternalToolPaths& places,
                                                                     float sensor_height);
 
-/// An external tool that times itself on the scans it receives. bench/peer_worker.py documents the
+/// An external tool that times itself on the scans it receives. bench/external_worker.py documents the
 /// protocol.
 class ExternalTool final : public Candidate {
  public:
