@@ -15,10 +15,10 @@
 namespace flagstone::bench {
 namespace {
 
-TEST(AllocationCount, IsKnownToBeThereWhereItIs) { EXPECT_TRUE(allocations_are_counted()); }
+TEST(AllocationCount, IsDetectedInThisProgram) { EXPECT_TRUE(allocations_are_counted()); }
 
-TEST(AllocationCount, EveryFormOfNewIsOneCallAndDeleteGivesItsBytesBack) {
-  // Called by name: compilers may leave out pairs of new and delete expressions.
+TEST(AllocationCount, CountsEveryFormOfNewAndReleasesBytesOnDelete) {
+  // Called by name, because compilers may remove pairs of new and delete expressions.
   constexpr std::align_val_t alignment{256};
   const AllocationCount before = allocation_count();
   void* const one = ::operator new(4);

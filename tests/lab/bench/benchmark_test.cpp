@@ -32,12 +32,12 @@ io::Cloud cloud_of(std::size_t points, std::uint32_t seed) {
   return cloud;
 }
 
-const BenchmarkWatch nobody = {.progress = [](auto, auto) {}, .stop = [] { return false; }};
+const BenchmarkWatch no_watch = {.progress = [](auto, auto) {}, .stop = [] { return false; }};
 
 TEST(Benchmark, TimesEveryCandidateOnEveryScanOfEveryRound) {
   const std::vector<io::Cloud> scans = {cloud_of(2000, 1), cloud_of(3000, 2), cloud_of(1000, 3)};
 
-  const Results results = run_benchmark(scans, {.rounds = 4}, nobody);
+  const Results results = run_benchmark(scans, {.rounds = 4}, no_watch);
 
   EXPECT_EQ(results.rounds, 4U);
   EXPECT_THAT(results.points, ElementsAre(2000, 3000, 1000));
@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, BenchmarkOf, testing::ValuesIn(timed_methods),
 TEST_P(BenchmarkOf, TimesEveryStageOfTheMethod) {
   const std::vector<io::Cloud> scans = {cloud_of(5000, 1)};
 
-  const Results results = run_benchmark(scans, {.config = config(), .rounds = 3}, nobody);
+  const Results results = run_benchmark(scans, {.config = config(), .rounds = 3}, no_watch);
 
   EXPECT_EQ(results.method, GetParam());
   for (const StageResult& stage : results.stages) {
@@ -72,7 +72,7 @@ TEST_P(BenchmarkOf, TimesEveryStageOfTheMethod) {
   }
 }
 
-TEST_P(BenchmarkOf, FindsTheGroundThatTheMethodFindsWithAnyInstructionSet) {
+TEST_P(BenchmarkOf, FindsTheSameGroundWithEveryInstructionSet) {
   const std::vector<io::Cloud> scans = {cloud_of(4000, 1), cloud_of(3000, 2)};
   Segmentation expected;
   std::vector<std::optional<std::size_t>> ground;
@@ -84,7 +84,7 @@ TEST_P(BenchmarkOf, FindsTheGroundThatTheMethodFindsWithAnyInstructionSet) {
 
   for (const std::string& target : simd_targets()) {
     const Results results =
-        run_benchmark(scans, {.config = config(), .target = target, .rounds = 1}, nobody);
+        run_benchmark(scans, {.config = config(), .target = target, .rounds = 1}, no_watch);
 
     EXPECT_EQ(results.target, target);
     EXPECT_EQ(results.segment.ground, ground);
@@ -92,29 +92,29 @@ TEST_P(BenchmarkOf, FindsTheGroundThatTheMethodFindsWithAnyInstructionSet) {
   }
 }
 
-TEST(Benchmark, LeavesTheBestInstructionSetInUse) {
+TEST(Benchmark, RestoresTheBestInstructionSet) {
   const std::string best = simd_target();
   const std::vector<io::Cloud> scans = {cloud_of(100, 1)};
 
-  static_cast<void>(run_benchmark(scans, {.target = "scalar", .rounds = 1}, nobody));
+  static_cast<void>(run_benchmark(scans, {.target = "scalar", .rounds = 1}, no_watch));
 
   EXPECT_EQ(simd_target(), best);
 }
 
-TEST(Benchmark, SettingsThatAreNotAllowedAreRefused) {
+TEST(Benchmark, RejectsInvalidSettings) {
   const std::vector<io::Cloud> scans = {cloud_of(100, 1)};
 
-  EXPECT_THROW(static_cast<void>(run_benchmark(scans, {.target = "abacus"}, nobody)),
+  EXPECT_THROW(static_cast<void>(run_benchmark(scans, {.target = "abacus"}, no_watch)),
                std::invalid_argument);
   EXPECT_THROW(static_cast<void>(run_benchmark(
-                   scans, {.config = PatchworkConfig{.distance_margin = -1}}, nobody)),
+                   scans, {.config = PatchworkConfig{.distance_margin = -1}}, no_watch)),
                std::invalid_argument);
   EXPECT_THROW(
-      static_cast<void>(run_benchmark(scans, {.config = SurfaceConfig{.max_range = -1}}, nobody)),
+      static_cast<void>(run_benchmark(scans, {.config = SurfaceConfig{.max_range = -1}}, no_watch)),
       std::invalid_argument);
 }
 
-TEST(Benchmark, StoppedInItsThirdRoundReturnsWhatWasMeasured) {
+TEST(Benchmark, StoppedInItsThirdRoundReturnsTheTimesSoFar) {
   const std::vector<io::Cloud> scans = {cloud_of(500, 1), cloud_of(500, 2)};
   std::size_t begun = 0;
   const BenchmarkWatch watch = {.progress = [&](std::size_t, std::size_t) { ++begun; },

@@ -14,7 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-/// What `work` throws as ExternalToolError says.
+/// The message of the ExternalToolError that `work` throws.
 template <class Work>
 std::string error_of(const Work& work) {
   try {
@@ -26,7 +26,8 @@ std::string error_of(const Work& work) {
 }
 
 TEST(ExternalProcess, AnswersLinesOneByOne) {
-  ExternalProcess tool({"sh", "-c", "while read word number; do echo $number $word; done"});
+  ExternalProcess tool(
+      {"sh", "-c", "while read word number; do printf '%s %s\\n' $number $word; done"});
 
   tool.send_line("run 3");
   tool.send_line("scan 40");
@@ -36,30 +37,30 @@ TEST(ExternalProcess, AnswersLinesOneByOne) {
 }
 
 TEST(ExternalProcess, RunsOnOneThread) {
-  ExternalProcess tool({"sh", "-c", "echo $OMP_NUM_THREADS"});
+  ExternalProcess tool({"sh", "-c", "printf '%s\\n' $OMP_NUM_THREADS"});
 
   EXPECT_EQ(tool.read_line(60s), "1");
 }
 
-TEST(ExternalProcess, ThatDoesNotExistIsNamed) {
+TEST(ExternalProcess, NamesAProgramThatDoesNotExist) {
   EXPECT_THAT(error_of([] { ExternalProcess tool({"no-such-program"}); }),
               HasSubstr("no-such-program cannot be started: No such file"));
 }
 
-TEST(ExternalProcess, ThatEndsIsAnErrorForReaderAndWriter) {
+TEST(ExternalProcess, ReportsAnExitToReaderAndWriter) {
   ExternalProcess tool({"true"});
 
   EXPECT_EQ(error_of([&] { tool.read_line(60s); }), "its worker exited early");
   EXPECT_EQ(error_of([&] { tool.send_line("run 1"); }), "its worker exited early");
 }
 
-TEST(ExternalProcess, ThatSaysNothingIsNotWaitedForForever) {
+TEST(ExternalProcess, TimesOutWithoutAnAnswer) {
   ExternalProcess tool({"sleep", "600"});
 
   EXPECT_EQ(error_of([&] { tool.read_line(1s); }), "its worker did not answer within 1 s");
 }
 
-TEST(ExternalProcess, ThatNeverEndsItsLineIsAnError) {
+TEST(ExternalProcess, RejectsAnEndlessLine) {
   ExternalProcess tool({"sh", "-c", "while :; do printf 0123456789; done"});
 
   EXPECT_EQ(error_of([&] { tool.read_line(60s); }),

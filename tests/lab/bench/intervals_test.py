@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Intervals of differences are those of Student's t; tables say which differences they hold.
+"""Tests of bench/study.py: confidence intervals by Student's t, and replacement of tables in pages.
 
-python3 intervals_test.py BENCH    BENCH: the folder bench
+python3 intervals_test.py BENCH    BENCH: the directory bench
 """
 
 import math
@@ -18,7 +18,7 @@ def scans(**f1):
 
 
 class Intervals(unittest.TestCase):
-    def test_quantiles_are_those_of_printed_tables(self):
+    def test_quantiles_match_printed_tables(self):
         printed = {
             1: 12.706,
             2: 4.303,
@@ -33,7 +33,7 @@ class Intervals(unittest.TestCase):
         for degrees, quantile in printed.items():
             self.assertAlmostEqual(study.t_975(degrees), quantile, delta=0.0006, msg=f"{degrees} degrees")
 
-    def test_differences_are_taken_scan_by_scan_whatever_their_order(self):
+    def test_differences_are_paired_by_scan_in_any_order(self):
         of = scans(a=0.9, b=0.5, c=0.7)
         other = scans(c=0.6, a=0.7, b=0.5)
         found = study.paired(of, other, "f1")
@@ -45,20 +45,20 @@ class Intervals(unittest.TestCase):
         self.assertIsNone(study.mean_of([0.1])["ci95"])
         self.assertEqual(study.points_more(study.mean_of([0.1])), "+10.00 ± –")
 
-    def test_only_differences_whose_interval_leaves_out_zero_are_bold(self):
+    def test_a_difference_is_bold_if_its_interval_excludes_zero(self):
         self.assertEqual(study.points_more({"mean": 0.02, "ci95": 0.01}), "**+2.00 ± 1.00**")
         self.assertEqual(study.points_more({"mean": -0.01, "ci95": 0.02}), "-1.00 ± 2.00")
 
-    def test_no_difference_is_written_without_a_minus(self):
+    def test_a_difference_of_zero_has_no_minus_sign(self):
         self.assertEqual(study.points_more({"mean": -1e-6, "ci95": 1e-7}), "+0.00 ± 0.00")
 
 
 class Pages(unittest.TestCase):
-    def test_a_table_of_a_page_is_replaced_and_the_text_around_it_kept(self):
+    def test_replaces_a_table_and_keeps_the_text_around_it(self):
         page = "before\n<!-- table a -->\nold\n<!-- end -->\nafter"
         self.assertEqual(study.filled(page, {"a": "new"}), "before\n<!-- table a -->\n\nnew\n\n<!-- end -->\nafter")
 
-    def test_a_table_that_nothing_was_measured_for_is_named(self):
+    def test_names_a_table_without_results(self):
         with self.assertRaisesRegex(SystemExit, "wants a table b; there are a"):
             study.filled("<!-- table b --><!-- end -->", {"a": ""})
 

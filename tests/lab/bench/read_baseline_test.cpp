@@ -20,7 +20,7 @@
 namespace flagstone::bench {
 namespace {
 
-/// 1 where z is above x and y, point by point.
+/// 1 if z is above x and y, point by point.
 std::vector<std::uint8_t> expected_bytes(CloudView cloud) {
   std::vector<std::uint8_t> bytes;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -30,7 +30,7 @@ std::vector<std::uint8_t> expected_bytes(CloudView cloud) {
   return bytes;
 }
 
-/// Points in rows of `floats` floats, any of which may be the highest, or no number.
+/// Points in rows of `floats` floats. Any coordinate can be the largest, or NaN.
 std::vector<float> rows_of(std::size_t points, std::size_t floats) {
   std::vector<float> rows(points * floats, -1000);
   const std::vector<Point> cloud = tests::corrupted_cloud(points, 7);
@@ -42,7 +42,7 @@ std::vector<float> rows_of(std::size_t points, std::size_t floats) {
   return rows;
 }
 
-/// Memory whose last byte is followed by a page that nobody may touch.
+/// Memory that ends directly before an inaccessible page.
 class GuardedMemory {
  public:
   explicit GuardedMemory(std::size_t size) {
@@ -85,12 +85,12 @@ TEST_P(ReadBaseline, MarksPointsHigherThanTheirXAndYInAnyLayout) {
 
     read_baseline(cloud, bytes);
 
-    EXPECT_EQ(bytes, expected_bytes(cloud)) << floats << " floats a point";
+    EXPECT_EQ(bytes, expected_bytes(cloud)) << floats << " floats per point";
     EXPECT_EQ(std::set(bytes.begin(), bytes.end()), (std::set<std::uint8_t>{0, 1}));
   }
 }
 
-TEST_P(ReadBaseline, ReadsPlanarStorageToo) {
+TEST_P(ReadBaseline, ReadsPlanarStorage) {
   const std::vector<float> values = rows_of(100, 3);
   const CloudView cloud(values.data(), 100, {.stride = 4, .x = 0, .y = 400, .z = 800});
   std::vector<std::uint8_t> bytes(100, 7);
@@ -100,10 +100,10 @@ TEST_P(ReadBaseline, ReadsPlanarStorageToo) {
   EXPECT_EQ(bytes, expected_bytes(cloud));
 }
 
-TEST_P(ReadBaseline, ReadsAndWritesNothingPastTheEndWhateverTheNumberOfPoints) {
+TEST_P(ReadBaseline, ReadsAndWritesNothingPastTheEndForAnyNumberOfPoints) {
   for (const std::size_t floats : {3U, 4U}) {
     for (std::size_t points = 0; points < 70; ++points) {
-      // The last row ends with its z: a fourth float would lie in the forbidden page.
+      // The last row ends with z; a fourth float would lie in the inaccessible page.
       const std::vector<float> rows = rows_of(points, floats);
       const std::size_t size = points == 0 ? 0 : ((points - 1) * floats + 3) * sizeof(float);
       const GuardedMemory input(size);

@@ -40,7 +40,7 @@ Results example(std::string_view method = "patchwork") {
   return results;
 }
 
-TEST(Results, JsonHoldsTimesRatiosAndWhyAPeerIsLeftOut) {
+TEST(Results, JsonContainsTimesRatiosAndTheReasonForExcludingATool) {
   const nlohmann::ordered_json json = to_json(example());
 
   EXPECT_EQ(json["method"], "patchwork");
@@ -61,7 +61,7 @@ TEST(Results, JsonHoldsTimesRatiosAndWhyAPeerIsLeftOut) {
   EXPECT_EQ(json["core"], 3);
 }
 
-TEST(Results, JsonSaysNullOfWhatWasNotMeasured) {
+TEST(Results, JsonIsNullForUnmeasuredValues) {
   Results results = example();
   results.allocations.reset();
   results.core.reset();
@@ -75,7 +75,7 @@ TEST(Results, JsonSaysNullOfWhatWasNotMeasured) {
   EXPECT_TRUE(json["ratio_to_floor"].is_null());
 }
 
-TEST(Results, StagesAreThoseOfTheMethod) {
+TEST(Results, ContainOnlyTheStagesOfTheMethod) {
   const nlohmann::ordered_json patchwork = to_json(example())["stages"];
   const nlohmann::ordered_json surface = to_json(example("surface"))["stages"];
 
@@ -87,7 +87,7 @@ TEST(Results, StagesAreThoseOfTheMethod) {
   }
 }
 
-TEST(Results, TextOfSurfaceNamesItAndHasARowForEveryStage) {
+TEST(Results, TextOfSurfaceNamesTheMethodAndHasARowPerStage) {
   const std::string text = to_text(example("surface"));
 
   EXPECT_THAT(text, testing::StartsWith("Surface with avx2, 1 thread;"));
@@ -97,7 +97,7 @@ TEST(Results, TextOfSurfaceNamesItAndHasARowForEveryStage) {
   }
 }
 
-TEST(Results, TextHasARowForEveryCandidateAndStage) {
+TEST(Results, TextHasARowPerCandidateAndStage) {
   const std::string text = to_text(example());
 
   EXPECT_THAT(text, HasSubstr("Patchwork with avx2, 1 thread; 2 scans of 2000 points (mean) in "

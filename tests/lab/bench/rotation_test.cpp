@@ -13,7 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 
-TEST(Rotation, EachBeginsInTurnOnceForwardsAndOnceBackwards) {
+TEST(Rotation, EachCandidateBeginsOnceForwardsAndOnceBackwards) {
   EXPECT_THAT(order_of_round(3, 0), ElementsAre(0, 1, 2));
   EXPECT_THAT(order_of_round(3, 1), ElementsAre(0, 2, 1));
   EXPECT_THAT(order_of_round(3, 2), ElementsAre(1, 2, 0));
@@ -23,7 +23,7 @@ TEST(Rotation, EachBeginsInTurnOnceForwardsAndOnceBackwards) {
   EXPECT_EQ(order_of_round(3, 6), order_of_round(3, 0));
 }
 
-TEST(Rotation, EveryoneTakesPartOnceInEveryRound) {
+TEST(Rotation, EveryCandidateRunsOnceInEveryRound) {
   for (std::size_t candidates = 1; candidates < 9; ++candidates) {
     for (std::size_t round = 0; round < 20; ++round) {
       const auto order = order_of_round(candidates, round);
@@ -35,7 +35,7 @@ TEST(Rotation, EveryoneTakesPartOnceInEveryRound) {
   }
 }
 
-TEST(Rotation, NobodyAlwaysFollowsTheSameOne) {
+TEST(Rotation, NoCandidateAlwaysFollowsTheSameOne) {
   std::set<std::pair<std::size_t, std::size_t>> neighbours;
   for (std::size_t round = 0; round < 8; ++round) {
     const auto order = order_of_round(4, round);

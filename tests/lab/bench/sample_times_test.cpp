@@ -20,12 +20,12 @@ SampleTimes of_one_scan(const std::vector<double>& milliseconds) {
   return times;
 }
 
-TEST(SampleTimes, MedianIsTheMiddleOneOrTheMeanOfTheTwoInTheMiddle) {
+TEST(SampleTimes, MedianIsTheMiddleTimeOrTheMeanOfTheTwoMiddleTimes) {
   EXPECT_EQ(of_one_scan({5, 1, 3}).median(), 3);
   EXPECT_EQ(of_one_scan({5, 1, 3, 4}).median(), 3.5);
 }
 
-TEST(SampleTimes, Percentile99IsTheSmallestThat99PercentDoNotExceed) {
+TEST(SampleTimes, Percentile99IsTheSmallestTimeThat99PercentDoNotExceed) {
   std::vector<double> times(200);
   std::iota(times.rbegin(), times.rend(), 1);  // 200, 199, ..., 1
 
@@ -35,17 +35,17 @@ TEST(SampleTimes, Percentile99IsTheSmallestThat99PercentDoNotExceed) {
   EXPECT_EQ(of_one_scan({7, 2}).percentile_99(), 7);
 }
 
-TEST(SampleTimes, RatioComparesTimesOfTheSameRoundAndScanOnly) {
+TEST(SampleTimes, RatioComparesOnlyTimesOfTheSameRoundAndScan) {
   SampleTimes ours(2);
   SampleTimes others(2);
   ours.add(0, 0, 1);
   ours.add(0, 1, 100);
   ours.add(1, 0, 10);
-  ours.add(2, 1, 1000);  // the other was not asked in that round
+  ours.add(2, 1, 1000);  // the other has no time in this round
   others.add(0, 0, 2);
   others.add(0, 1, 200);
   others.add(1, 0, 20);
-  others.add(3, 0, 1);  // nor we in this one
+  others.add(3, 0, 1);  // and ours has none in this one
 
   EXPECT_EQ(ours.ratio_to(others), 0.5);
   EXPECT_EQ(others.ratio_to(ours), 2);
@@ -55,7 +55,7 @@ TEST(SampleTimes, RatioIsTheMedianOfRatiosNotTheRatioOfMedians) {
   EXPECT_EQ(of_one_scan({1, 10, 100}).ratio_to(of_one_scan({1, 5, 200})), 1);
 }
 
-TEST(SampleTimes, PointsPerSecondAreThoseOfTheScanThatWasTimed) {
+TEST(SampleTimes, PointsPerSecondUseThePointsOfTheTimedScan) {
   SampleTimes times(2);
   times.add(0, 0, 2);
   times.add(0, 1, 4);
@@ -64,7 +64,7 @@ TEST(SampleTimes, PointsPerSecondAreThoseOfTheScanThatWasTimed) {
   EXPECT_EQ(times.points_per_second(points), 1e6);
 }
 
-TEST(SampleTimes, OfNothingNoFigureIsANumber) {
+TEST(SampleTimes, StatisticsAreNanWithoutTimes) {
   const SampleTimes nothing(3);
 
   EXPECT_EQ(nothing.count(), 0U);
@@ -73,7 +73,7 @@ TEST(SampleTimes, OfNothingNoFigureIsANumber) {
   EXPECT_TRUE(std::isnan(nothing.ratio_to(of_one_scan({1}))));
 }
 
-TEST(SampleTimes, ARoundThatWasSkippedIsNotCounted) {
+TEST(SampleTimes, SkippedRoundsAreNotCounted) {
   SampleTimes times(2);
   times.add(5, 1, 3);
 

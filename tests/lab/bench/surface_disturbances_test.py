@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Disturbed scans are what the table of robustness says they are.
+"""Tests of the perturbations in bench/surface_disturbances.py.
 
-    python3 surface_disturbances_test.py BENCH    BENCH: the folder bench
+    python3 surface_disturbances_test.py BENCH    BENCH: the directory bench
 
-Leaves with 77, which ctest takes for skipped, where NumPy is not there.
+Exits with 77, which ctest treats as skipped, if NumPy is not installed.
 """
 
 import sys
@@ -22,7 +22,7 @@ ROAD, BUILDING = 40, 50
 
 
 def a_scan():
-    """Four beams of 90 points on level ground, 1.73 m below the sensor, then a wall."""
+    """Four beams of 90 points on level ground 1.73 m below the sensor, and a wall."""
     azimuths = np.radians(np.arange(90) * 4 + 1.5)
     points, classes = [], []
     for ring in (4, 6, 8, 10):
@@ -36,7 +36,7 @@ def a_scan():
     return np.concatenate(points).astype("<f4"), np.concatenate(classes).astype("<u4")
 
 
-def disturbed(name):
+def perturbed(name):
     points, classes = a_scan()
     disturbance = next(entry for entry in disturbances.DISTURBANCES if entry.name == name)
     moved, their_classes, sources = disturbance.disturb(points, classes, np.random.default_rng(1))
@@ -44,8 +44,8 @@ def disturbed(name):
 
 
 class Disturbances(unittest.TestCase):
-    def test_rolling_by_3_degrees_lifts_what_is_left_and_keeps_distances(self):
-        points, _, moved, _, _ = disturbed("rolled by +3°")
+    def test_a_roll_of_3_degrees_raises_the_left_and_keeps_distances(self):
+        points, _, moved, _, _ = perturbed("rolled by +3°")
         left = np.argmax(points[:, 1])
         self.assertAlmostEqual(
             float(moved[left, 2] - points[left, 2]), np.sin(np.radians(3)) * points[left, 1], delta=0.01
@@ -54,27 +54,27 @@ class Disturbances(unittest.TestCase):
             np.linalg.norm(moved[:, :3], axis=1), np.linalg.norm(points[:, :3], axis=1), rtol=1e-5
         )
 
-    def test_pitching_by_3_degrees_lowers_what_is_ahead(self):
-        points, _, moved, _, _ = disturbed("pitched by +3°")
+    def test_a_pitch_of_3_degrees_lowers_points_ahead(self):
+        points, _, moved, _, _ = perturbed("pitched by +3°")
         ahead = np.argmax(points[:, 0])
         self.assertLess(moved[ahead, 2], points[ahead, 2] - 0.3)
 
-    def test_half_the_beams_are_every_other_one_whole(self):
-        points, classes, moved, their_classes, sources = disturbed("half the beams")
+    def test_half_the_beams_are_every_second_complete_beam(self):
+        points, classes, moved, their_classes, sources = perturbed("half the beams")
         np.testing.assert_array_equal(sources, np.r_[0:90, 180:270, 360:440])
         np.testing.assert_array_equal(moved, points[sources])
         np.testing.assert_array_equal(their_classes, classes[sources])
 
-    def test_the_four_quarters_of_the_view_are_the_scan(self):
-        kept = [disturbed(f"90° of the view, {where}")[4] for where in ("ahead", "left", "behind", "right")]
+    def test_the_four_quarters_of_the_view_add_up_to_the_scan(self):
+        kept = [perturbed(f"90° of the view, {where}")[4] for where in ("ahead", "left", "behind", "right")]
         np.testing.assert_array_equal(np.sort(np.concatenate(kept)), np.arange(440))
 
-    def test_the_left_is_where_y_is_positive(self):
-        _, _, moved, _, _ = disturbed("90° of the view, left")
+    def test_the_left_quarter_has_positive_y(self):
+        _, _, moved, _, _ = perturbed("90° of the view, left")
         self.assertGreater(moved[:, 1].min(), 0)
 
-    def test_ghosts_mirror_what_stands_on_the_ground_one_in_a_hundred(self):
-        points, _, moved, their_classes, sources = disturbed("1 % ghosts")
+    def test_one_percent_of_the_points_get_a_ghost_point_below_the_ground(self):
+        points, _, moved, their_classes, sources = perturbed("1 % ghosts")
         ghosts = sources < 0
         self.assertEqual(ghosts.sum(), len(points) // 100)
         np.testing.assert_array_equal(their_classes[ghosts], disturbances.OUTLIER)

@@ -48,7 +48,7 @@ class CheckpointFile : public testing::Test {
   fs::path file_ = folder_ / "results.json.checkpoint";
 };
 
-TEST_F(CheckpointFile, GivesBackWhatWasAddedBitForBit) {
+TEST_F(CheckpointFile, RestoresAddedScansExactly) {
   {
     Checkpoint checkpoint;
     ASSERT_TRUE(checkpoint.start(file_, "one").ok());
@@ -75,7 +75,7 @@ TEST_F(CheckpointFile, GivesBackWhatWasAddedBitForBit) {
   EXPECT_EQ(outcome.methods[0].heights->everywhere.all.points, 8U);
 }
 
-TEST_F(CheckpointFile, KeepsScansWithoutHeightsAsTheyAre) {
+TEST_F(CheckpointFile, RestoresScansWithoutHeights) {
   ScanOutcome without = outcome_with(1);
   for (MethodOutcome& method : without.methods) method.heights.reset();
   {
@@ -87,7 +87,7 @@ TEST_F(CheckpointFile, KeepsScansWithoutHeightsAsTheyAre) {
   EXPECT_FALSE(resumed("one").at("a").methods[0].heights);
 }
 
-TEST_F(CheckpointFile, ALineCutShortCostsItsScanOnly) {
+TEST_F(CheckpointFile, ATruncatedLineLosesOnlyItsScan) {
   {
     Checkpoint checkpoint;
     ASSERT_TRUE(checkpoint.start(file_, "one").ok());
@@ -109,7 +109,7 @@ TEST_F(CheckpointFile, ALineCutShortCostsItsScanOnly) {
   EXPECT_EQ(finished.count("c"), 1u);
 }
 
-TEST_F(CheckpointFile, OutcomesOfAnotherEvaluationAreNotMixedIn) {
+TEST_F(CheckpointFile, RejectsTheCheckpointOfAnotherEvaluation) {
   ASSERT_TRUE(Checkpoint().start(file_, "one").ok());
   Checkpoint checkpoint;
   std::map<std::string, ScanOutcome> finished;
@@ -120,7 +120,7 @@ TEST_F(CheckpointFile, OutcomesOfAnotherEvaluationAreNotMixedIn) {
   EXPECT_THAT(status.message(), HasSubstr("delete the file"));
 }
 
-TEST_F(CheckpointFile, AnyOtherFileIsLeftAlone) {
+TEST_F(CheckpointFile, RejectsAndKeepsAnyOtherFile) {
   std::ofstream(file_) << "precious\n";
   Checkpoint checkpoint;
   std::map<std::string, ScanOutcome> finished;
@@ -129,7 +129,7 @@ TEST_F(CheckpointFile, AnyOtherFileIsLeftAlone) {
   EXPECT_EQ(fs::file_size(file_), 9u);
 }
 
-TEST_F(CheckpointFile, WhatAnInterruptedRunLeftIsNotWrittenOver) {
+TEST_F(CheckpointFile, DoesNotOverwriteTheScansOfAnInterruptedRun) {
   {
     Checkpoint checkpoint;
     ASSERT_TRUE(checkpoint.start(file_, "one").ok());
@@ -143,13 +143,13 @@ TEST_F(CheckpointFile, WhatAnInterruptedRunLeftIsNotWrittenOver) {
   EXPECT_EQ(resumed("one").count("a"), 1u);
 }
 
-TEST_F(CheckpointFile, AJournalWithoutScansIsNothingToLose) {
+TEST_F(CheckpointFile, OverwritesACheckpointWithoutScans) {
   ASSERT_TRUE(Checkpoint().start(file_, "one").ok());
 
   EXPECT_TRUE(Checkpoint().start(file_, "two").ok());
 }
 
-TEST_F(CheckpointFile, OutcomesOfAnotherNumberOfMethodsAreNone) {
+TEST_F(CheckpointFile, SkipsScansWithADifferentNumberOfMethods) {
   {
     Checkpoint checkpoint;
     ASSERT_TRUE(checkpoint.start(file_, "one").ok());
@@ -161,7 +161,7 @@ TEST_F(CheckpointFile, OutcomesOfAnotherNumberOfMethodsAreNone) {
   EXPECT_TRUE(resumed("one").empty());
 }
 
-TEST_F(CheckpointFile, ScansOnWhichAMethodFailedAreTriedAgain) {
+TEST_F(CheckpointFile, SkipsScansOnWhichAMethodFailed) {
   {
     Checkpoint checkpoint;
     ASSERT_TRUE(checkpoint.start(file_, "one").ok());
@@ -173,7 +173,7 @@ TEST_F(CheckpointFile, ScansOnWhichAMethodFailedAreTriedAgain) {
   EXPECT_TRUE(resumed("one").empty());
 }
 
-TEST_F(CheckpointFile, ScansThatCouldNotBeReadAreTriedAgain) {
+TEST_F(CheckpointFile, SkipsScansThatCouldNotBeRead) {
   {
     Checkpoint checkpoint;
     ASSERT_TRUE(checkpoint.start(file_, "one").ok());

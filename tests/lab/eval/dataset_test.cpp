@@ -41,7 +41,7 @@ class Dataset : public testing::Test {
     }
     return names;
   }
-  [[nodiscard]] std::string complaint(const Selection& selection = {}) const {
+  [[nodiscard]] std::string error_of(const Selection& selection = {}) const {
     std::vector<LabelledScan> scans;
     return list_dataset(folder_.path(), selection, scans).message();
   }
@@ -49,7 +49,7 @@ class Dataset : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-TEST_F(Dataset, ASemanticKittiTreeIsListedSequenceBySequence) {
+TEST_F(Dataset, ListsASemanticKittiTreeSequenceBySequence) {
   put_pairs("sequences/05", {"000001", "000000"});
   put_pairs("sequences/00", {"000007"});
   put("sequences/11/velodyne/000000.bin");  // without labels, like the test sequences
@@ -57,7 +57,7 @@ TEST_F(Dataset, ASemanticKittiTreeIsListedSequenceBySequence) {
   EXPECT_THAT(names(), ElementsAre("00/000007", "05/000000", "05/000001"));
 }
 
-TEST_F(Dataset, TheFolderOfSequencesItselfMayBeNamed) {
+TEST_F(Dataset, AcceptsTheDirectoryOfSequences) {
   put_pairs("05", {"000001", "000000"});
   put_pairs("00", {"000007"});
 
@@ -65,7 +65,7 @@ TEST_F(Dataset, TheFolderOfSequencesItselfMayBeNamed) {
   EXPECT_THAT(names({.sequences = {"00"}}), ElementsAre("00/000007"));
 }
 
-TEST_F(Dataset, TrueGroundIsFoundBesideTheLabels) {
+TEST_F(Dataset, FindsTrueGroundHeightsNextToTheLabels) {
   put_pairs("sequences/00", {"000000", "000001"});
   put("sequences/00/ground/000001.ground.npy");
   std::vector<LabelledScan> scans;
@@ -76,7 +76,7 @@ TEST_F(Dataset, TrueGroundIsFoundBesideTheLabels) {
   EXPECT_THAT(scans[1].ground, folder_ / "sequences/00/ground/000001.ground.npy");
 }
 
-TEST_F(Dataset, SequencesArePickedAndScansStrided) {
+TEST_F(Dataset, SelectsSequencesAndEveryNthScan) {
   put_pairs("sequences/05", {"000000", "000001", "000002", "000003", "000004"});
   put_pairs("sequences/10", {"000000", "000001"});
   put_pairs("sequences/00", {"000000"});
@@ -85,14 +85,14 @@ TEST_F(Dataset, SequencesArePickedAndScansStrided) {
               ElementsAre("10/000000", "05/000000", "05/000002", "05/000004"));
 }
 
-TEST_F(Dataset, AFolderWithVelodyneAndLabels) {
+TEST_F(Dataset, ListsADirectoryWithVelodyneAndLabels) {
   put_pairs(".", {"b", "a"});
   put("velodyne/c.bin");  // without a label file
 
   EXPECT_THAT(names(), ElementsAre("a", "b"));
 }
 
-TEST_F(Dataset, NuScenesFilesBesideEachOther) {
+TEST_F(Dataset, ListsNuScenesFilesInOneDirectory) {
   for (const std::string scan : {"k4", "k0"}) {
     put(scan + ".pcd.bin");
     put(scan + "_lidarseg.bin");
@@ -102,18 +102,18 @@ TEST_F(Dataset, NuScenesFilesBesideEachOther) {
   EXPECT_THAT(names(), ElementsAre("k0", "k4"));
 }
 
-TEST_F(Dataset, WhatIsNoneIsSaidInOneLine) {
-  EXPECT_THAT(complaint(), HasSubstr("sequences/NN/velodyne"));
+TEST_F(Dataset, RejectsADirectoryThatIsNotADataset) {
+  EXPECT_THAT(error_of(), HasSubstr("sequences/NN/velodyne"));
   put("velodyne/a.bin");
-  EXPECT_THAT(complaint(), HasSubstr("labels/"));
-  EXPECT_THAT(complaint({.sequences = {"05"}}), HasSubstr("05"));
+  EXPECT_THAT(error_of(), HasSubstr("labels/"));
+  EXPECT_THAT(error_of({.sequences = {"05"}}), HasSubstr("05"));
 }
 
-TEST_F(Dataset, AnUnlabelledSequenceThatIsAskedForIsAnError) {
+TEST_F(Dataset, RejectsASelectedSequenceWithoutLabels) {
   put("sequences/11/velodyne/000000.bin");
-  EXPECT_THAT(complaint(), HasSubstr("labels"));
-  EXPECT_THAT(complaint({.sequences = {"11"}}), HasSubstr("11"));
-  EXPECT_THAT(complaint({.sequences = {"99"}}), HasSubstr("99"));
+  EXPECT_THAT(error_of(), HasSubstr("labels"));
+  EXPECT_THAT(error_of({.sequences = {"11"}}), HasSubstr("11"));
+  EXPECT_THAT(error_of({.sequences = {"99"}}), HasSubstr("99"));
 }
 
 }  // namespace

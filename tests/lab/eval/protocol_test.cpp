@@ -24,7 +24,7 @@ using testing::Not;
 constexpr std::array<float, 12> four_points = {5, 0, -1.7f, 5, 0, -1.31f, 5, 0, -1.3f, 5, 0, 2};
 const CloudView cloud(four_points.data(), 4);
 
-TEST(Protocol, ThePapersCountsLowVegetationAsGroundAndEveryPoint) {
+TEST(Protocol, PatchworkCountsLowVegetationAsGroundAndScoresEveryPoint) {
   using enum Truth;
   constexpr std::array<std::uint32_t, 4> classes = {0, 70, 70, 70};
 
@@ -40,7 +40,7 @@ TEST(Protocol, PatchworkPlusPlusDoesNotScoreUnlabelledOutliersAndVegetation) {
               ElementsAre(ignored, ignored, ignored, not_ground));
 }
 
-TEST(Protocol, TheSixGroundClassesAreGroundUnderAllThatUseSemanticKittiIds) {
+TEST(Protocol, TheSixGroundClassesAreGroundInAllSemanticKittiProtocols) {
   using enum Truth;
   for (const Protocol* protocol :
        {&patchwork_protocol(), &patchwork_plusplus_protocol(), &simulation_protocol()}) {
@@ -52,7 +52,7 @@ TEST(Protocol, TheSixGroundClassesAreGroundUnderAllThatUseSemanticKittiIds) {
   }
 }
 
-TEST(Protocol, SimulationScoresGhostsAndVegetationAsNotGround) {
+TEST(Protocol, SimulationScoresGhostPointsAndVegetationAsNotGround) {
   using enum Truth;
   constexpr std::array<std::uint32_t, 4> classes = {1, 70, 70, 40};
 
@@ -60,7 +60,7 @@ TEST(Protocol, SimulationScoresGhostsAndVegetationAsNotGround) {
               ElementsAre(not_ground, not_ground, not_ground, ground));
 }
 
-TEST(Protocol, LidarsegScoresFlatSurfacesAndLeavesOutTheOwnVehicle) {
+TEST(Protocol, LidarsegScoresFlatSurfacesAndIgnoresTheEgoVehicle) {
   using enum Truth;
   constexpr std::array<std::uint32_t, 4> classes = {24, 27, 31, 17};
 
@@ -76,7 +76,7 @@ class ProtocolFile : public testing::Test {
     return path;
   }
 
-  std::string complaint(const std::string& name, const std::string& text) {
+  std::string error_of(const std::string& name, const std::string& text) {
     Protocol protocol;
     const Status status = read_protocol(put(name, text), protocol);
     EXPECT_FALSE(status.ok()) << text;
@@ -87,7 +87,7 @@ class ProtocolFile : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-TEST_F(ProtocolFile, JsonAndTomlSayTheSame) {
+TEST_F(ProtocolFile, JsonAndTomlGiveTheSameProtocol) {
   Protocol json;
   Protocol toml;
   ASSERT_TRUE(read_protocol(put("mine.json", R"({"ground": [40, 48], "ignored": [0],
@@ -110,7 +110,7 @@ TEST_F(ProtocolFile, JsonAndTomlSayTheSame) {
   }
 }
 
-TEST_F(ProtocolFile, ANameOfItsOwnCounts) {
+TEST_F(ProtocolFile, UsesTheNameInTheFile) {
   Protocol protocol;
   ASSERT_TRUE(read_protocol(put("a.toml", "name = \"terrain\"\nground = [2]\n"), protocol).ok());
 
@@ -118,22 +118,22 @@ TEST_F(ProtocolFile, ANameOfItsOwnCounts) {
   EXPECT_THAT(protocol.ignored, IsEmpty());
 }
 
-TEST_F(ProtocolFile, WhatIsWrongIsSaidInOneLineWithTheKey) {
-  EXPECT_THAT(complaint("a.json", "{"), HasSubstr("byte"));
-  EXPECT_THAT(complaint("a.toml", "ground = "), HasSubstr("line 1"));
-  EXPECT_THAT(complaint("a.json", "[]"), HasSubstr("ground"));
-  EXPECT_THAT(complaint("a.json", "{}"), HasSubstr("ground"));
-  EXPECT_THAT(complaint("a.json", R"({"ground": 3})"), HasSubstr("ground"));
-  EXPECT_THAT(complaint("a.json", R"({"ground": [-1]})"), HasSubstr("0 to 65535"));
-  EXPECT_THAT(complaint("a.json", R"({"ground": [1, 70000]})"), HasSubstr("70000"));
-  EXPECT_THAT(complaint("a.json", R"({"ground": [1e999]})"), HasSubstr("beyond"));
-  EXPECT_THAT(complaint("a.json", R"({"ground": [1], "ignored": [1]})"), HasSubstr("class 1"));
-  EXPECT_THAT(complaint("a.json", R"({"ground": [1], "low_ground": [{"id": 2}]})"),
+TEST_F(ProtocolFile, ReportsErrorsOnOneLineWithTheKey) {
+  EXPECT_THAT(error_of("a.json", "{"), HasSubstr("byte"));
+  EXPECT_THAT(error_of("a.toml", "ground = "), HasSubstr("line 1"));
+  EXPECT_THAT(error_of("a.json", "[]"), HasSubstr("ground"));
+  EXPECT_THAT(error_of("a.json", "{}"), HasSubstr("ground"));
+  EXPECT_THAT(error_of("a.json", R"({"ground": 3})"), HasSubstr("ground"));
+  EXPECT_THAT(error_of("a.json", R"({"ground": [-1]})"), HasSubstr("0 to 65535"));
+  EXPECT_THAT(error_of("a.json", R"({"ground": [1, 70000]})"), HasSubstr("70000"));
+  EXPECT_THAT(error_of("a.json", R"({"ground": [1e999]})"), HasSubstr("beyond"));
+  EXPECT_THAT(error_of("a.json", R"({"ground": [1], "ignored": [1]})"), HasSubstr("class 1"));
+  EXPECT_THAT(error_of("a.json", R"({"ground": [1], "low_ground": [{"id": 2}]})"),
               HasSubstr("height"));
-  EXPECT_THAT(complaint("a.yaml", "ground: [1]"), HasSubstr(".toml or .json"));
+  EXPECT_THAT(error_of("a.yaml", "ground: [1]"), HasSubstr(".toml or .json"));
 }
 
-TEST_F(ProtocolFile, AProtocolIsFoundByNameOrByFile) {
+TEST_F(ProtocolFile, FindsAProtocolByNameOrFile) {
   Protocol protocol;
   EXPECT_TRUE(find_protocol("patchwork++", protocol).ok());
   EXPECT_EQ(protocol.name, "patchwork++");

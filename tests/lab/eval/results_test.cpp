@@ -38,7 +38,7 @@ ScanOutcome outcome_of(std::vector<MethodOutcome> methods) {
   return outcome;
 }
 
-/// Two methods on three scans, of which one could not be read, and one not by the second method.
+/// Two methods on three scans. One scan could not be read, and the second method failed on another.
 class ThreeScans : public testing::Test {
  protected:
   ThreeScans() {
@@ -52,7 +52,7 @@ class ThreeScans : public testing::Test {
     outcomes_[2] = outcome_of({made(70, 30, 3), failed});
     results_ = gather(methods_, scans_, outcomes_);
     results_.protocol = "patchwork";
-    results_.datasets = {"made up"};
+    results_.datasets = {"synthetic"};
   }
 
   std::vector<Method> methods_{2};
@@ -69,7 +69,7 @@ TEST_F(ThreeScans, MeansAreOverTheScansOfEachMethod) {
   EXPECT_FALSE(results_.methods[1].recall.std);
 }
 
-TEST_F(ThreeScans, PooledFiguresAreOverPoints) {
+TEST_F(ThreeScans, MicroAveragesAreOverPoints) {
   EXPECT_EQ(results_.methods[0].pooled.true_positives, 160);
   EXPECT_EQ(results_.methods[0].by_range[0].total(), 200);
 }
@@ -79,7 +79,7 @@ TEST_F(ThreeScans, HzIsOneOverTheMeanTime) {
   EXPECT_DOUBLE_EQ(results_.methods[0].hz_slowest_1_percent.value(), 1000.0 / 3);
 }
 
-TEST_F(ThreeScans, WhatFailedIsListed) {
+TEST_F(ThreeScans, FailuresAreListed) {
   ASSERT_EQ(results_.failures.size(), 2u);
   EXPECT_EQ(results_.failures[0].scan, "b");
   EXPECT_EQ(results_.failures[0].error, "b: unreadable");
@@ -90,7 +90,7 @@ TEST_F(ThreeScans, TheWorstScanComesFirst) {
   EXPECT_THAT(worst_scans(results_.methods[0], 1), ElementsAre(1));
 }
 
-TEST_F(ThreeScans, JsonHoldsWhatReadersOfItAreTold) {
+TEST_F(ThreeScans, JsonContainsTheDocumentedKeys) {
   const nlohmann::ordered_json json = to_json(results_);
 
   EXPECT_EQ(json["protocol"], "patchwork");
@@ -122,20 +122,20 @@ TEST_F(ThreeScans, CsvHasARowPerMethodAndScanAndQuotesNames) {
                          Not(HasSubstr("\r\nsecond,\"c"))));
 }
 
-TEST_F(ThreeScans, TheBestOfAColumnStandsOut) {
+TEST_F(ThreeScans, TheBestOfAColumnIsMarked) {
   EXPECT_THAT(accuracy_table(results_, {.bold = false}), HasSubstr("80.00*"));
   EXPECT_THAT(accuracy_table(results_, {.bold = true}),
               AllOf(HasSubstr("\x1b[1m"), HasSubstr("80.00\x1b[0m")));
 }
 
-TEST_F(ThreeScans, EveryMethodHasARowAndMissingFiguresADash) {
+TEST_F(ThreeScans, EveryMethodHasARowAndMissingValuesAreDashes) {
   const std::string table = accuracy_table(results_, {});
 
   EXPECT_THAT(table, AllOf(HasSubstr("\nfirst"), HasSubstr("\nsecond")));
   EXPECT_THAT(table.substr(table.find("second")), HasSubstr(" - "));
 }
 
-TEST_F(ThreeScans, AMethodThatMissesScansIsNotComparedAndSaysSo) {
+TEST_F(ThreeScans, AMethodThatMissesScansIsListedButNotCompared) {
   outcomes_[0]->methods[1] = made(99, 1, 4);  // better than the first, on one scan of two
 
   const Results results = gather(methods_, scans_, outcomes_);
@@ -144,7 +144,7 @@ TEST_F(ThreeScans, AMethodThatMissesScansIsNotComparedAndSaysSo) {
                                                  HasSubstr("second: scored on 1 of 2 scans")));
 }
 
-TEST_F(ThreeScans, AScanWithoutAScoredPointCountsNowhere) {
+TEST_F(ThreeScans, AScanWithoutScoredPointsIsExcluded) {
   outcomes_[2] = outcome_of({made(0, 0, 1), made(0, 0, 1)});
 
   const Results results = gather(methods_, scans_, outcomes_);
@@ -160,7 +160,7 @@ MethodOutcome without_ground(double alarms, double rest) {
   return outcome;
 }
 
-TEST_F(ThreeScans, AScanWithoutGroundInTheGroundTruthCountsInTheAccuracyAlone) {
+TEST_F(ThreeScans, AScanWithoutGroundInTheGroundTruthCountsOnlyInTheAccuracy) {
   outcomes_[1] = outcome_of({without_ground(25, 75), without_ground(0, 100)});
 
   const Results results = gather(methods_, scans_, outcomes_);
@@ -168,7 +168,7 @@ TEST_F(ThreeScans, AScanWithoutGroundInTheGroundTruthCountsInTheAccuracyAlone) {
 
   EXPECT_EQ(results.scans, 3u);
   EXPECT_EQ(results.without_ground, 1u);
-  EXPECT_DOUBLE_EQ(results.methods[0].recall.mean, 0.8) << "as without that scan";
+  EXPECT_DOUBLE_EQ(results.methods[0].recall.mean, 0.8) << "the same as without that scan";
   EXPECT_DOUBLE_EQ(results.methods[0].f1.mean, results_.methods[0].f1.mean);
   EXPECT_EQ(results.methods[0].f1.count, 2u);
   EXPECT_DOUBLE_EQ(results.methods[0].accuracy.mean, (0.9 + 0.7 + 0.75) / 3);
@@ -181,7 +181,7 @@ TEST_F(ThreeScans, AScanWithoutGroundInTheGroundTruthCountsInTheAccuracyAlone) {
   EXPECT_THAT(worst_scans(results.methods[0], 5), ElementsAre(2, 0));
 }
 
-TEST_F(ThreeScans, WithoutGroundAnywhereThereIsNoF1) {
+TEST_F(ThreeScans, F1IsUndefinedWithoutGroundInAnyScan) {
   for (auto& outcome : outcomes_)
     outcome = outcome_of({without_ground(1, 9), without_ground(0, 9)});
 
@@ -196,8 +196,8 @@ HeightErrors errors(std::size_t given, double median, double bias) {
   return {.points = 4, .given = given, .median = median, .percentile95 = 2 * median, .bias = bias};
 }
 
-/// The first method has heights: within 20 m on both scans, from 20 to 40 m on the second alone,
-/// beyond on none.
+/// The first method has heights within 20 m on both scans, from 20 to 40 m only on the second, and
+/// none beyond.
 class ScansWithHeights : public ThreeScans {
  protected:
   ScansWithHeights() {
@@ -212,7 +212,7 @@ class ScansWithHeights : public ThreeScans {
   }
 };
 
-TEST_F(ScansWithHeights, FiguresAreMeansOverTheScansThatHaveAny) {
+TEST_F(ScansWithHeights, ErrorsAreMeansOverTheScansWithHeights) {
   ASSERT_TRUE(results_.methods[0].heights);
   const HeightFiguresByRange& ground = results_.methods[0].heights->ground;
 
@@ -225,7 +225,7 @@ TEST_F(ScansWithHeights, FiguresAreMeansOverTheScansThatHaveAny) {
   EXPECT_EQ(ground.by_range[2].median.count, 0U);
 }
 
-TEST_F(ScansWithHeights, SharesAreOverThePointsOfAllScans) {
+TEST_F(ScansWithHeights, CoverageIsOverThePointsOfAllScans) {
   const HeightFiguresByRange& ground = results_.methods[0].heights->ground;
 
   EXPECT_EQ(ground.by_range[0].share, 6.0 / 8);
@@ -233,7 +233,7 @@ TEST_F(ScansWithHeights, SharesAreOverThePointsOfAllScans) {
   EXPECT_EQ(ground.by_range[2].share, std::nullopt);
 }
 
-TEST_F(ScansWithHeights, JsonHoldsThemOfMethodsThatHaveSome) {
+TEST_F(ScansWithHeights, JsonContainsHeightsOfMethodsThatProvideThem) {
   const nlohmann::ordered_json json = to_json(results_);
 
   const auto& ground = json["methods"][0]["heights"]["ground"];
@@ -251,7 +251,7 @@ TEST_F(ScansWithHeights, JsonHoldsThemOfMethodsThatHaveSome) {
   EXPECT_FALSE(json["methods"][1].contains("heights"));
 }
 
-TEST_F(ScansWithHeights, CsvHasThemBehindAllOtherCells) {
+TEST_F(ScansWithHeights, CsvHasHeightsAfterAllOtherCells) {
   const std::string csv = to_csv(results_);
 
   EXPECT_THAT(csv, HasSubstr(",milliseconds,height_median_0_20m,height_percentile95_0_20m,"
@@ -262,7 +262,7 @@ TEST_F(ScansWithHeights, CsvHasThemBehindAllOtherCells) {
   EXPECT_THAT(second, testing::EndsWith(",4.0000,,,,,,,,,,,,\r\n"));
 }
 
-TEST_F(ScansWithHeights, TextIsInCentimetresWithADashForWhatIsNot) {
+TEST_F(ScansWithHeights, TextIsInCentimetresWithDashesForMissingValues) {
   const std::string table = height_table(results_, &HeightResult::ground, {});
 
   EXPECT_THAT(table, AllOf(HasSubstr("0-20 m"), HasSubstr("20-40 m"), HasSubstr("40-80 m")));
@@ -270,11 +270,11 @@ TEST_F(ScansWithHeights, TextIsInCentimetresWithADashForWhatIsNot) {
               testing::MatchesRegex("first +2\\.00[ *]+4\\.00[ *]+-0\\.10[ *]+75\\.00[ *]+"
                                     "5\\.00[ *]+10\\.00[ *]+1\\.00[ *]+37\\.50[ *]+"
                                     "- +- +- +- +\n"));
-  EXPECT_THAT(table, Not(HasSubstr("second"))) << "has no heights";
-  EXPECT_THAT(table, Not(HasSubstr("*"))) << "with nothing to be better than";
+  EXPECT_THAT(table, Not(HasSubstr("second"))) << "the second method has no heights";
+  EXPECT_THAT(table, Not(HasSubstr("*"))) << "a single method is not compared";
 }
 
-TEST_F(ThreeScans, SayNothingOfHeightsWhereNoneAreKnown) {
+TEST_F(ThreeScans, HeightsAreOmittedIfUnknown) {
   const nlohmann::ordered_json json = to_json(results_);
 
   EXPECT_FALSE(has_heights(results_));
@@ -283,7 +283,7 @@ TEST_F(ThreeScans, SayNothingOfHeightsWhereNoneAreKnown) {
   EXPECT_THAT(to_csv(results_), HasSubstr(",f1_by_area,milliseconds\r\n"));
 }
 
-TEST(SpeedTable, PutsThePapersFiguresBesideOurs) {
+TEST(SpeedTable, ShowsTheValuesOfThePaper) {
   std::vector<Method> methods(1);
   methods[0].name = methods[0].title = "patchwork";
   const std::vector<LabelledScan> scans = {{"a", {}, {}}};

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The figures of `flagstone eval` agree with scikit-learn's on a real scan.
+"""The metrics of `flagstone eval` agree with scikit-learn on a real scan.
 
-    python3 scikit_learn_test.py FLAGSTONE DATA    DATA: the folder of real scans, unless FLAGSTONE_DATA is set
+    python3 scikit_learn_test.py FLAGSTONE DATA    DATA: the directory of real scans, unless FLAGSTONE_DATA is set
 
-Leaves with 77, which ctest takes for skipped, where scikit-learn or the scans are not there.
+Exits with 77, which ctest treats as skipped, if scikit-learn or the scans are not available.
 """
 
 import json
@@ -28,7 +28,7 @@ PROTOCOLS = {
     "patchwork": lambda classes, z: (np.isin(classes, GROUND) | ((classes == 70) & (z < -1.3)), classes >= 0),
     "patchwork++": lambda classes, z: (np.isin(classes, GROUND), ~np.isin(classes, [0, 1, 70])),
 }
-FIGURES = {
+METRICS = {
     "precision": metrics.precision_score,
     "recall": metrics.recall_score,
     "f1": metrics.f1_score,
@@ -42,7 +42,7 @@ def run(*command):
 
 
 def area_weights(xy, scored):
-    """Each cell of 0.5 m within 80 m counts once."""
+    """Weights for which each 0.5 m BEV cell within 80 m counts once."""
     cells = np.floor(xy.astype(np.float64) / 0.5).astype(int)
     weights = scored & (np.abs(xy) < 80).all(axis=1)
     _, cell, count = np.unique(cells[weights], axis=0, return_inverse=True, return_counts=True)
@@ -52,25 +52,25 @@ def area_weights(xy, scored):
 
 
 def expected(truth, found, scored, points):
-    """What `eval` prints for one scan, by scikit-learn."""
-    figures = {name: score(truth[scored], found[scored]) for name, score in FIGURES.items()}
+    """The metrics of one scan, computed by scikit-learn."""
+    values = {name: score(truth[scored], found[scored]) for name, score in METRICS.items()}
     weights = area_weights(points[:, :2], scored)
     counted = weights > 0
-    figures["by_area"] = metrics.f1_score(truth[counted], found[counted], sample_weight=weights[counted])
+    values["by_area"] = metrics.f1_score(truth[counted], found[counted], sample_weight=weights[counted])
     range_ = np.hypot(points[:, 0], points[:, 1])
     for low, high in ((0, 10), (10, 20), (20, 40), (40, 80)):
         band = scored & (range_ >= low) & (range_ < high)
-        figures[f"{low}-{high}"] = metrics.f1_score(truth[band], found[band])
-    return figures
+        values[f"{low}-{high}"] = metrics.f1_score(truth[band], found[band])
+    return values
 
 
 def printed(result):
     method = result["methods"][0]
-    figures = {name: method[name]["mean"] for name in FIGURES}
-    figures["by_area"] = method["by_area"]["f1"]
+    values = {name: method[name]["mean"] for name in METRICS}
+    values["by_area"] = method["by_area"]["f1"]
     for band in method["by_range"]:
-        figures[f"{band['from']:.0f}-{band['to']:.0f}"] = band["f1"]
-    return figures
+        values[f"{band['from']:.0f}-{band['to']:.0f}"] = band["f1"]
+    return values
 
 
 def main(flagstone, data):

@@ -18,7 +18,7 @@
 namespace flagstone::eval {
 namespace {
 
-TEST(Confusion, ATinyCaseComputedByHand) {
+TEST(Confusion, MatchesASmallCaseComputedByHand) {
   using enum Truth;
   constexpr std::array labels = {Label::ground, Label::ground,    Label::ground, Label::nonground,
                                  Label::noise,  Label::nonground, Label::ground};
@@ -36,7 +36,7 @@ TEST(Confusion, ATinyCaseComputedByHand) {
   EXPECT_DOUBLE_EQ(confusion.accuracy(), 0.5);
 }
 
-TEST(Confusion, WhatAMethodDoesNotJudgeCountsAsNotGround) {
+TEST(Confusion, AllOtherLabelsCountAsNotGround) {
   constexpr std::array labels = {Label::noise, Label::out_of_range, Label::invalid};
   constexpr std::array truth = {Truth::ground, Truth::not_ground, Truth::ground};
 
@@ -46,7 +46,7 @@ TEST(Confusion, WhatAMethodDoesNotJudgeCountsAsNotGround) {
   EXPECT_EQ(confusion.true_negatives, 1u);
 }
 
-TEST(Confusion, WithoutGroundInTheGroundTruthOnlyTheAccuracyIsDefined) {
+TEST(Confusion, OnlyTheAccuracyIsDefinedWithoutGroundInTheGroundTruth) {
   using enum Truth;
   constexpr std::array labels = {Label::ground, Label::nonground, Label::nonground,
                                  Label::nonground};
@@ -62,7 +62,7 @@ TEST(Confusion, WithoutGroundInTheGroundTruthOnlyTheAccuracyIsDefined) {
   EXPECT_EQ(scores_text(confusion), "no ground in the ground truth, accuracy 75.00 %");
 }
 
-TEST(Confusion, WithoutPointsLabelledGroundThePrecisionIsUndefined) {
+TEST(Confusion, ThePrecisionIsUndefinedWithoutPointsLabelledGround) {
   constexpr std::array labels = {Label::nonground};
   constexpr std::array truth = {Truth::ground};
 
@@ -86,8 +86,9 @@ Score score_of(const std::vector<Point>& points, const std::vector<std::uint32_t
   return truth.score(labels);
 }
 
-TEST(Score, ATinyScanComputedByHand) {
-  // One cell holds two points, right and wrong; another holds one that is right.
+TEST(Score, MatchesASmallScanComputedByHand) {
+  // One cell contains two points, one correct and one wrong. Another cell contains one correct
+  // point.
   const Score score = score_of({{3.1f, 0.1f, 0}, {3.2f, 0.2f, 0}, {15.1f, 0.1f, 0}},
                                {road, building, road}, {ground, ground, ground});
 
@@ -102,7 +103,7 @@ TEST(Score, ATinyScanComputedByHand) {
   EXPECT_DOUBLE_EQ(score.by_area.precision(), 0.75);
 }
 
-TEST(Score, ABandBeginsAtTheEndOfTheOneBefore) {
+TEST(Score, ABandBeginsAtTheEndOfThePreviousBand) {
   const Score score =
       score_of({{10, 0, 0}, {0, -9.99f, 0}, {20, 0, 0}, {0, 40, 0}, {80, 0, 0}},
                {road, road, road, road, road}, {ground, ground, ground, ground, ground});
@@ -114,7 +115,7 @@ TEST(Score, ABandBeginsAtTheEndOfTheOneBefore) {
   EXPECT_EQ(score.points.total(), 5);
 }
 
-TEST(Score, ManyPointsOfOneCellCountAsMuchAsOneOfAnother) {
+TEST(Score, CellsHaveEqualWeightForAnyNumberOfPoints) {
   std::vector<Point> points(1000, Point{5.2f, 5.2f, 0});
   std::vector<std::uint32_t> classes(1000, road);
   std::vector<Label> labels(1000, ground);
@@ -128,7 +129,7 @@ TEST(Score, ManyPointsOfOneCellCountAsMuchAsOneOfAnother) {
   EXPECT_GT(score.points.recall(), 0.99);
 }
 
-TEST(Score, PointsThatAreNotScoredTakeNoShareOfTheirCell) {
+TEST(Score, UnscoredPointsHaveNoWeightInTheirCell) {
   const Score score =
       score_of({{5.1f, 5.1f, 0}, {5.2f, 5.2f, 0}}, {road, unlabelled}, {ground, ground});
 
@@ -136,7 +137,7 @@ TEST(Score, PointsThatAreNotScoredTakeNoShareOfTheirCell) {
   EXPECT_DOUBLE_EQ(score.by_area.total(), 1);
 }
 
-TEST(Score, APointWithoutAPlaceCountsAmongThePointsOnly) {
+TEST(Score, AnInvalidPointCountsOnlyAmongThePoints) {
   const Score score = score_of({{nan, 0, 0}}, {road}, {invalid});
 
   EXPECT_EQ(score.points.false_negatives, 1);
@@ -144,7 +145,7 @@ TEST(Score, APointWithoutAPlaceCountsAmongThePointsOnly) {
   for (const Confusion& band : score.by_range) EXPECT_EQ(band.total(), 0);
 }
 
-RC_GTEST_PROP(Score, AgreesWithTheComparisonOfLabelsAndItsPartsAddUp, ()) {
+RC_GTEST_PROP(Score, AgreesWithCompareAndItsPartsAddUp, ()) {
   const auto count = *rc::gen::inRange<std::size_t>(0, 200);
   const auto coordinate = rc::gen::map(rc::gen::inRange(-1000, 1000),
                                        [](int v) { return static_cast<float>(v) * 0.1f; });
@@ -176,20 +177,20 @@ RC_GTEST_PROP(Score, AgreesWithTheComparisonOfLabelsAndItsPartsAddUp, ()) {
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 constexpr double tiny = 1e-6;
 
-// A point at a horizontal range, 1 m above the true ground, and what a method says of it.
-struct Judged {
+// A point at a horizontal range, 1 m above the true ground, and its estimated height.
+struct HeightSample {
   float range;
-  float height;  // the method's; the true one is 1
+  float height;  // estimated; the true height is 1
   Truth truth = Truth::ground;
   float true_ground = -2;
 };
 
-HeightScore score(const std::vector<Judged>& points) {
+HeightScore score(const std::vector<HeightSample>& points) {
   std::vector<float> cloud;
   std::vector<Truth> truth;
   std::vector<float> true_ground;
   std::vector<float> heights;
-  for (const Judged& point : points) {
+  for (const HeightSample& point : points) {
     cloud.insert(cloud.end(), {0.6F * point.range, -0.8F * point.range, -1});
     truth.push_back(point.truth);
     true_ground.push_back(point.true_ground);
@@ -209,8 +210,8 @@ TEST(HeightScore, IsMedian95thPercentileAndMeanOfTheErrors) {
   EXPECT_NEAR(errors.bias, 0.1875, tiny);
 }
 
-TEST(HeightScore, PercentilesAreErrorsThatThatManyPointsDoNotExceed) {
-  std::vector<Judged> points;
+TEST(HeightScore, PercentilesAreErrorsThatThisPercentageOfPointsDoesNotExceed) {
+  std::vector<HeightSample> points;
   for (int i = 1; i <= 100; ++i) points.push_back({5, 1 + 0.01F * static_cast<float>(i)});
 
   const HeightErrors errors = score(points).ground.all;
@@ -219,12 +220,12 @@ TEST(HeightScore, PercentilesAreErrorsThatThatManyPointsDoNotExceed) {
   EXPECT_NEAR(errors.percentile95, 0.95, tiny);
 }
 
-TEST(HeightScore, BiasIsAboveZeroWhereTheMethodPutsTheGroundTooLow) {
+TEST(HeightScore, BiasIsPositiveIfTheEstimatedGroundIsTooLow) {
   EXPECT_NEAR(score({{5, 1.1F}}).ground.all.bias, 0.1, tiny);
   EXPECT_NEAR(score({{5, 0.9F}}).ground.all.bias, -0.1, tiny);
 }
 
-TEST(HeightScore, PointsWithoutAHeightCountInTheShareOnly) {
+TEST(HeightScore, PointsWithoutAHeightCountOnlyInTheCoverage) {
   const HeightErrors errors = score({{5, 1.5F}, {5, unknown}, {5, unknown}, {5, 1.5F}}).ground.all;
 
   EXPECT_EQ(errors.points, 4U);
@@ -233,7 +234,7 @@ TEST(HeightScore, PointsWithoutAHeightCountInTheShareOnly) {
   EXPECT_NEAR(errors.median, 0.5, tiny);
 }
 
-TEST(HeightScore, PointsWithoutATruthCountNowhere) {
+TEST(HeightScore, PointsWithoutATrueHeightAreExcluded) {
   const HeightScore scored =
       score({{5, 1.5F}, {5, 9, Truth::ground, unknown}, {5, 9, Truth::ground, unknown}});
 
@@ -241,14 +242,14 @@ TEST(HeightScore, PointsWithoutATruthCountNowhere) {
   EXPECT_EQ(scored.ground.all.points, 1U);
 }
 
-TEST(HeightScore, OfNoPointsHasNoShare) {
+TEST(HeightScore, HasNoCoverageWithoutPoints) {
   const HeightErrors none = score({}).ground.all;
 
   EXPECT_EQ(none.points, 0U);
   EXPECT_EQ(none.share(), std::nullopt);
 }
 
-TEST(HeightScore, TellsGroundFromWhatStandsOnIt) {
+TEST(HeightScore, SeparatesGroundPointsFromAllPoints) {
   const HeightScore scored =
       score({{5, 1.25F}, {5, 1.5F, Truth::not_ground}, {5, 1.5F, Truth::ignored}});
 
@@ -258,7 +259,7 @@ TEST(HeightScore, TellsGroundFromWhatStandsOnIt) {
   EXPECT_NEAR(scored.everywhere.all.median, 0.5, tiny);
 }
 
-TEST(HeightScore, BandsOfRangeReachTo20To40AndTo80Metres) {
+TEST(HeightScore, RangeBandsEndAt20And40And80Metres) {
   const HeightErrorsByRange ground =
       score({{1, 1.5F}, {19.9F, 1.5F}, {20.1F, 2}, {39.9F, 2}, {40.1F, 3}, {79.9F, 3}, {90, 5}})
           .ground;

@@ -11,7 +11,7 @@
 namespace flagstone::eval {
 namespace {
 
-TEST(Spread, OfAFewNumbersByHand) {
+TEST(ScanStatistics, MatchesASmallCaseComputedByHand) {
   constexpr std::array values = {2.0, 4.0, 9.0};
 
   const Spread spread = spread_of(values);
@@ -21,7 +21,7 @@ TEST(Spread, OfAFewNumbersByHand) {
   EXPECT_NEAR(spread.ci95.value(), 4.303 * std::sqrt(13.0 / 3), 1e-9);
 }
 
-TEST(Spread, OneNumberHasNoDeviationAndNoInterval) {
+TEST(ScanStatistics, OneValueHasNoStandardDeviationAndNoInterval) {
   constexpr std::array values = {0.5};
 
   const Spread spread = spread_of(values);

@@ -2,20 +2,20 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 #
-# chromium_test.sh REPORT_EXAMPLE: in headless Chromium, no example report logs an error, and each of
-# its plots has something drawn on it. Exits with 77 where there is no Chromium.
+# chromium_test.sh REPORT_EXAMPLE: opens the example reports in headless Chromium. No report may log an
+# error, and no plot may be blank. Exits with 77 if Chromium is not installed.
 set -euo pipefail
 
 for name in chromium chromium-browser google-chrome; do
   if browser=$(command -v "$name"); then break; fi
 done
-[ -n "${browser:-}" ] || { echo "no Chromium on this system"; exit 77; }
+[ -n "${browser:-}" ] || { echo "Chromium is not installed"; exit 77; }
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 "$1" "$folder"
 
-# Reports how many different colours each canvas has: "f1:57 speed:40". Blank is 1.
+# Reports the number of colours of each canvas: "f1:57 speed:40". A blank canvas has 1.
 cat > "$folder/probe.html" << 'PROBE'
 <script>
 const colors = (canvas) => new Set(new Uint32Array(
@@ -25,7 +25,7 @@ document.body.dataset.colors = [...document.querySelectorAll('canvas')]
 </script>
 PROBE
 
-# check PAGE CANVAS... : these are the page's plots, all of them drawn, and no error is logged
+# check PAGE CANVAS...: checks that the page has exactly these plots, that none is blank and that no error is logged
 check() {
   local page=$1 id drawn
   shift
@@ -33,10 +33,10 @@ check() {
   "$browser" --headless --no-sandbox --disable-gpu --user-data-dir="$folder/profile" \
     --enable-logging=stderr --dump-dom "file://$folder/$page" \
     > "$folder/dom" 2> "$folder/log" || { cat "$folder/log"; echo "$page: Chromium failed"; exit 1; }
-  if grep CONSOLE "$folder/log"; then echo "$page: logged the above"; exit 1; fi
+  if grep CONSOLE "$folder/log"; then echo "$page: logged these errors"; exit 1; fi
   drawn=$(sed -n 's/.*data-colors="\([^"]*\)".*/\1/p' "$folder/dom")
   echo "$page: colours on each plot: $drawn"
-  [ "$(wc -w <<< "$drawn")" = $# ] || { echo "$page: there should be $# plots"; exit 1; }
+  [ "$(wc -w <<< "$drawn")" = $# ] || { echo "$page: expected $# plots"; exit 1; }
   for id in "$@"; do
     [[ " $drawn " =~ " $id:"([0-9]+)" " ]] || { echo "$page: no plot $id"; exit 1; }
     [ "${BASH_REMATCH[1]}" -gt 10 ] || { echo "$page: plot $id is blank"; exit 1; }

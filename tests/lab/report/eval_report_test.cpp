@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::ordered_json;
 
-// How often `part` occurs in `text`.
+// Number of occurrences of `part` in `text`.
 std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
@@ -27,17 +27,17 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
   return count;
 }
 
-// The report's own part: without Chart.js and the scripts.
+// The body of the report, without Chart.js and scripts.
 std::string body_of(const std::string& page) {
   const std::size_t begin = page.find("<main>");
   return page.substr(begin, page.find("</main>") - begin);
 }
 
-TEST(EvalReport, SaysWhatWasEvaluatedWhereAndWhen) {
+TEST(EvalReport, ShowsProtocolScansMachineAndDate) {
   const std::string body = body_of(eval_report(example_eval(2, 10), {}));
 
-  for (const char* fact : {"patchwork", "10 scans", "kitti, simulated", "Some Processor, 2 cores",
-                           "2026-11-21", "0.1.0"})
+  for (const char* fact :
+       {"patchwork", "10 scans", "kitti, simulated", "Example CPU, 2 cores", "2026-11-21", "0.1.0"})
     EXPECT_THAT(body, HasSubstr(fact));
 }
 
@@ -64,7 +64,7 @@ TEST(EvalReport, SetsTheHighestOfAColumnInBold) {
   EXPECT_THAT(body, HasSubstr("<td>93.16</td>"));
 }
 
-TEST(EvalReport, SetsAllInBoldThatLookEquallyHigh) {
+TEST(EvalReport, SetsAllValuesThatLookEqualInBold) {
   Json results = example_eval(2, 10);
   results["methods"][0]["f1"]["mean"] = 0.931701;
   results["methods"][1]["f1"]["mean"] = 0.931702;
@@ -72,7 +72,7 @@ TEST(EvalReport, SetsAllInBoldThatLookEquallyHigh) {
   EXPECT_EQ(occurrences(body_of(eval_report(results, {})), "<b>93.17</b>"), 2);
 }
 
-TEST(EvalReport, SetsNothingInBoldWhereThereIsOneMethod) {
+TEST(EvalReport, SetsNothingInBoldForASingleMethod) {
   EXPECT_THAT(body_of(eval_report(example_eval(1, 10), {})), Not(HasSubstr("<b>")));
 }
 
@@ -84,7 +84,7 @@ TEST(EvalReport, ShowsADashForTheDeviationOfOneScan) {
   EXPECT_THAT(body, Not(HasSubstr("null")));
 }
 
-TEST(EvalReport, ShowsADashForTheSpeedOfLabelsMadeElsewhere) {
+TEST(EvalReport, ShowsADashForTheSpeedOfLabelsOfOtherPrograms) {
   Json results = example_eval(1, 10);
   results["methods"][0]["hz"] = nullptr;
   results["methods"][0]["hz_slowest_1_percent"] = nullptr;
@@ -92,7 +92,7 @@ TEST(EvalReport, ShowsADashForTheSpeedOfLabelsMadeElsewhere) {
   EXPECT_EQ(occurrences(body_of(eval_report(results, {})), "<td>–</td>"), 2);
 }
 
-// Heights of one method, with this median error within 20 m, metres.
+// Height errors of one method with this median error within 20 m, metres.
 Json heights_with(double median) {
   const auto band = [&](int from, int to) {
     return Json{{"from", from},
@@ -106,7 +106,7 @@ Json heights_with(double median) {
   return {{"ground", points}, {"everywhere", points}};
 }
 
-TEST(EvalReport, ShowsErrorsOfHeightsInCentimetresTheLowestInBold) {
+TEST(EvalReport, ShowsHeightErrorsInCentimetresWithTheLowestInBold) {
   Json results = example_eval(3, 10);
   results["methods"][0]["heights"] = heights_with(0.0123);
   results["methods"][1]["heights"] = heights_with(0.0234);
@@ -119,10 +119,10 @@ TEST(EvalReport, ShowsErrorsOfHeightsInCentimetresTheLowestInBold) {
   EXPECT_THAT(body, HasSubstr("<td>2.34</td><td><b>8.12</b></td>"));
   EXPECT_THAT(body, HasSubstr("<b>98.70</b>"));
   EXPECT_EQ(occurrences(body, ">RANSAC<"), occurrences(body, ">LineFit<") + 2)
-      << "the third has none and no rows for them";
+      << "the third method has no heights and no rows for them";
 }
 
-TEST(EvalReport, SaysNothingOfHeightsWhereThereAreNone) {
+TEST(EvalReport, OmitsHeightsIfThereAreNone) {
   EXPECT_THAT(body_of(eval_report(example_eval(2, 10), {})), Not(HasSubstr("Heights")));
 }
 
@@ -143,7 +143,7 @@ TEST(EvalReport, ListsScansThatFailedWithTheReason) {
               HasSubstr("<code>00/000077</code> labels are missing"));
 }
 
-TEST(EvalReport, HoldsItsPictures) {
+TEST(EvalReport, ContainsItsImages) {
   const std::array<ReportPicture, 1> pictures = {{{.title = "00/000000", .png = one_pixel_png()}}};
 
   const std::string body = body_of(eval_report(example_eval(1, 10), pictures));
@@ -153,7 +153,7 @@ TEST(EvalReport, HoldsItsPictures) {
   EXPECT_THAT(body, HasSubstr("<figcaption>00/000000</figcaption>"));
 }
 
-TEST(EvalReport, SaysNothingOfPicturesAndFailuresWhereThereAreNone) {
+TEST(EvalReport, OmitsImagesAndFailuresIfThereAreNone) {
   const std::string body = body_of(eval_report(example_eval(1, 10), {}));
 
   EXPECT_THAT(body, Not(HasSubstr("<figure>")));
@@ -161,25 +161,25 @@ TEST(EvalReport, SaysNothingOfPicturesAndFailuresWhereThereAreNone) {
   EXPECT_THAT(body, Not(HasSubstr("Failures")));
 }
 
-TEST(EvalReport, TakesResultsWithoutMethods) {
+TEST(EvalReport, AcceptsResultsWithoutMethods) {
   EXPECT_THAT(eval_report(example_eval(0, 0), {}), HasSubstr("0 scans"));
 }
 
-TEST(EvalReport, TakesAScanThatOnlySomeMethodsHave) {
+TEST(EvalReport, AcceptsAScanThatOnlySomeMethodsHave) {
   Json results = example_eval(2, 3);
   results["methods"][0]["per_scan"].erase(1);
 
   EXPECT_THAT(eval_report(results, {}), HasSubstr("00/000001"));
 }
 
-TEST(EvalReport, RefusesWhatIsNotOfItsForm) {
+TEST(EvalReport, RejectsResultsInAnotherFormat) {
   Json results = example_eval(1, 10);
   results["methods"][0].erase("f1");
 
   EXPECT_THROW((void)eval_report(results, {}), Json::exception);
 }
 
-TEST(EvalReport, LetsNoTextFromTheDataBecomeMarkup) {
+TEST(EvalReport, EscapesAllTextFromTheData) {
   const std::string attack = "</script><script>alert('\"1&')</script>";
   Json results = example_eval(1, 2);
   results["machine"] = attack;
@@ -199,7 +199,7 @@ TEST(EvalReport, LetsNoTextFromTheDataBecomeMarkup) {
             occurrences(eval_report(example_eval(1, 2), {}), "</script>"));
 }
 
-TEST(Reports, LoadNothingFromAnywhere) {
+TEST(Reports, AreSelfContained) {
   const std::regex loads(R"((src|href)\s*=\s*["']?\s*(https?:|//)|@import|url\()");
   for (const std::string& page :
        {eval_report(example_eval(9, 10), {}), sweep_report(example_sweep(3, 3))}) {
@@ -209,7 +209,7 @@ TEST(Reports, LoadNothingFromAnywhere) {
   }
 }
 
-TEST(Reports, CarryTheLibraryThatDrawsTheirPlots) {
+TEST(Reports, ContainThePlottingLibrary) {
   for (const std::string& page :
        {eval_report(example_eval(9, 10), {}), sweep_report(example_sweep(3, 3))})
     EXPECT_THAT(page, HasSubstr("Chart.js v3"));

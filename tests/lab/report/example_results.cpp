@@ -26,9 +26,9 @@ constexpr std::array<std::pair<const char*, const char*>, 9> names = {{
     {"patchwork", "Patchwork"},
 }};
 
-// A share that depends on where it stands, within 0.6 to 1.
-double share(std::size_t method, std::size_t place) {
-  const double wave = std::sin(1.7 * static_cast<double>(place) + static_cast<double>(method));
+// A ratio from 0.6 to 1 that depends on its position.
+double ratio(std::size_t method, std::size_t position) {
+  const double wave = std::sin(1.7 * static_cast<double>(position) + static_cast<double>(method));
   return 0.78 + 0.02 * static_cast<double>(method) + 0.04 * wave;
 }
 
@@ -37,12 +37,12 @@ Json spread(double mean, std::size_t scans) {
   return {{"mean", mean}, {"std", 0.03}, {"ci95", 0.012}};
 }
 
-Json scores(std::size_t method, std::size_t place) {
-  return {{"precision", share(method, place)},
-          {"recall", share(method, place + 1)},
-          {"f1", share(method, place + 2)},
-          {"accuracy", share(method, place + 3)},
-          {"iou", share(method, place + 4)}};
+Json scores(std::size_t method, std::size_t position) {
+  return {{"precision", ratio(method, position)},
+          {"recall", ratio(method, position + 1)},
+          {"f1", ratio(method, position + 2)},
+          {"accuracy", ratio(method, position + 3)},
+          {"iou", ratio(method, position + 4)}};
 }
 
 std::string scan_name(std::size_t scan) {
@@ -65,9 +65,9 @@ Json by_range(std::size_t method) {
 Json method_results(std::size_t index, std::size_t scans) {
   const auto& [name, title] = names.at(index);
   Json method = {{"name", name}, {"title", title}};
-  std::size_t place = 0;
+  std::size_t position = 0;
   for (const char* metric : {"precision", "recall", "f1", "accuracy", "iou"})
-    method[metric] = spread(share(index, place++), scans);
+    method[metric] = spread(ratio(index, position++), scans);
   method["pooled"] = scores(index, 5);
   method["pooled"]["points"] = 120000 * scans;
   method["by_range"] = by_range(index);
@@ -89,7 +89,7 @@ Json method_results(std::size_t index, std::size_t scans) {
 Json header(std::size_t scans) {
   return {{"flagstone", "0.1.0"},
           {"date", "2026-11-21"},
-          {"machine", "Some Processor, 2 cores"},
+          {"machine", "Example CPU, 2 cores"},
           {"protocol", "patchwork"},
           {"datasets", {"kitti", "simulated"}},
           {"scans", scans}};
@@ -118,9 +118,9 @@ Json example_sweep(std::size_t first, std::size_t second, bool numeric) {
       Json values = {numeric ? rings : rings + "x36"};
       if (second > 0) values.push_back(std::to_string(30 + 5 * j));
       results["cells"].push_back({{"values", values},
-                                  {"precision", spread(share(i, j), 10)},
-                                  {"recall", spread(share(i, j + 1), 10)},
-                                  {"f1", spread(share(i, j + 2), 10)}});
+                                  {"precision", spread(ratio(i, j), 10)},
+                                  {"recall", spread(ratio(i, j + 1), 10)},
+                                  {"f1", spread(ratio(i, j + 2), 10)}});
     }
   }
   results["winner"] = "20x36 won by 1.3 intervals";

@@ -15,12 +15,12 @@ using testing::HasSubstr;
 using testing::Not;
 using Json = nlohmann::ordered_json;
 
-TEST(Html, EscapesWhatWouldBeMarkup) {
+TEST(Html, EscapesMarkup) {
   EXPECT_EQ(escaped(R"(<b a="1" b='2'>&amp;</b>)"),
             "&lt;b a=&quot;1&quot; b=&#39;2&#39;&gt;&amp;amp;&lt;/b&gt;");
 }
 
-TEST(Html, LeavesOtherTextAsItIs) { EXPECT_EQ(escaped("00/000123 σ é"), "00/000123 σ é"); }
+TEST(Html, KeepsOtherText) { EXPECT_EQ(escaped("00/000123 σ é"), "00/000123 σ é"); }
 
 TEST(Html, JsonInAScriptCannotEndIt) {
   const Json value = {{"</script><!--", "</SCRIPT>"}};
@@ -31,23 +31,23 @@ TEST(Html, JsonInAScriptCannotEndIt) {
   EXPECT_EQ(Json::parse(json), value);
 }
 
-TEST(Html, JsonOfBytesThatAreNotUtf8IsStillJson) {
+TEST(Html, JsonOfBytesThatAreNotUtf8IsValid) {
   EXPECT_EQ(Json::parse(script_json("a\xFF")), "a\uFFFD");
 }
 
-TEST(Html, ShowsSharesInPercentWithTwoDecimals) {
+TEST(Html, ShowsRatiosInPercentWithTwoDecimals) {
   EXPECT_EQ(percent_text(0.951234), "95.12");
   EXPECT_EQ(percent_text(1), "100.00");
   EXPECT_EQ(percent_text(0.0), "0.00");
 }
 
-TEST(Html, ShowsRatesWithADecimalWhereItMatters) {
+TEST(Html, ShowsRatesBelow1000WithOneDecimal) {
   EXPECT_EQ(number_text(55.23), "55.2");
   EXPECT_EQ(number_text(1240.4), "1240");
   EXPECT_EQ(number_text(10), "10");
 }
 
-TEST(Html, ShowsADashForNoNumber) {
+TEST(Html, ShowsADashForAMissingNumber) {
   EXPECT_EQ(percent_text(nullptr), no_number);
   EXPECT_EQ(number_text(nullptr), no_number);
 }
@@ -55,7 +55,7 @@ TEST(Html, ShowsADashForNoNumber) {
 std::string encoded(std::string_view text) { return base64(std::as_bytes(std::span(text))); }
 
 // RFC 4648, section 10.
-TEST(Base64, GivesTheTestVectorsOfItsStandard) {
+TEST(Base64, MatchesTheTestVectorsOfTheStandard) {
   EXPECT_EQ(encoded(""), "");
   EXPECT_EQ(encoded("f"), "Zg==");
   EXPECT_EQ(encoded("fo"), "Zm8=");

@@ -13,23 +13,23 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Template, PutsValuesIntoTheirSlots) {
+TEST(Template, ReplacesSlotsByTheirValues) {
   constexpr std::array slots = {Slot{"a", "1"}, Slot{"b", "2"}};
   EXPECT_EQ(fill("x{{a}}y{{b}}{{a}}z", slots), "x1y21z");
 }
 
-TEST(Template, DoesNotLookForSlotsInValues) {
+TEST(Template, DoesNotReplaceSlotsInValues) {
   constexpr std::array slots = {Slot{"a", "{{b}}"}, Slot{"b", "2"}};
   EXPECT_EQ(fill("{{a}}", slots), "{{b}}");
 }
 
-TEST(Template, RefusesANameWithoutSlot) { EXPECT_THROW((void)fill("{{a}}", {}), std::logic_error); }
+TEST(Template, RejectsANameWithoutSlot) { EXPECT_THROW((void)fill("{{a}}", {}), std::logic_error); }
 
 TEST(Page, EscapesItsTitle) {
   EXPECT_THAT(page("a < b", "", {}, ""), HasSubstr("<title>a &lt; b</title>"));
 }
 
-TEST(Page, TellsTheBrowserToLoadNothing) {
+TEST(Page, ForbidsTheBrowserToLoadAnything) {
   EXPECT_THAT(page("", "", {}, ""), HasSubstr("default-src 'none'"));
 }
 

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* a_plot = "<canvas";
 constexpr const char* a_heat_table = "<table class=\"heat\">";
 
-TEST(SweepReport, SaysWhatWasSweptAndWhichSettingWon) {
+TEST(SweepReport, ShowsTheKeysAndTheBestSetting) {
   const std::string page = sweep_report(example_sweep(3, 2));
 
   for (const char* fact :
@@ -46,7 +46,7 @@ TEST(SweepReport, PlotsASweepOfOneKey) {
               AllOf(HasSubstr(a_plot), Not(HasSubstr(a_heat_table))));
 }
 
-TEST(SweepReport, ShadesATableWhereThereAreManyNumbers) {
+TEST(SweepReport, ShadesATableForManyNumbers) {
   EXPECT_THAT(sweep_report(example_sweep(3, 7, true)),
               AllOf(Not(HasSubstr(a_plot)), HasSubstr(a_heat_table)));
 }
@@ -55,11 +55,11 @@ TEST(SweepReport, PlotsLinesForUpToSixNumbers) {
   EXPECT_THAT(sweep_report(example_sweep(3, 6, true)), HasSubstr(a_plot));
 }
 
-TEST(SweepReport, PlotsLinesWhereAKeyIsText) {
+TEST(SweepReport, PlotsLinesIfAKeyIsNotNumeric) {
   EXPECT_THAT(sweep_report(example_sweep(3, 7)), HasSubstr(a_plot));
 }
 
-TEST(SweepReport, ShadesTheHighestMeanDarkestAndTheLowestNot) {
+TEST(SweepReport, ShadesFromTheLowestToTheHighestMean) {
   Json results = example_sweep(2, 7, true);
   results["cells"][0]["f1"]["mean"] = 0.9876;
   results["cells"][1]["f1"]["mean"] = 0.1234;
@@ -70,14 +70,14 @@ TEST(SweepReport, ShadesTheHighestMeanDarkestAndTheLowestNot) {
   EXPECT_THAT(page, HasSubstr("<td style=\"--shade: 0.000\">12.34</td>"));
 }
 
-TEST(SweepReport, LeavesCellsEmptyThatTheSweepDoesNotHave) {
+TEST(SweepReport, ShowsADashForCellsMissingFromTheSweep) {
   Json results = example_sweep(2, 7, true);
   results["cells"].erase(3);
 
   EXPECT_THAT(sweep_report(results), HasSubstr("<td style=\"--shade: 0.000\">–</td>"));
 }
 
-TEST(SweepReport, LetsNoTextFromTheDataBecomeMarkup) {
+TEST(SweepReport, EscapesAllTextFromTheData) {
   const std::string attack = "</script><script>alert('1')</script>";
   for (const std::size_t thresholds : {2u, 7u}) {
     Json results = example_sweep(2, thresholds, true);
@@ -90,7 +90,7 @@ TEST(SweepReport, LetsNoTextFromTheDataBecomeMarkup) {
   }
 }
 
-TEST(SweepReport, RefusesMoreKeysThanItCanShow) {
+TEST(SweepReport, RejectsMoreThanTwoKeys) {
   Json results = example_sweep(2, 2);
   results["keys"] = {"a", "b", "c"};
 
