@@ -51,7 +51,7 @@ DoctorReport examine_files(const DoctorRequest& request, const RunCallbacks& cal
 /// are of each. `bold`: with the codes of a terminal for what matters.
 std::string text_of(const DoctorReport& report, bool bold);
 
-/// One object; docs/how-to/check-scans-with-doctor.md says what its keys mean.
+/// One object; docs/reference/doctor-json.md lists its keys.
 std::string json_of(const DoctorReport& report);
 
 /// The settings that fit, for a configuration file. Where there are none, a comment that says so.
