@@ -16,9 +16,9 @@ bool begins_at_a_cache_line(const Buffer<T>& buffer) {
   return reinterpret_cast<std::uintptr_t>(buffer.data()) % 64 == 0;
 }
 
-TEST(Buffer, HoldsNothingAtFirst) { EXPECT_EQ(Buffer<float>().data(), nullptr); }
+TEST(Buffer, IsEmptyByDefault) { EXPECT_EQ(Buffer<float>().data(), nullptr); }
 
-TEST(Buffer, BeginsAtACacheLineWhateverItsSizeAndType) {
+TEST(Buffer, IsAlignedToACacheLineForAnySizeAndType) {
   for (const std::size_t count : {1U, 3U, 16U, 17U, 1000U, 70001U}) {
     Buffer<float> floats;
     Buffer<std::uint8_t> bytes;
@@ -29,7 +29,7 @@ TEST(Buffer, BeginsAtACacheLineWhateverItsSizeAndType) {
   }
 }
 
-TEST(Buffer, CanBeWrittenToItsLastElement) {
+TEST(Buffer, CanBeWrittenUpToItsLastElement) {
   Buffer<std::uint32_t> buffer;
   buffer.reserve(1001);
   for (std::uint32_t i = 0; i < 1001; ++i) buffer.data()[i] = i;
@@ -37,7 +37,7 @@ TEST(Buffer, CanBeWrittenToItsLastElement) {
   for (std::uint32_t i = 0; i < 1001; ++i) ASSERT_EQ(buffer.data()[i], i);
 }
 
-TEST(Buffer, KeepsItsPlaceAndContentsAsLongAsItNeedNotGrow) {
+TEST(Buffer, KeepsItsAddressAndContentsUnlessItHasToGrow) {
   Buffer<int> buffer;
   buffer.reserve(100);
   const int* const place = buffer.data();
@@ -49,7 +49,7 @@ TEST(Buffer, KeepsItsPlaceAndContentsAsLongAsItNeedNotGrow) {
   EXPECT_EQ(buffer.data()[99], 42);
 }
 
-TEST(Buffer, GrowsStillAligned) {
+TEST(Buffer, IsAlignedAfterItGrows) {
   Buffer<double> buffer;
   for (std::size_t count = 1; count < 5000; count = count * 2 + 1) {
     buffer.reserve(count);
@@ -58,7 +58,7 @@ TEST(Buffer, GrowsStillAligned) {
   }
 }
 
-TEST(Buffer, MovesWithItsContentsAndLeavesNothingBehind) {
+TEST(Buffer, MovesItsContentsAndLeavesTheSourceEmpty) {
   Buffer<int> from;
   from.reserve(10);
   from.data()[9] = 7;
@@ -73,7 +73,7 @@ TEST(Buffer, MovesWithItsContentsAndLeavesNothingBehind) {
   EXPECT_NE(from.data(), nullptr);
 }
 
-TEST(Buffer, TakesOverAnothersContentsByAssignment) {
+TEST(Buffer, MoveAssignmentTransfersTheContents) {
   Buffer<int> from;
   from.reserve(10);
   from.data()[9] = 7;
@@ -96,7 +96,7 @@ TEST(Buffer, TakesOverAnothersContentsByAssignment) {
 #endif
 
 #ifndef MEMORY_IS_WATCHED
-TEST(Buffer, IsEmptyAndUsableAfterMemoryWasRefused) {
+TEST(Buffer, IsEmptyAndUsableAfterAFailedAllocation) {
   Buffer<double> buffer;
   buffer.reserve(10);
 

@@ -34,7 +34,7 @@ TEST(CloudView, ReadsPackedFloatsOfAnyWidth) {
   expect_point(CloudView(floats.data(), 2, 5)[1], 6, 7, 8);
 }
 
-TEST(CloudView, ReadsTheUsersOwnStructWhereverItsCoordinatesStand) {
+TEST(CloudView, ReadsAUserStructWithCoordinatesAtAnyOffset) {
   struct Echo {
     std::uint16_t ring;
     float z;

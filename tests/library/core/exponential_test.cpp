@@ -17,7 +17,7 @@ double relative_error(double x) {
   return static_cast<double>(std::abs((static_cast<long double>(exponential(x)) - exact) / exact));
 }
 
-TEST(Exponential, IsWithin1e15OfTheMathematicsLibrarysFromMinus700To700) {
+TEST(Exponential, IsWithin1e15OfTheStandardLibraryFromMinus700To700) {
   double worst = 0;
   double worst_at = 0;
   for (int i = -700'000; i <= 700'000; ++i) {
@@ -31,7 +31,7 @@ TEST(Exponential, IsWithin1e15OfTheMathematicsLibrarysFromMinus700To700) {
   EXPECT_LT(worst, 1e-15) << "at " << worst_at;
 }
 
-TEST(Exponential, IsWithin1e15OfTheMathematicsLibrarysWhereTheNumberOfHalvingsChanges) {
+TEST(Exponential, IsWithin1e15OfTheStandardLibraryWhereTheExponentChanges) {
   // (k + 1/2) ln 2 and the numbers beside it leave the largest rest for the series.
   for (int k = -1009; k <= 1009; ++k) {
     const double middle = (k + 0.5) * 0.6931471805599453;
@@ -46,13 +46,13 @@ TEST(Exponential, OfZeroIsOne) {
   EXPECT_EQ(exponential(-0.0), 1.0);
 }
 
-TEST(Exponential, OfTinyNumbersIsOneWithinRounding) {
+TEST(Exponential, OfTinyNumbersIsOneUpToRounding) {
   for (const double x : {1e-300, -1e-300, 1e-17, -1e-17, 4.9e-324}) {
     EXPECT_NEAR(exponential(x), 1.0, 1e-15);
   }
 }
 
-TEST(Exponential, StaysWhatItIsBeyond700) {
+TEST(Exponential, IsConstantBeyond700) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double x : {700.001, 1e4, 1e300, infinity}) {
     EXPECT_EQ(exponential(x), exponential(700));
@@ -62,7 +62,7 @@ TEST(Exponential, StaysWhatItIsBeyond700) {
   EXPECT_TRUE(std::isnormal(exponential(-700)));
 }
 
-TEST(Exponential, NeverFalls) {
+TEST(Exponential, IsMonotonic) {
   EXPECT_TRUE(rc::check([] {
     // Steps of 1e-9 are a million roundings.
     const double x = *rc::gen::inRange(-700'000'000, 700'000'000) * 1e-6;

@@ -43,7 +43,7 @@ rc::Gen<float> any_share() {
 /// Smooth ground, for what must hold for every ground.
 float hills(float x, float y) { return 0.4f * std::sin(x / 3) - 0.3f * std::cos(y / 2 + x / 7); }
 
-TEST(GroundSurface, IsEmptyAndKnowsNothingUntilItIsFilled) {
+TEST(GroundSurface, IsEmptyAndUnknownEverywhereUntilFilled) {
   GroundSurface surface;
 
   EXPECT_TRUE(surface.empty());
@@ -52,7 +52,7 @@ TEST(GroundSurface, IsEmptyAndKnowsNothingUntilItIsFilled) {
   EXPECT_TRUE(is_not_known(surface, 0, 0));
 }
 
-TEST(GroundSurface, KnowsNothingWhileItsGridsHaveNoCells) {
+TEST(GroundSurface, IsUnknownEverywhereIfItsGridsHaveNoCells) {
   GroundSurface surface;
   surface.start().resize(2);
 
@@ -60,7 +60,7 @@ TEST(GroundSurface, KnowsNothingWhileItsGridsHaveNoCells) {
   EXPECT_TRUE(is_not_known(surface, 1, -1));
 }
 
-TEST(GroundSurface, KnowsNothingOnceItIsCleared) {
+TEST(GroundSurface, IsUnknownEverywhereAfterClear) {
   GroundSurface surface = random_surface([](float, float) { return -1.7f; });
   surface.clear();
 
@@ -69,7 +69,7 @@ TEST(GroundSurface, KnowsNothingOnceItIsCleared) {
   EXPECT_TRUE(is_not_known(surface, 0, 0));
 }
 
-TEST(GroundSurface, ReachesAsFarAsItsCoarsestGrid) {
+TEST(GroundSurface, HasTheExtentOfItsCoarsestGrid) {
   const GroundSurface surface = random_surface(hills, two_grids);
 
   EXPECT_EQ(surface.extent(), 32);
@@ -78,7 +78,7 @@ TEST(GroundSurface, ReachesAsFarAsItsCoarsestGrid) {
   EXPECT_TRUE(is_not_known(surface, 0, -32.001f));
 }
 
-TEST(GroundSurface, HasTheResolutionOfTheFinestGridThatCoversThePlace) {
+TEST(GroundSurface, HasTheResolutionOfTheFinestGridAtThePosition) {
   const GroundSurface surface = random_surface(hills, two_grids);
 
   EXPECT_EQ(surface.resolution(0, 0), 0.25f);
@@ -88,7 +88,7 @@ TEST(GroundSurface, HasTheResolutionOfTheFinestGridThatCoversThePlace) {
   EXPECT_TRUE(std::isnan(surface.resolution(32.001f, 0)));
 }
 
-TEST(GroundSurface, TakesThemUpToTheEdgeFromTheFinestOfGridsThatReachAsFar) {
+TEST(GroundSurface, UsesTheFinestOfGridsWithEqualExtentUpToTheEdge) {
   GroundSurface surface = random_surface(
       hills, std::vector<tests::GridSize>{{.cell = 2, .width = 8}, {.cell = 1, .width = 16}});
   std::ranges::fill(surface.start()[1].heights, -1.0f);
@@ -98,7 +98,7 @@ TEST(GroundSurface, TakesThemUpToTheEdgeFromTheFinestOfGridsThatReachAsFar) {
   EXPECT_EQ(surface.height(-8, 8), -1);
 }
 
-TEST(GroundSurface, TakesHeightsFromTheFinestGridThatCoversThePlace) {
+TEST(GroundSurface, UsesHeightsOfTheFinestGridAtThePosition) {
   GroundSurface surface = random_surface([](float, float) { return -2.0f; }, two_grids);
   std::ranges::fill(surface.start()[1].heights, -1.0f);
 
@@ -106,7 +106,7 @@ TEST(GroundSurface, TakesHeightsFromTheFinestGridThatCoversThePlace) {
   EXPECT_EQ(surface.height(7.876f, 7.875f), -2);
 }
 
-TEST(GroundSurface, IsWhatACellHoldsAtTheCellsCentre) {
+TEST(GroundSurface, EqualsTheHeightOfACellAtItsCentre) {
   const GroundSurface surface = of_sixteen([](float x, float y) { return 10 * x + y * y; });
 
   EXPECT_EQ(surface.height(-1.5f, -0.5f), -14.75f);
@@ -114,7 +114,7 @@ TEST(GroundSurface, IsWhatACellHoldsAtTheCellsCentre) {
   EXPECT_EQ(surface.height(1.5f, 1.5f), 17.25f);
 }
 
-TEST(GroundSurface, IsBilinearBetweenCentres) {
+TEST(GroundSurface, IsBilinearBetweenCellCentres) {
   const GroundSurface surface =
       of_sixteen([](float x, float y) { return x > 0 && y > 0 ? 1.0f : 0.0f; });
 
@@ -123,7 +123,7 @@ TEST(GroundSurface, IsBilinearBetweenCentres) {
   EXPECT_EQ(surface.height(1, 0.25f), 0.75f);
 }
 
-TEST(GroundSurface, StaysAsItIsBeyondTheLastCentres) {
+TEST(GroundSurface, IsConstantBeyondTheLastCellCentres) {
   const GroundSurface surface = of_sixteen([](float x, float y) { return x + 2 * y; });
 
   EXPECT_EQ(surface.height(2, 2), surface.height(1.5f, 1.5f));
@@ -132,7 +132,7 @@ TEST(GroundSurface, StaysAsItIsBeyondTheLastCentres) {
   EXPECT_EQ(surface.at(0.25f, -2).slope, surface.at(0.25f, -1.5f).slope);
 }
 
-TEST(GroundSurface, ConfidenceIsBilinearToo) {
+TEST(GroundSurface, HasBilinearConfidence) {
   GroundSurface surface = of_sixteen([](float, float) { return 0.0f; });
   std::vector<float>& confidences = surface.start()[0].confidences;
   std::ranges::fill(confidences, 0.25f);
@@ -143,7 +143,7 @@ TEST(GroundSurface, ConfidenceIsBilinearToo) {
   EXPECT_EQ(surface.at(0, 0).confidence, 0.375f);
 }
 
-TEST(SurfaceWithAHole, IsNotKnownWhereAnUnknownCellHasAShare) {
+TEST(SurfaceWithAHole, IsUnknownWhereAnUnknownCellHasAWeight) {
   const GroundSurface surface =
       of_sixteen([](float x, float y) { return x == 0.5f && y == 0.5f ? nan : 1; });
 
@@ -152,7 +152,7 @@ TEST(SurfaceWithAHole, IsNotKnownWhereAnUnknownCellHasAShare) {
   EXPECT_TRUE(is_not_known(surface, -0.499f, 0.5f));
 }
 
-TEST(SurfaceWithAHole, IsKnownWhereTheUnknownCellHasNoShare) {
+TEST(SurfaceWithAHole, IsKnownWhereTheUnknownCellHasNoWeight) {
   const GroundSurface surface =
       of_sixteen([](float x, float y) { return x == 0.5f && y == 0.5f ? nan : 1; });
 
@@ -164,7 +164,7 @@ TEST(SurfaceWithAHole, IsKnownWhereTheUnknownCellHasNoShare) {
   }
 }
 
-TEST(SurfaceWithAHole, HasNoNormalWhereOneOfTheFourHeightsIsUnknown) {
+TEST(SurfaceWithAHole, HasNoNormalIfOneOfTheFourHeightsIsUnknown) {
   const GroundSurface surface =
       of_sixteen([](float x, float y) { return x == 0.5f && y == 0.5f ? nan : 1; });
   const GroundSample ground = surface.at(-0.5f, 0.25f);  // on a line of centres, beside the hole
@@ -174,7 +174,7 @@ TEST(SurfaceWithAHole, HasNoNormalWhereOneOfTheFourHeightsIsUnknown) {
   EXPECT_TRUE(std::isnan(ground.slope));
 }
 
-TEST(SurfaceAt, SaysHowSteepAndWhichWay) {
+TEST(SurfaceAt, ReturnsSlopeAndDirection) {
   const GroundSurface rises_ahead = random_surface([](float x, float) { return x; });
   const GroundSurface falls_to_the_left = random_surface([](float, float y) { return -2 * y; });
 
@@ -227,7 +227,7 @@ RC_GTEST_PROP(SurfaceHeight, IsContinuousWithinAGrid, ()) {
   RC_ASSERT(std::abs(surface.height(x, y) - surface.height(to_x, to_y)) < 0.25f * 2e-3f + 1e-5f);
 }
 
-RC_GTEST_PROP(SurfaceHeight, IsTheOneThatAtGives, ()) {
+RC_GTEST_PROP(SurfaceHeight, EqualsTheHeightFromAt, ()) {
   static const GroundSurface surface =
       random_surface([](float x, float y) { return std::sin(x * y) > 0.9f ? nan : hills(x, y); });
   const float x = 33 * *any_share();
@@ -237,7 +237,7 @@ RC_GTEST_PROP(SurfaceHeight, IsTheOneThatAtGives, ()) {
             std::bit_cast<std::uint32_t>(surface.at(x, y).height));
 }
 
-RC_GTEST_PROP(SurfaceHeight, LiesWithinTheHeightsAround, ()) {
+RC_GTEST_PROP(SurfaceHeight, IsWithinTheRangeOfTheSurroundingHeights, ()) {
   static const GroundSurface surface = random_surface(hills);
   const float height = surface.height(32 * *any_share(), 32 * *any_share());
 
@@ -245,7 +245,7 @@ RC_GTEST_PROP(SurfaceHeight, LiesWithinTheHeightsAround, ()) {
   RC_ASSERT(height <= 0.7f);
 }
 
-RC_GTEST_PROP(SurfaceAt, TakesEveryBitPattern, ()) {
+RC_GTEST_PROP(SurfaceAt, AcceptsCoordinatesOfAnyValue, ()) {
   static const GroundSurface surface = random_surface(hills);
   const auto special =
       rc::gen::element(nan, inf, -inf, -0.0f, 32.0f, -32.0f, 8.0f,

@@ -16,7 +16,7 @@
 namespace flagstone {
 namespace {
 
-TEST(Label, CodesAreThoseOfTheDataContract) {
+TEST(Label, HasTheDocumentedCodes) {
   EXPECT_EQ(static_cast<int>(Label::nonground), 0);
   EXPECT_EQ(static_cast<int>(Label::ground), 1);
   EXPECT_EQ(static_cast<int>(Label::noise), 2);
@@ -25,7 +25,7 @@ TEST(Label, CodesAreThoseOfTheDataContract) {
   EXPECT_EQ(sizeof(Label), 1u);
 }
 
-TEST(Label, NamesAreThoseOfTheDataContract) {
+TEST(Label, HasTheDocumentedNames) {
   EXPECT_STREQ(to_string(Label::nonground), "nonground");
   EXPECT_STREQ(to_string(Label::ground), "ground");
   EXPECT_STREQ(to_string(Label::noise), "noise");
@@ -33,7 +33,7 @@ TEST(Label, NamesAreThoseOfTheDataContract) {
   EXPECT_STREQ(to_string(Label::invalid), "invalid");
 }
 
-TEST(Verdict, NamesAreThoseOfTheEnumeration) {
+TEST(Verdict, HasTheNamesOfTheEnumeration) {
   EXPECT_STREQ(to_string(Verdict::ground), "ground");
   EXPECT_STREQ(to_string(Verdict::ground_flat), "ground_flat");
   EXPECT_STREQ(to_string(Verdict::too_few_points), "too_few_points");
@@ -44,13 +44,13 @@ TEST(Verdict, NamesAreThoseOfTheEnumeration) {
   EXPECT_STREQ(to_string(Verdict::off_surface), "off_surface");
 }
 
-TEST(Verdict, MixedAndOffSurfaceAreNoGround) {
+TEST(Verdict, MixedAndOffSurfaceAreNotGround) {
   EXPECT_FALSE(Patch{.verdict = Verdict::mixed}.is_ground());
   EXPECT_FALSE(Patch{.verdict = Verdict::off_surface}.is_ground());
   EXPECT_TRUE(Patch{.verdict = Verdict::ground}.is_ground());
 }
 
-TEST(Stage, EveryOneHasANameOfItsOwnAndThereAreNoMore) {
+TEST(Stage, EveryStageHasAUniqueName) {
   std::set<std::string> names;
   for (std::size_t stage = 0; stage < stage_count; ++stage) {
     names.insert(to_string(static_cast<Stage>(stage)));
@@ -75,7 +75,7 @@ TEST(Segmentation, CountsAddUpToTheNumberOfPoints) {
   EXPECT_EQ(result.count(Label::noise), 1u);
 }
 
-TEST(Segmentation, StartForgetsWhatWasThere) {
+TEST(Segmentation, StartClearsThePreviousResult) {
   Segmentation result;
   result.start(3)[0] = Label::ground;
   result.mutable_patches().emplace_back();
@@ -89,7 +89,7 @@ TEST(Segmentation, StartForgetsWhatWasThere) {
   EXPECT_TRUE(result.patches().empty());
 }
 
-TEST(Segmentation, HasNoHeightsOnceMovedFromAndMayBeFilledAgain) {
+TEST(Segmentation, HasNoHeightsAfterMoveAndCanBeFilledAgain) {
   Segmentation result;
   result.start(3);
   result.start_heights()[0] = 1;
@@ -102,7 +102,7 @@ TEST(Segmentation, HasNoHeightsOnceMovedFromAndMayBeFilledAgain) {
   EXPECT_EQ(result.heights().size(), 2u);
 }
 
-TEST(Status, IsOkUnlessItSaysWhatIsWrong) {
+TEST(Status, IsOkUnlessItHasAnErrorCode) {
   EXPECT_TRUE(Status().ok());
 
   const Status status(StatusCode::bad_file, "scan.bin: byte 12: ends early");

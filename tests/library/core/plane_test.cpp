@@ -95,7 +95,7 @@ bool is_doubtful(const Moments& moments) {
   return doubtful != 0;
 }
 
-TEST(FitPlanes, GivesEachOfSixteenThePlaneItHasAlone) {
+TEST(FitPlanes, FitsSixteenPlanesLikeSinglePlanes) {
   for (const std::string& target : simd_targets()) {
     const tests::ForcedTarget forced(target);
     EXPECT_TRUE(rc::check("on " + target, [] {
@@ -116,7 +116,7 @@ TEST(FitPlanes, GivesEachOfSixteenThePlaneItHasAlone) {
   }
 }
 
-TEST(FitPlanes, GivesTheSameBitsOnEveryInstructionSet) {
+TEST(FitPlanes, IsBitIdenticalOnEveryInstructionSet) {
   EXPECT_TRUE(rc::check([] {
     MomentsBatch batch{};
     for (std::size_t i = 0; i < batch_size; ++i) place(any_moments(), i, batch);
@@ -134,7 +134,7 @@ TEST(FitPlanes, GivesTheSameBitsOnEveryInstructionSet) {
   }));
 }
 
-TEST(FitPlanes, FindsThePlaneItsPointsLieOn) {
+TEST(FitPlanes, FindsThePlaneOfItsPoints) {
   const Vector3 n = {0.6, 0, 0.8};
   const auto on_plane = [&](std::mt19937& random) -> Vector3 {
     const double u = any(random);
@@ -151,7 +151,7 @@ TEST(FitPlanes, FindsThePlaneItsPointsLieOn) {
   EXPECT_NEAR(planes[5].d, -2, 1e-12);
 }
 
-TEST(FitPlanes, CarriesTheNumberOfPointsSoThatFewerThanThreeAreNoPlane) {
+TEST(FitPlanes, KeepsTheNumberOfPointsAndNeedsThree) {
   MomentsBatch batch{};
   for (int i = 0; i < 16; ++i) {
     place(moments_of(on_rough_ground, i), static_cast<std::size_t>(i), batch);
@@ -164,19 +164,25 @@ TEST(FitPlanes, CarriesTheNumberOfPointsSoThatFewerThanThreeAreNoPlane) {
   EXPECT_EQ(doubtful & 7U, 0U) << "what does not exist is not in doubt";
 }
 
-TEST(FitPlanes, DoesNotDoubtGround) { EXPECT_FALSE(is_doubtful(moments_of(on_rough_ground, 50))); }
+TEST(FitPlanes, ReportsGroundAsWellConditioned) {
+  EXPECT_FALSE(is_doubtful(moments_of(on_rough_ground, 50)));
+}
 
-TEST(FitPlanes, DoubtsPointsOnALine) {
+TEST(FitPlanes, ReportsPointsOnALineAsIllConditioned) {
   EXPECT_TRUE(is_doubtful(moments_of(on_a_level_line, 50)));
   EXPECT_TRUE(is_doubtful(moments_of(on_a_slanted_line, 50)));
   EXPECT_TRUE(is_doubtful(moments_of(on_a_pole, 50)));
 }
 
-TEST(FitPlanes, DoubtsPointsInABall) { EXPECT_TRUE(is_doubtful(moments_of(in_a_ball, 20000))); }
+TEST(FitPlanes, ReportsPointsInABallAsIllConditioned) {
+  EXPECT_TRUE(is_doubtful(moments_of(in_a_ball, 20000)));
+}
 
-TEST(FitPlanes, DoubtsPointsInOnePlace) { EXPECT_TRUE(is_doubtful(moments_of(in_one_place, 50))); }
+TEST(FitPlanes, ReportsPointsAtOnePositionAsIllConditioned) {
+  EXPECT_TRUE(is_doubtful(moments_of(in_one_place, 50)));
+}
 
-TEST(FitPlanes, DoubtsGroundFarFromTheOrigin) {
+TEST(FitPlanes, ReportsGroundFarFromTheOriginAsIllConditioned) {
   EXPECT_TRUE(is_doubtful(moments_of(on_ground_far_away, 50)));
 }
 

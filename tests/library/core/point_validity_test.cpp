@@ -13,7 +13,7 @@ namespace {
 
 constexpr float denormal = std::numeric_limits<float>::denorm_min();
 
-TEST(PointValidity, NeedsThreeFiniteCoordinates) {
+TEST(PointValidity, RequiresThreeFiniteCoordinates) {
   EXPECT_TRUE(is_valid({1, -2, 3}));
   for (const float bad : {inf, -inf, nan}) {
     EXPECT_FALSE(is_valid({bad, 2, 3})) << bad;
@@ -22,7 +22,7 @@ TEST(PointValidity, NeedsThreeFiniteCoordinates) {
   }
 }
 
-TEST(PointValidity, ExcludesTheAllZeroPointWhateverItsSigns) {
+TEST(PointValidity, ExcludesTheAllZeroPointWithAnySigns) {
   EXPECT_FALSE(is_valid({0, 0, 0}));
   EXPECT_FALSE(is_valid({-0.0f, 0, -0.0f}));
   EXPECT_TRUE(is_valid({0, 0, denormal}));

@@ -29,7 +29,7 @@ Symmetric3 any_covariance(double v1, double v2, double v3) {
   return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
 }
 
-TEST(PrincipalAxes, AreEigensOnAnyCovariance) {
+TEST(PrincipalAxes, MatchEigenOnAnyCovariance) {
   EXPECT_TRUE(rc::check([] {
     const double v1 = *rc::gen::inRange(1, 100000) / 1000.0;
     const double v2 = v1 * *rc::gen::inRange(1, 1000) / 1000.0;
@@ -50,21 +50,21 @@ TEST(PrincipalAxes, AreEigensOnAnyCovariance) {
   }));
 }
 
-TEST(PrincipalAxes, OfASinglePlaceAreAHorizontalPlane) {
+TEST(PrincipalAxes, OfASinglePositionAreAHorizontalPlane) {
   const PrincipalAxes axes = principal_axes({0, 0, 0, 0, 0, 0});
 
   EXPECT_EQ(axes.normal, (Vector3{0, 0, 1}));
   EXPECT_EQ(axes.eigenvalues, (Vector3{0, 0, 0}));
 }
 
-TEST(PrincipalAxes, OfALevelLineAreAHorizontalPlane) {
+TEST(PrincipalAxes, OfAHorizontalLineAreAHorizontalPlane) {
   const PrincipalAxes axes = principal_axes({4, 2, 0, 1, 0, 0});  // along (2, 1, 0)
 
   EXPECT_NEAR(axes.normal[2], 1, 1e-9);
   EXPECT_NEAR(axes.eigenvalues[0], 5, 1e-9);
 }
 
-TEST(PrincipalAxes, OfARisingLineLeanNoMoreThanTheLine) {
+TEST(PrincipalAxes, OfASlopedLineAreTiltedNoMoreThanTheLine) {
   const PrincipalAxes axes = principal_axes({1, 0, 1, 0, 0, 1});  // along (1, 0, 1)
 
   EXPECT_NEAR(axes.normal[0], -std::sqrt(0.5), 1e-6);
@@ -72,13 +72,13 @@ TEST(PrincipalAxes, OfARisingLineLeanNoMoreThanTheLine) {
   EXPECT_NEAR(axes.normal[2], std::sqrt(0.5), 1e-6);
 }
 
-TEST(PrincipalAxes, OfAVerticalLineAreUprightInNoWay) {
+TEST(PrincipalAxes, OfAVerticalLineHaveAHorizontalNormal) {
   const PrincipalAxes axes = principal_axes({0, 0, 0, 0, 0, 3});
 
   EXPECT_NEAR(axes.normal[2], 0, 1e-9);
 }
 
-TEST(PrincipalAxes, OfThreePointsOfWhichTwoAreEqualAreThoseOfTheLine) {
+TEST(PrincipalAxes, OfThreePointsWithTwoEqualAreThePlaneOfTheLine) {
   // Determinant and minors are nothing but rounding errors.
   const Vector3 a = {-1.8951, 0.0392, 0.14172};
   Moments moments;
@@ -93,13 +93,13 @@ TEST(PrincipalAxes, OfThreePointsOfWhichTwoAreEqualAreThoseOfTheLine) {
   EXPECT_GT(axes.normal[2], 0.99);
 }
 
-TEST(PrincipalAxes, OfOverflownCovariancesAreStillAPlane) {
+TEST(PrincipalAxes, OfOverflowedCovariancesAreStillAPlane) {
   constexpr double inf = std::numeric_limits<double>::infinity();
 
   EXPECT_EQ(principal_axes({inf, 0, 0, 1, 0, 1}).normal, (Vector3{0, 0, 1}));
 }
 
-TEST(PrincipalAxes, OfAnUprightPlaneFaceTheSameWayWhateverRoundingSays) {
+TEST(PrincipalAxes, OfAVerticalPlaneFaceTheSameWayDespiteRounding) {
   const Symmetric3 wall = {4, -4, 0, 4, 0, 2};  // along (1, -1, 0) and z
   const double tilt = 1e-8;                     // what rounding may make of it
   for (const double sign : {-1.0, 0.0, 1.0}) {

@@ -28,12 +28,12 @@ std::string refusal_of(const std::function<void(Sensor&)>& spoil) {
   return "accepted";
 }
 
-TEST(Sensor, EveryKnownOneIsInRange) {
+TEST(Sensor, EveryKnownSensorPassesTheCheck) {
   ASSERT_EQ(Sensor::known().size(), 8);
   for (const Sensor& sensor : Sensor::known()) EXPECT_NO_THROW(sensor.check()) << sensor.name;
 }
 
-TEST(Sensor, HasAsManyBeamsAsItsNameSays) {
+TEST(Sensor, HasTheNumberOfBeamsInItsName) {
   EXPECT_EQ(Sensor::named("hdl-64e").elevations.size(), 64);
   EXPECT_EQ(Sensor::named("hdl-32e").elevations.size(), 32);
   EXPECT_EQ(Sensor::named("vlp-16").elevations.size(), 16);
@@ -50,7 +50,7 @@ TEST(Sensor, SeesAllAroundUnlessItsFieldOfViewIsNarrow) {
   EXPECT_FALSE(Sensor::named("at128").draws_rosette());
 }
 
-TEST(Sensor, OfAnUnknownNameIsRefusedWithThoseThereAre) {
+TEST(Sensor, RejectsAnUnknownNameAndListsTheKnownSensors) {
   try {
     (void)Sensor::named("vlp-17");
     FAIL() << "accepted";

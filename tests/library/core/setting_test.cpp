@@ -27,7 +27,7 @@ bool is_refused(float value, const ValidRange& allowed) {
   return false;
 }
 
-TEST(Setting, BoundsAreAllowedAsFloatsHaveThem) {
+TEST(Setting, AcceptsLimitsRoundedToFloat) {
   for (const double bound : {1e-6, 0.1, 0.3, 1.0 / 3, 0.999999}) {
     const auto value = static_cast<float>(bound);
     EXPECT_FALSE(is_refused(value, {.low = bound, .high = 2})) << bound;
@@ -38,27 +38,27 @@ TEST(Setting, BoundsAreAllowedAsFloatsHaveThem) {
   }
 }
 
-TEST(Setting, BoundsAreWrittenWithoutPowersOfTen) {
+TEST(Setting, PrintsLimitsWithoutExponents) {
   EXPECT_EQ(to_string(millionths), "0.000001 to 1000000");
   EXPECT_EQ(to_string({.low = 0, .high = 1.0 / 3}), "0 to 0.333333");
 }
 
 constexpr std::array<std::string_view, 4> names = {"sensor_height", "surface", "hdl-64e", "gpf"};
 
-TEST(DidYouMean, NamesWhatDiffersByLittle) {
+TEST(DidYouMean, SuggestsASimilarName) {
   EXPECT_EQ(did_you_mean("sensor_hight", names), " (did you mean 'sensor_height'?)");
   EXPECT_EQ(closest_name("surfcae", names), "surface");
   EXPECT_EQ(closest_name("HDL64E", names), "hdl-64e");
   EXPECT_EQ(closest_name("gfp", names), "gpf");
 }
 
-TEST(DidYouMean, SaysNothingWhereNothingIsNear) {
+TEST(DidYouMean, IsEmptyIfNoNameIsSimilar) {
   EXPECT_EQ(did_you_mean("colour", names), "");
   EXPECT_EQ(did_you_mean("", names), "");
   EXPECT_EQ(did_you_mean(std::string(1000, 's'), names), "");
 }
 
-TEST(DidYouMean, AnUnknownNameIsSaidWithThoseThereAre) {
+TEST(DidYouMean, AnUnknownNameIsReportedWithTheKnownNames) {
   EXPECT_EQ(
       no_such("method", "surfce", names),
       "no method is named 'surfce' (expected sensor_height, surface, hdl-64e, gpf; did you mean "

@@ -34,15 +34,17 @@ TEST(SimdTarget, NamesAreLowerCaseWithoutSpaces) {
 }
 
 #if defined(__x86_64__)
-TEST(SimdTarget, NamesOnX86AreThoseDocumentedAndPlainCppIsTheLast) {
+TEST(SimdTarget, HasTheDocumentedNamesOnX86AndEndsWithPlainCpp) {
   EXPECT_THAT(simd_targets(), testing::Each(AnyOf("avx3", "avx2", "sse4", "scalar")));
   EXPECT_EQ(simd_targets().back(), "scalar");
 }
 #endif
 
-TEST(SimdTarget, IsTheBestUnlessOneIsForced) { EXPECT_EQ(simd_target(), simd_targets().front()); }
+TEST(SimdTarget, IsTheBestUnlessAnotherIsForced) {
+  EXPECT_EQ(simd_target(), simd_targets().front());
+}
 
-TEST(SimdTarget, IsTheOneForced) {
+TEST(SimdTarget, IsTheForcedTarget) {
   for (const std::string& name : simd_targets()) {
     const tests::ForcedTarget forced(name);
     EXPECT_EQ(simd_target(), name);
@@ -50,7 +52,7 @@ TEST(SimdTarget, IsTheOneForced) {
   EXPECT_EQ(simd_target(), simd_targets().front());
 }
 
-TEST(SimdTarget, ListStaysWholeWhileOneIsForced) {
+TEST(SimdTarget, ListsAllTargetsWhileOneIsForced) {
   const std::vector<std::string> all = simd_targets();
   for (const std::string& name : all) {
     const tests::ForcedTarget forced(name);
@@ -58,7 +60,7 @@ TEST(SimdTarget, ListStaysWholeWhileOneIsForced) {
   }
 }
 
-TEST(SimdTarget, CanGoFromOneForcedToAnother) {
+TEST(SimdTarget, CanSwitchFromOneForcedTargetToAnother) {
   const std::vector<std::string> all = simd_targets();
   const tests::ForcedTarget first(all.back());
   for (const std::string& name : all) {
@@ -67,7 +69,7 @@ TEST(SimdTarget, CanGoFromOneForcedToAnother) {
   }
 }
 
-TEST(SimdTarget, UnknownOnesAreRefusedInOneLineThatNamesThoseThereAre) {
+TEST(SimdTarget, RejectsUnknownNamesOnOneLineThatListsTheTargets) {
   for (const std::string name : {"avx9000", "AVX2", "scalar ", " ", "best"}) {
     try {
       use_simd_target(name);
@@ -82,7 +84,7 @@ TEST(SimdTarget, UnknownOnesAreRefusedInOneLineThatNamesThoseThereAre) {
   }
 }
 
-TEST(SimdTarget, ARefusedNameChangesNothing) {
+TEST(SimdTarget, ARejectedNameChangesNothing) {
   const std::string last = simd_targets().back();
   const tests::ForcedTarget forced(last);
 

@@ -12,7 +12,7 @@
 namespace flagstone {
 namespace {
 
-TEST(Statistics, PercentileIsTheSmallestValueThatThisShareDoesNotExceed) {
+TEST(Statistics, PercentileIsTheSmallestValueNotExceededByThisFraction) {
   std::vector<double> values(200);
   std::iota(values.rbegin(), values.rend(), 1);  // 200, 199, ..., 1
 
@@ -25,7 +25,7 @@ TEST(Statistics, PercentileIsTheSmallestValueThatThisShareDoesNotExceed) {
   EXPECT_EQ(percentile(std::array{7.F, 2.F}, 50), 2.F);
 }
 
-TEST(Statistics, MedianIsTheMiddleValueOrTheMeanOfTheTwoInTheMiddle) {
+TEST(Statistics, MedianIsTheMiddleValueOrTheMeanOfTheTwoMiddleValues) {
   EXPECT_EQ(median(std::array{5., 1., 3.}), 3);
   EXPECT_EQ(median(std::array{5., 1., 3., 4.}), 3.5);
   EXPECT_EQ(median(std::array{4.F}), 4.F);
@@ -38,7 +38,7 @@ TEST(Statistics, MeanAndStandardDeviationOfASample) {
   EXPECT_DOUBLE_EQ(standard_deviation(values), std::sqrt(32. / 7));
 }
 
-TEST(Statistics, OfNothingIsNotANumber) {
+TEST(Statistics, AreNanWithoutValues) {
   std::vector<double> nothing;
 
   EXPECT_TRUE(std::isnan(percentile(nothing, 50)));

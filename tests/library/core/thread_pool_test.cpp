@@ -47,11 +47,11 @@ TEST_P(ThreadPoolOf, DoesEveryJobOnce) {
   }
 }
 
-TEST_P(ThreadPoolOf, DoesNothingWhereThereAreNoJobs) {
+TEST_P(ThreadPoolOf, DoesNothingWithoutJobs) {
   pool.run(0, [](std::size_t, std::size_t) { ADD_FAILURE() << "there was no job"; });
 }
 
-TEST_P(ThreadPoolOf, WorksAThousandRoundsWithoutLosingOrRepeatingAJob) {
+TEST_P(ThreadPoolOf, RunsAThousandRoundsWithoutLosingOrRepeatingAJob) {
   std::vector<std::atomic<std::size_t>> done(24);
   for (std::size_t round = 0; round < 1000; ++round) {
     const std::size_t jobs = round % done.size() + 1;
@@ -65,7 +65,7 @@ TEST_P(ThreadPoolOf, WorksAThousandRoundsWithoutLosingOrRepeatingAJob) {
   }
 }
 
-TEST_P(ThreadPoolOf, HasFinishedWhenRunReturns) {
+TEST_P(ThreadPoolOf, HasFinishedAllJobsWhenRunReturns) {
   // Plain numbers: what the others wrote must be seen without any synchronisation of ours.
   std::vector<std::size_t> squares(2000);
   for (std::size_t factor = 1; factor <= 50; ++factor) {
@@ -77,7 +77,7 @@ TEST_P(ThreadPoolOf, HasFinishedWhenRunReturns) {
   }
 }
 
-TEST_P(ThreadPoolOf, GivesEachWorkerANumberOfItsOwn) {
+TEST_P(ThreadPoolOf, GivesEachWorkerAUniqueNumber) {
   std::vector<std::atomic<std::thread::id>> thread_of(pool.size());
   std::atomic<int> wrong = 0;
   for (int round = 0; round < 50; ++round) {
@@ -98,18 +98,18 @@ TEST_P(ThreadPoolOf, GivesEachWorkerANumberOfItsOwn) {
       << "worker 0 is the caller";
 }
 
-TEST_P(ThreadPoolOf, MaySleepBetweenRounds) {
+TEST_P(ThreadPoolOf, CanSleepBetweenRounds) {
   for (int round = 0; round < 5; ++round) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     EXPECT_THAT(times_done(pool, 64), Each(1));
   }
 }
 
-TEST_P(ThreadPoolOf, CanBeDestroyedWithoutEverHavingWorked) {
+TEST_P(ThreadPoolOf, CanBeDestroyedUnused) {
   for (int i = 0; i < 50; ++i) const ThreadPool unused(GetParam());
 }
 
-TEST_P(ThreadPoolOf, CanBeDestroyedRightAfterWork) {
+TEST_P(ThreadPoolOf, CanBeDestroyedRightAfterAJob) {
   for (int i = 0; i < 50; ++i) {
     ThreadPool brief(GetParam());
     EXPECT_THAT(times_done(brief, 16), Each(1));
@@ -147,7 +147,7 @@ TEST_P(ThreadPoolOf, StartsItsOwnWorkersAfterAFork) {
   EXPECT_THAT(times_done(pool, 100), Each(1)) << "the parent's workers stay";
 }
 
-TEST_P(ThreadPoolOf, CanBeDestroyedInAChildThatHasNotUsedIt) {
+TEST_P(ThreadPoolOf, CanBeDestroyedInAChildProcessThatDidNotUseIt) {
   auto copied = std::make_unique<ThreadPool>(GetParam());
   EXPECT_EQ(tests::exit_code_of_child([&] {
               copied.reset();
@@ -193,7 +193,7 @@ TEST_P(ThreadPoolOf, ParallelForUsesNoMoreThreadsThanJobs) {
   EXPECT_EQ(parallel_for(0, GetParam(), never_stop, make_worker), 1U);
 }
 
-TEST_P(ThreadPoolOf, ParallelForRethrowsTheFirstExceptionAndHandsOutNoMoreJobs) {
+TEST_P(ThreadPoolOf, ParallelForRethrowsTheFirstExceptionAndStartsNoMoreJobs) {
   std::atomic<std::size_t> done = 0;
   const auto run = [&] {
     parallel_for(100'000, GetParam(), never_stop, [&] {
@@ -208,7 +208,7 @@ TEST_P(ThreadPoolOf, ParallelForRethrowsTheFirstExceptionAndHandsOutNoMoreJobs) 
   EXPECT_LT(done, 100'000U);
 }
 
-TEST_P(ThreadPoolOf, ParallelForRethrowsWhatMakeWorkerThrows) {
+TEST_P(ThreadPoolOf, ParallelForRethrowsAnExceptionOfMakeWorker) {
   const auto make_worker = [&]() -> std::function<void(std::size_t)> {
     throw std::runtime_error("no worker");
   };
@@ -216,7 +216,7 @@ TEST_P(ThreadPoolOf, ParallelForRethrowsWhatMakeWorkerThrows) {
               testing::ThrowsMessage<std::runtime_error>("no worker"));
 }
 
-TEST_P(ThreadPoolOf, ParallelForStopsWhenAsked) {
+TEST_P(ThreadPoolOf, ParallelForStopsWhenStopReturnsTrue) {
   std::atomic<std::size_t> done = 0;
   parallel_for(
       100'000, GetParam(), [&] { return done >= 10; },

@@ -15,7 +15,7 @@
 namespace flagstone {
 namespace {
 
-TEST(ThreadPoolWithoutMemory, IsSmallerOrRefusedAndNeverLosesAJob) {
+TEST(ThreadPoolWithoutMemory, IsSmallerOrFailsAndNeverLosesAJob) {
   for (std::size_t bytes = 0; bytes <= 400; bytes += 8) {
     std::vector<std::atomic<int>> done(20);
     io::allocated = 0;

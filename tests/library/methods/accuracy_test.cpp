@@ -57,7 +57,7 @@ TEST(PatchworkAccuracy, OfTheDefaultPresetOnKitti) {
   EXPECT_GE(of_preset("default", scans, patchwork_plusplus_protocol()), 97.7);
 }
 
-TEST(PatchworkAccuracy, OfTheSettingsDerivedFromTheHdl64eIsThatOfTheDefaultPresetOnKitti) {
+TEST(PatchworkAccuracy, OfTheSettingsForTheHdl64eEqualsTheDefaultPresetOnKitti) {
   const auto scans = tests::real_scans("kitti");
   FLAGSTONE_REQUIRE_SCANS(scans);
   const PatchworkConfig derived = PatchworkConfig::for_sensor("hdl-64e");
@@ -69,11 +69,13 @@ TEST(PatchworkAccuracy, OfTheSettingsDerivedFromTheHdl64eIsThatOfTheDefaultPrese
   }
 }
 
-TEST(PatchworkAccuracy, OfTheReferencePresetIsWithinHalfAPointOfTheAuthorsPackageOnKitti) {
+TEST(PatchworkAccuracy,
+     OfTheReferencePresetIsWithinHalfAPercentagePointOfTheAuthorsPackageOnKitti) {
   const auto scans = tests::real_scans("kitti");
   FLAGSTONE_REQUIRE_SCANS(scans);
 
-  // pypatchworkpp 1.4.1, class patchwork, sensor height 1.73 m, on the same scans; docs/explanation/patchwork.md
+  // pypatchworkpp 1.4.1, class patchwork, sensor height 1.73 m, on the same scans;
+  // docs/explanation/patchwork.md
   EXPECT_NEAR(of_preset("reference", scans, patchwork_protocol()), 95.07, 0.5);
   EXPECT_NEAR(of_preset("reference", scans, patchwork_plusplus_protocol()), 98.07, 0.5);
 }

@@ -41,7 +41,7 @@ TYPED_TEST(AllocationOf, TheFirstScanAllocates) {
   }
 }
 
-TYPED_TEST(AllocationOf, OneScanIsEnoughForAllOfItsSizeInAnyOrderAndSmallerOnes) {
+TYPED_TEST(AllocationOf, OneScanAllocatesEnoughForScansUpToItsSizeInAnyOrder) {
   // In order runs are sorted, in no order points: room for both is made at once.
   const std::vector<Point> in_order = random_cloud(60000, 1);
   const std::vector<Point> in_no_order = shuffled(in_order, 1);
@@ -62,7 +62,7 @@ TYPED_TEST(AllocationOf, OneScanIsEnoughForAllOfItsSizeInAnyOrderAndSmallerOnes)
   }
 }
 
-TYPED_TEST(AllocationOf, AScanInOnePlaceIsEnoughForAllOfItsSize) {
+TYPED_TEST(AllocationOf, AScanAtOnePositionAllocatesEnoughForScansOfItsSize) {
   const std::vector<Point> in_one_place(60000, Point{6.1f, 2.3f, -1.7f});
   const std::vector<Point> in_no_order = shuffled(random_cloud(60000, 1), 1);
   for (const unsigned threads : thread_counts) {
@@ -87,7 +87,7 @@ TYPED_TEST(AllocationOf, OnlyGrowingScansAllocate) {
   }
 }
 
-TYPED_TEST(AllocationOf, WhereverMemoryEndsAScanIsRefusedAndTheNextOneSegmented) {
+TYPED_TEST(AllocationOf, AScanFailsWhereverMemoryRunsOutAndTheNextIsSegmented) {
   const std::vector<Point> cloud = random_cloud(9000, 1);
   Segmentation fresh;
   ASSERT_TRUE(TypeParam().segment(view_of(cloud), fresh).ok());
@@ -127,7 +127,7 @@ TYPED_TEST(AllocationOf, OneThreadTakesAtMost64BytesPerPoint) {
   EXPECT_GE(held, 12 * points) << "the coordinates at least are counted";
 }
 
-TYPED_TEST(AllocationOf, AllMemoryIsGivenBackInTheEnd) {
+TYPED_TEST(AllocationOf, AllMemoryIsFreedInTheEnd) {
   const std::vector<Point> cloud = random_cloud(20000, 1);
   const std::ptrdiff_t before = io::blocks;
   {

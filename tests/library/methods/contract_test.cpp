@@ -26,7 +26,7 @@ class LibraryContract : public testing::Test {};
 
 TYPED_TEST_SUITE(LibraryContract, tests::LibraryMethods);
 
-TYPED_TEST(LibraryContract, ThreadsOutsideOf1To1024AreRefusedWithTheirNumber) {
+TYPED_TEST(LibraryContract, RejectsThreadsOutside1To1024AndNamesTheNumber) {
   for (const unsigned threads : {0U, 1025U, 4294967295U}) {
     try {
       const TypeParam segmenter({}, threads);
@@ -38,7 +38,7 @@ TYPED_TEST(LibraryContract, ThreadsOutsideOf1To1024AreRefusedWithTheirNumber) {
   }
 }
 
-TYPED_TEST(LibraryContract, ManyMoreThreadsThanCoresSegment) {
+TYPED_TEST(LibraryContract, SegmentsWithManyMoreThreadsThanCores) {
   const std::vector<Point> cloud = random_cloud(20000, 16);
   TypeParam one;
   TypeParam many({}, 64);
@@ -68,7 +68,7 @@ TYPED_TEST(LibraryContract, AMovedSegmenterStillSegmentsWithItsSettings) {
   EXPECT_TRUE(tests::is_same(segmented(config, view_of(cloud)), segmented(moved, view_of(cloud))));
 }
 
-TYPED_TEST(LibraryContract, TenMillionPointsAreSegmented) {
+TYPED_TEST(LibraryContract, SegmentsTenMillionPoints) {
   const std::vector<Point> cloud = random_cloud(10'000'000, 13);
   TypeParam segmenter;
   Segmentation result;

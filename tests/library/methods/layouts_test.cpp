@@ -87,7 +87,7 @@ TEST_P(Layouts, MisalignedByOneByte) {
   expect_same_as_packed({.stride = 16, .x = 1, .y = 5, .z = 9});
 }
 
-TEST_P(Layouts, CoordinatesInAnotherOrder) {
+TEST_P(Layouts, CoordinatesInADifferentOrder) {
   for (const std::ptrdiff_t stride : {12, 16}) {
     expect_same_as_packed({.stride = stride, .x = 8, .y = 4, .z = 0});
     expect_same_as_packed({.stride = stride, .x = 4, .y = 0, .z = 8});
@@ -95,7 +95,7 @@ TEST_P(Layouts, CoordinatesInAnotherOrder) {
   }
 }
 
-TEST_P(Layouts, CoordinatesApartInARecordOf16Bytes) {
+TEST_P(Layouts, SeparateCoordinatesInARecordOf16Bytes) {
   expect_same_as_packed({.stride = 16, .x = 0, .y = 4, .z = 12});
   expect_same_as_packed({.stride = 16, .x = 0, .y = 8, .z = 12});
 }
@@ -130,7 +130,7 @@ TEST_P(Layouts, OffsetsBeforeTheRecord) {
   }
 }
 
-TEST_P(Layouts, NothingIsReadBehindTheLastCoordinate) {
+TEST_P(Layouts, NothingIsReadAfterTheLastCoordinate) {
   const tests::GuardedMemory memory(std::size_t{16448} * 20);
   const std::vector<Point> points = corrupted_cloud(16448, 6);
   for (const CloudLayout& layout : {CloudLayout{.stride = 12, .x = 0, .y = 4, .z = 8},

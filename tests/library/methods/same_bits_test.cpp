@@ -167,7 +167,7 @@ TEST_P(SameBits, OnASimulatedScan) {
 }
 #endif
 
-TEST_P(SameBits, OnMadeUpClouds) { expect_same(all, random_cloud(20000, 1), "made up"); }
+TEST_P(SameBits, OnRandomClouds) { expect_same(all, random_cloud(20000, 1), "made up"); }
 
 TEST_P(SameBits, OnShuffledClouds) {
   expect_same(all, shuffled(random_cloud(20000, 2), 1), "shuffled");
@@ -181,7 +181,7 @@ TEST_P(SameBits, OnCorruptedClouds) {
   }
 }
 
-TEST_P(SameBits, OnPointsThatAreAllEqual) {
+TEST_P(SameBits, OnEqualPoints) {
   for (const std::size_t size : {3U, 16U, 17U, 100U, 9000U}) {
     expect_same(presets, std::vector<Point>(size, Point{6.1f, 2.3f, -1.7f}), "all equal");
   }
@@ -226,13 +226,13 @@ TEST_P(SameBits, OnCloudsOf0To70Points) {
   }
 }
 
-TEST_P(SameBits, AtTheBordersOfWhatOneThreadReadsAtATime) {
+TEST_P(SameBits, AtChunkBoundaries) {
   for (const std::size_t size : {8191U, 8192U, 8193U, 8207U, 8208U, 8209U, 16384U, 16385U}) {
     expect_same({by_default}, corrupted_cloud(size, 5), std::to_string(size) + " points");
   }
 }
 
-TEST_P(SameBits, WherePointsAreNowhere) {
+TEST_P(SameBits, WithNonFiniteCoordinates) {
   const auto expect_same_of = [&](Point point, const std::string& what) {
     expect_same({by_default}, std::vector<Point>(9000, point), what);
   };
@@ -244,7 +244,7 @@ TEST_P(SameBits, WherePointsAreNowhere) {
   expect_same_of({10, 0, -9999}, "noise");
 }
 
-TEST_P(SameBits, WithDenormalHeightsAndPlaces) {
+TEST_P(SameBits, WithDenormalCoordinates) {
   std::vector<Point> cloud = random_cloud(20000, 4);
   for (std::size_t i = 0; i < cloud.size(); i += 3) cloud[i].z = 1e-41f * static_cast<float>(i);
   for (std::size_t i = 1; i < cloud.size(); i += 5) cloud[i].y = -1e-44f;
@@ -259,7 +259,7 @@ INSTANTIATE_TEST_SUITE_P(On, SurfaceSameBits,
                                           testing::ValuesIn(simd_targets())),
                          tests::name_of);
 
-TEST_P(SurfaceSameBits, AtTheEdgeOfARangeOfWholeBlocks) {
+TEST_P(SurfaceSameBits, AtAMaximumRangeOfWholeBlocks) {
   for (const float range : {8.0f, 16.0f, 104.0f, 200.0f}) {
     const Setting setting = changed("range", [&](SurfaceConfig& c) { c.max_range = range; });
     const float last = std::nextafter(range, 0.0f);
@@ -275,7 +275,7 @@ TEST_P(SurfaceSameBits, AtTheEdgeOfARangeOfWholeBlocks) {
   }
 }
 
-TEST_P(SameBits, WhateverWasSegmentedBefore) {
+TEST_P(SameBits, WhateverWasSegmentedPreviously) {
   const std::vector<Point> cloud = random_cloud(9000, 8);
   const Outcome expected = tests::segmented(*by_default.make(1), view_of(cloud));
   const tests::ForcedTarget forced(std::get<1>(GetParam()));

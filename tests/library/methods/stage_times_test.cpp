@@ -34,7 +34,7 @@ class StageTimesOf : public testing::Test {
 
 TYPED_TEST_SUITE(StageTimesOf, tests::LibraryMethods);
 
-TYPED_TEST(StageTimesOf, AddUpToNoMoreThanTheWholeScanTakes) {
+TYPED_TEST(StageTimesOf, AddUpToAtMostTheTimeOfTheScan) {
   for (TypeParam& method : this->methods) {
     StageTimes sums{};
     method.time_stages(&sums);
@@ -49,7 +49,7 @@ TYPED_TEST(StageTimesOf, AddUpToNoMoreThanTheWholeScanTakes) {
   }
 }
 
-TYPED_TEST(StageTimesOf, AreAddedScanAfterScan) {
+TYPED_TEST(StageTimesOf, AccumulateOverScans) {
   for (TypeParam& method : this->methods) {
     StageTimes sums{};
     method.time_stages(&sums);
@@ -66,7 +66,7 @@ TYPED_TEST(StageTimesOf, AreAddedScanAfterScan) {
   }
 }
 
-TYPED_TEST(StageTimesOf, StopWithNull) {
+TYPED_TEST(StageTimesOf, AreNotMeasuredAfterNull) {
   for (TypeParam& method : this->methods) {
     method.time_stages(&this->times);
     this->segment(method);
@@ -79,7 +79,7 @@ TYPED_TEST(StageTimesOf, StopWithNull) {
   }
 }
 
-TYPED_TEST(StageTimesOf, ChangeNothing) {
+TYPED_TEST(StageTimesOf, DoNotChangeTheResult) {
   for (TypeParam& method : this->methods) {
     const tests::Outcome untimed = tests::segmented(method, tests::view_of(this->cloud));
 
@@ -89,7 +89,7 @@ TYPED_TEST(StageTimesOf, ChangeNothing) {
   }
 }
 
-TEST(StageTimesOfPatchwork, LeaveOutTheStagesOfSurface) {
+TEST(StageTimesOfPatchwork, AreZeroForTheStagesOfSurface) {
   for (const unsigned threads : {1U, 3U}) {
     StageTimes times{};
     Patchwork patchwork({}, threads);

@@ -67,7 +67,7 @@ std::vector<Label> labels_of(const Segmentation& result) {
   return {result.labels().begin(), result.labels().end()};
 }
 
-TEST(GravityAlignedSegmenter, WithALevelMountTheMethodGetsTheCloudItself) {
+TEST(GravityAlignedSegmenter, PassesTheCloudItselfIfTheMountIsLevel) {
   RecordingMethod::Seen seen;
   GravityAlignedSegmenter levelled(std::make_unique<RecordingMethod>(seen), 1.73f, {});
   const std::vector<Point> cloud = corrupted_cloud(500, 1);
@@ -79,7 +79,7 @@ TEST(GravityAlignedSegmenter, WithALevelMountTheMethodGetsTheCloudItself) {
   EXPECT_EQ(levelled.decision().verdict, MountVerdict::fixed);
 }
 
-TEST(GravityAlignedSegmenter, WithALevelMountResultsAreThoseOfTheMethod) {
+TEST(GravityAlignedSegmenter, ReturnsTheResultOfTheMethodIfTheMountIsLevel) {
   Surface method;
   GravityAlignedSegmenter levelled(std::make_unique<Surface>(), 1.73f, {});
   const std::vector<Point> cloud = corrupted_cloud(20000, 2);
@@ -94,7 +94,7 @@ TEST(GravityAlignedSegmenter, WithALevelMountResultsAreThoseOfTheMethod) {
   EXPECT_EQ(result.surface().height(5, 5), expected.surface().height(5, 5));
 }
 
-TEST(GravityAlignedSegmenter, TheMethodGetsMetresFromTheSensorWithTheGroundWhereItExpectsIt) {
+TEST(GravityAlignedSegmenter, PassesMetresFromTheSensorWithGroundAtTheExpectedHeight) {
   RecordingMethod::Seen seen;
   const MountSettings settings = odd_mount();
   GravityAlignedSegmenter levelled(std::make_unique<RecordingMethod>(seen), 1.73f, settings);
@@ -113,7 +113,7 @@ TEST(GravityAlignedSegmenter, TheMethodGetsMetresFromTheSensorWithTheGroundWhere
   }
 }
 
-TEST(GravityAlignedSegmenter, EveryLayoutGivesTheSamePoints) {
+TEST(GravityAlignedSegmenter, PassesTheSamePointsForEveryLayout) {
   const std::vector<Point> cloud = corrupted_cloud(1001, 4);
   for (const std::size_t floats : {3U, 4U, 5U, 7U}) {
     std::vector<float> memory(floats * cloud.size(), -1);
@@ -142,7 +142,7 @@ TEST(GravityAlignedSegmenter, EveryLayoutGivesTheSamePoints) {
   }
 }
 
-TEST(GravityAlignedSegmenter, WhatIsZeroOrNotFiniteStaysSoAndNothingElseBecomesIt) {
+TEST(GravityAlignedSegmenter, KeepsZeroAndNonFinitePointsAndCreatesNoOthers) {
   const MountSettings settings = odd_mount();
   std::vector<Point> cloud = corrupted_cloud(5000, 5);
   cloud.insert(cloud.end(), {{0, 0, 0},
@@ -172,7 +172,7 @@ TEST(GravityAlignedSegmenter, WhatIsZeroOrNotFiniteStaysSoAndNothingElseBecomesI
   }
 }
 
-TEST(GravityAlignedSegmenter, InvalidPointsAreInvalidInAnyMount) {
+TEST(GravityAlignedSegmenter, LabelsInvalidPointsInvalidForEveryMount) {
   std::vector<Point> cloud = random_cloud(5000, 6);
   cloud[10] = {0, 0, 0};
   cloud[20] = {1, nan, 0};
@@ -190,7 +190,7 @@ TEST(GravityAlignedSegmenter, InvalidPointsAreInvalidInAnyMount) {
 
 /// Labels of the same yard, seen by a level sensor and by one that leans by 20 degrees, agree where
 /// both see the same; the beams differ, so it is the share of ground that is compared.
-TEST(GravityAlignedSegmenter, ALeaningSensorSeesTheGroundALevelOneSees) {
+TEST(GravityAlignedSegmenter, ATiltedSensorFindsTheGroundOfALevelSensor) {
   const std::vector<sim::Box> boxes = {{.low = {-20, 5, -1}, .high = {20, 6, 6}},
                                        {.low = {6, -4, 0}, .high = {10, -2, 2}}};
   const YardScan scan =
@@ -246,7 +246,7 @@ TEST(GravityAlignedSegmenter, PatchesAreInTheFrameAndUnitsOfTheCloud) {
   EXPECT_GT(planes, 20U);
 }
 
-TEST(GravityAlignedSegmenter, PatchesOfALiftedCloudComeBackExactly) {
+TEST(GravityAlignedSegmenter, RestoresThePatchesOfAShiftedCloudExactly) {
   MountSettings settings;
   settings.mount.sensor_height = 2.23f;
   std::vector<Point> cloud = random_cloud(20000, 7);
@@ -291,7 +291,7 @@ TEST(GravityAlignedSegmenter, TheSurfaceIsRelativeToTheSensorAndHeightsToTheGrou
   }
 }
 
-TEST(GravityAlignedSegmenter, ACloudThatCannotBeIsRefusedByTheMethod) {
+TEST(GravityAlignedSegmenter, LetsTheMethodRejectAnInvalidCloud) {
   GravityAlignedSegmenter levelled(std::make_unique<Patchwork>(), 1.73f, odd_mount());
   Segmentation result;
 
@@ -301,7 +301,7 @@ TEST(GravityAlignedSegmenter, ACloudThatCannotBeIsRefusedByTheMethod) {
   EXPECT_TRUE(result.labels().empty());
 }
 
-TEST(GravityAlignedSegmenter, AnEmptyCloudIsSegmented) {
+TEST(GravityAlignedSegmenter, SegmentsAnEmptyCloud) {
   GravityAlignedSegmenter levelled(std::make_unique<Patchwork>(), 1.73f,
                                    {.height = HeightSource::track, .tilt = TiltSource::estimate});
   Segmentation result;
@@ -310,7 +310,7 @@ TEST(GravityAlignedSegmenter, AnEmptyCloudIsSegmented) {
   EXPECT_EQ(levelled.decision().verdict, MountVerdict::too_few_points);
 }
 
-TEST(GravityAlignedSegmenter, IsRefusedWithoutAMethodAndWithSettingsOutOfRange) {
+TEST(GravityAlignedSegmenter, RejectsANullMethodAndSettingsOutOfRange) {
   RecordingMethod::Seen seen;
   MountSettings flat;
   flat.mount.up = {0, 0, 0};
@@ -337,7 +337,7 @@ TEST(GravityAlignedSegmenter, AllocatesNothingAfterTheFirstScan) {
   EXPECT_EQ(io::allocated, 0U);
 }
 
-TEST(GravityAlignedSegmenter, FailsWithoutMemoryAndGoesOnWithIt) {
+TEST(GravityAlignedSegmenter, FailsWithoutMemoryAndRecovers) {
   const std::vector<Point> cloud = random_cloud(50000, 8);
   GravityAlignedSegmenter levelled(std::make_unique<Patchwork>(), 1.73f, odd_mount());
   Segmentation result;
@@ -352,7 +352,7 @@ TEST(GravityAlignedSegmenter, FailsWithoutMemoryAndGoesOnWithIt) {
   EXPECT_TRUE(levelled.segment(view_of(cloud), result).ok());
 }
 
-TEST(GravityAlignedSegmenter, AMovedOneStillSegments) {
+TEST(GravityAlignedSegmenter, SegmentsAfterAMove) {
   RecordingMethod::Seen seen;
   GravityAlignedSegmenter original(std::make_unique<RecordingMethod>(seen), 1.73f, odd_mount());
   GravityAlignedSegmenter moved = std::move(original);

@@ -36,7 +36,7 @@ TEST(PlaneSearch, FindsALevel) {
   EXPECT_NEAR(height_found(points), 1.7f, 0.01f);
 }
 
-TEST(PlaneSearch, TakesTheLowerOfTwoLevelsUnlessItHasLessThanAThirdOfTheUpperPoints) {
+TEST(PlaneSearch, PrefersTheLowerOfTwoLevelsUnlessItHasLessThanAThirdOfTheUpperPoints) {
   std::vector<NearPoint> points;  // below a level, a point costs as much as two in it
   add_level(points, 1, 31);       // 961 points
   std::vector<NearPoint> few = points;
@@ -47,7 +47,7 @@ TEST(PlaneSearch, TakesTheLowerOfTwoLevelsUnlessItHasLessThanAThirdOfTheUpperPoi
   EXPECT_NEAR(height_found(few), 1, 0.01f);
 }
 
-TEST(PlaneSearch, FindsGroundThatLeansBelowALevelHedge) {
+TEST(PlaneSearch, FindsTiltedGroundBelowALevelHedge) {
   // So many points are in the hedge, 0.4 m above, that a first look at directions 10 degrees apart
   // leads astray; 5 degrees do not.
   std::vector<NearPoint> points;
@@ -74,14 +74,14 @@ MountDecision sure() {
   return {.cells = 25, .free = 0.5f, .below = 0.2f, .spread = 0.12f, .directions = 9, .seen = 15};
 }
 
-TEST(Judge, BelievesWhatNothingSpeaksAgainst) {
+TEST(MountConfidence, IsFullIfEveryValueIsGood) {
   MountDecision decision = sure();
   judge(decision, 0.99f);
   EXPECT_FLOAT_EQ(decision.confidence, 1);
   EXPECT_EQ(decision.verdict, MountVerdict::accepted);
 }
 
-TEST(Judge, BelievesHalfOfWhatIsHalfwayAndSaysWhy) {
+TEST(MountConfidence, IsHalfForAValueHalfwayAndGivesTheReason) {
   struct Case {
     const char* what;
     MountVerdict reason;
@@ -105,7 +105,7 @@ TEST(Judge, BelievesHalfOfWhatIsHalfwayAndSaysWhy) {
   }
 }
 
-TEST(MountSentence, TellsATiltThatRoundsToATenthOfADegree) {
+TEST(MountSentence, ReportsATiltThatRoundsToATenthOfADegree) {
   MountDecision decision = sure();
   decision.verdict = MountVerdict::accepted;
   decision.tilt = 0.05f;
@@ -114,7 +114,7 @@ TEST(MountSentence, TellsATiltThatRoundsToATenthOfADegree) {
   EXPECT_EQ(to_sentence(decision).find("tilted"), std::string::npos);
 }
 
-TEST(Judge, AsksForGroundInThreeDirections) {
+TEST(MountConfidence, RequiresGroundInThreeDirections) {
   MountDecision decision = sure();
   decision.directions = decision.seen = 2;
   judge(decision, 0.9f);

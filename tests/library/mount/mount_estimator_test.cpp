@@ -42,50 +42,48 @@ void expect_told(const Yard& yard, float height_error, float tilt_error) {
   EXPECT_LE(degrees_between(both.mount.up, scan.mount.up), tilt_error);
 }
 
-TEST(MountEstimator, TellsTheHeightAboveFlatGroundToTheCentimetre) {
-  expect_told({}, 0.015f, 0.2f);
-}
+TEST(MountEstimator, FindsTheHeightAboveFlatGroundToACentimetre) { expect_told({}, 0.015f, 0.2f); }
 
-TEST(MountEstimator, TellsAnyHeightWithinTheLimits) {
+TEST(MountEstimator, FindsAnyHeightWithinTheLimits) {
   for (const double height : {0.4, 1.0, 2.5, 4.0}) {
     SCOPED_TRACE(height);
     expect_told({.mounting = {.height = height}}, 0.03f, 0.3f);
   }
 }
 
-TEST(MountEstimator, OnASlopeUpIsWhereTheVehiclePointsItsRoof) {
+TEST(MountEstimator, OnASlopeUpIsPerpendicularToTheSlope) {
   expect_told({.ground = [](double x, double) { return 0.25 * x; }}, 0.015f, 0.2f);
   expect_told({.ground = [](double x, double y) { return 0.2 * x - 0.15 * y; }}, 0.015f, 0.2f);
 }
 
-TEST(MountEstimator, OnACrestAndInADipTheGroundBelowTheVehicleCounts) {
+TEST(MountEstimator, OnACrestAndInADipUsesTheGroundBelowTheVehicle) {
   expect_told({.ground = [](double x, double) { return -0.006 * x * x; }}, 0.06f, 0.5f);
   expect_told({.ground = [](double x, double) { return 0.006 * x * x; }}, 0.06f, 0.5f);
 }
 
-TEST(MountEstimator, ASlopeThatBeginsAheadIsNotTheGroundBelow) {
+TEST(MountEstimator, IgnoresASlopeThatBeginsAhead) {
   expect_told({.ground = [](double x, double) { return x > 6 ? 0.2 * (x - 6) : 0.0; }}, 0.05f, 1);
 }
 
-TEST(MountEstimator, ARaisedSidewalkBehindAKerbDoesNotLiftTheGround) {
+TEST(MountEstimator, IgnoresARaisedSidewalkBehindAKerb) {
   expect_told({.ground = [](double, double y) { return y > 3 ? 0.15 : 0.0; }}, 0.04f, 1);
 }
 
-TEST(MountEstimator, BesideATruckGroundOnOneSideIsEnough) {
+TEST(MountEstimator, NextToATruckGroundOnOneSideIsEnough) {
   expect_told({.boxes = {{.low = {-7, 1.4, 0.9}, .high = {7, 4, 4}}}}, 0.02f, 0.5f);
 }
 
-TEST(MountEstimator, BesideAWallGroundOnOneSideIsEnough) {
+TEST(MountEstimator, NextToAWallGroundOnOneSideIsEnough) {
   expect_told({.boxes = {{.low = {-30, 1.5, -1}, .high = {30, 2, 12}}}}, 0.02f, 0.5f);
 }
 
-TEST(MountEstimator, InANarrowLaneTheWallsAreNotTheGround) {
+TEST(MountEstimator, IgnoresTheWallsOfANarrowLane) {
   expect_told({.boxes = {{.low = {-30, 2, -1}, .high = {30, 2.5, 12}},
                          {.low = {-30, -3, -1}, .high = {30, -2.5, 12}}}},
               0.04f, 2);
 }
 
-TEST(MountEstimator, BetweenRowsOfCarsTheirRoofsAreNotTheGround) {
+TEST(MountEstimator, IgnoresTheRoofsOfCarsInRows) {
   Yard yard;
   for (int i = -4; i <= 4; ++i) {
     for (const double y : {-4.4, 2.6}) {
@@ -96,7 +94,7 @@ TEST(MountEstimator, BetweenRowsOfCarsTheirRoofsAreNotTheGround) {
   expect_told(yard, 0.03f, 0.7f);
 }
 
-TEST(MountEstimator, TheOwnRoofIsNotTheGround) {
+TEST(MountEstimator, IgnoresTheRoofOfTheEgoVehicle) {
   expect_told({.boxes = {{.low = {-2.4, -0.9, 1.2}, .high = {1.2, 0.9, 1.45}},
                          {.low = {1.2, -0.9, 0.4}, .high = {2.1, 0.9, 0.9}}}},
               0.02f, 0.3f);
@@ -111,7 +109,7 @@ TEST(MountEstimator, ANarrowFieldOfViewIsEnough) {
   expect_told({.sensor = "livox-avia", .mounting = {.height = 1.5}}, 0.05f, 1);
 }
 
-TEST(MountEstimator, GroundThatBeginsFarAheadBesideParkedCarsIsTold) {
+TEST(MountEstimator, FindsGroundThatBeginsFarAheadNextToParkedCars) {
   Yard yard{.sensor = "at128", .mounting = {.height = 2.6}};  // sees none nearer than 11.4 m
   for (int i = 0; i < 7; ++i) {
     yard.boxes.push_back({.low = {5.2 * i, 3.4, 0.25}, .high = {5.2 * i + 4.3, 5.2, 1.45}});
@@ -120,7 +118,7 @@ TEST(MountEstimator, GroundThatBeginsFarAheadBesideParkedCarsIsTold) {
   expect_told(yard, 0.15f, 1.5f);
 }
 
-TEST(MountEstimator, SparseGhostsOfACeilingMirroredInTheFloorAreNotTheFloor) {
+TEST(MountEstimator, IgnoresSparseGhostPointsOfACeilingReflectedInTheFloor) {
   YardScan scan;
   for (float x = -10; x < 10; x += 0.1f) {
     for (float y = -10; y < 10; y += 0.1f) scan.points.push_back({x, y, -0.9f});
@@ -140,7 +138,7 @@ TEST(MountEstimator, SparseGhostsOfACeilingMirroredInTheFloorAreNotTheFloor) {
 /// Pitch and roll, degrees.
 class TiltedMount : public testing::TestWithParam<std::array<double, 2>> {};
 
-TEST_P(TiltedMount, IsToldToADegree) {
+TEST_P(TiltedMount, IsFoundToADegree) {
   const auto [pitch, roll] = GetParam();
   Yard yard{.mounting = {.height = 1.73, .pitch = pitch, .roll = roll}};
   yard.boxes = {{.low = {-20, 5, -1}, .high = {20, 6, 6}}, {.low = {4, -4, 0}, .high = {8, -2, 2}}};
@@ -162,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(Tilts, TiltedMount,
                                          std::array<double, 2>{15, 15},
                                          std::array<double, 2>{-20, 20}));
 
-TEST(MountEstimator, AGivenUpIsWhereTheTiltIsLookedFor) {
+TEST(MountEstimator, SearchesTheTiltNearTheConfiguredUp) {
   const YardScan scan = scan_of({.mounting = {.height = 1.73, .pitch = 50}});
   MountSettings settings{.tilt = TiltSource::estimate};
   settings.mount.up = {-0.64f, 0, 0.77f};  // 40 degrees
@@ -175,7 +173,7 @@ TEST(MountEstimator, AGivenUpIsWhereTheTiltIsLookedFor) {
   EXPECT_LE(degrees_between(around_given.mount.up, scan.mount.up), 1);
 }
 
-TEST(MountEstimator, ASensorUpsideDownIsTold) {
+TEST(MountEstimator, FindsTheHeightOfAnInvertedSensor) {
   YardScan scan = scan_of({});
   for (Point& p : scan.points) p = {p.x, -p.y, -p.z};
   MountSettings settings{.tilt = TiltSource::estimate};
@@ -188,7 +186,7 @@ TEST(MountEstimator, ASensorUpsideDownIsTold) {
   EXPECT_LE(degrees_between(decision.mount.up, {0, 0, -1}), 0.3f);
 }
 
-TEST(MountEstimator, HeightIsAlongAGivenUp) {
+TEST(MountEstimator, MeasuresTheHeightAlongTheConfiguredUp) {
   const YardScan scan = scan_of({.mounting = {.height = 1.73, .pitch = 20}});
   MountSettings settings{.tilt = TiltSource::fixed};
   for (std::size_t i = 0; i < 3; ++i) settings.mount.up[i] = 9.81f * scan.mount.up[i];
@@ -200,7 +198,7 @@ TEST(MountEstimator, HeightIsAlongAGivenUp) {
   EXPECT_LE(degrees_between(decision.mount.up, scan.mount.up), 0.1f);
 }
 
-TEST(MountEstimator, ZerosNansAndGhostsFarBelowChangeLittle) {
+TEST(MountEstimator, ToleratesZerosNansAndGhostPointsFarBelow) {
   YardScan scan = scan_of({});
   const std::size_t returns = scan.points.size();
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -220,7 +218,7 @@ TEST(MountEstimator, ZerosNansAndGhostsFarBelowChangeLittle) {
   EXPECT_LE(degrees_between(decision.mount.up, {0, 0, 1}), 0.5f);
 }
 
-TEST(MountEstimator, ScaleAndOriginSayWhatAFrameIs) {
+TEST(MountEstimator, AppliesScaleAndOrigin) {
   YardScan scan = scan_of({});
   for (Point& p : scan.points) {
     p = {1000 * (p.x + 1.2f), 1000 * p.y, 1000 * (p.z + 1.73f)};  // millimetres, on the ground
@@ -237,7 +235,7 @@ TEST(MountEstimator, ScaleAndOriginSayWhatAFrameIs) {
   EXPECT_EQ(decision.mount.origin, settings.mount.origin);
 }
 
-TEST(MountEstimator, TheSameCloudGivesTheSameBitsWhateverCameBefore) {
+TEST(MountEstimator, IsBitIdenticalWhateverWasEstimatedPreviously) {
   const YardScan scan = scan_of({.mounting = {.height = 1.73, .pitch = 12}});
   MountEstimator estimator({.tilt = TiltSource::estimate});
   const MountDecision first = estimator.estimate(scan.view());
@@ -251,7 +249,7 @@ TEST(MountEstimator, TheSameCloudGivesTheSameBitsWhateverCameBefore) {
   EXPECT_EQ(first.points, second.points);
 }
 
-TEST(MountEstimator, AnyBitPatternIsAllowedAndGivesNumbers) {
+TEST(MountEstimator, AcceptsCoordinatesOfAnyValueAndReturnsNumbers) {
   for (const TiltSource tilt : {TiltSource::off, TiltSource::estimate}) {
     MountEstimator estimator({.tilt = tilt});
     for (std::uint32_t seed = 0; seed < 20; ++seed) {

@@ -28,13 +28,13 @@ std::string complaint(const MountSettings& settings) {
   return "";
 }
 
-TEST(MountSettings, ThoseNobodyChangedAreAllowedAndAskNothingOfScans) {
+TEST(MountSettings, DefaultsAreValidAndEstimateNothing) {
   EXPECT_EQ(complaint({}), "");
   EXPECT_FALSE(MountSettings{}.estimates());
   EXPECT_FALSE(MountSettings{}.tracks());
 }
 
-TEST(MountSettings, EveryNumberHasABound) {
+TEST(MountSettings, EveryNumberHasARange) {
   for (std::size_t i = 0; i < settings_of(*std::make_unique<MountSettings>()).size(); ++i) {
     MountSettings settings;
     const Setting setting = settings_of(settings)[i];
@@ -52,21 +52,21 @@ TEST(MountSettings, EveryNumberHasABound) {
   }
 }
 
-TEST(MountSettings, AnUpWithoutLengthIsRefused) {
+TEST(MountSettings, RejectsAnUpOfLengthZero) {
   MountSettings settings;
   settings.mount.up = {0, 0, 0};
 
   EXPECT_THAT(complaint(settings), HasSubstr("length of mount.up = 0"));
 }
 
-TEST(MountSettings, AHeightOfTheSensorOutOfRangeIsRefused) {
+TEST(MountSettings, RejectsASensorHeightOutOfRange) {
   MountSettings settings;
   settings.mount.sensor_height = 101;
 
   EXPECT_THAT(complaint(settings), HasSubstr("sensor_height = 101"));
 }
 
-TEST(MountSettings, LimitsThatLeaveNothingAreRefused) {
+TEST(MountSettings, RejectsContradictoryLimits) {
   MountSettings heights;
   heights.limits.max_height = heights.limits.min_height;
   MountSettings ranges;
@@ -76,7 +76,7 @@ TEST(MountSettings, LimitsThatLeaveNothingAreRefused) {
   EXPECT_THAT(complaint(ranges), HasSubstr("1.5 times ego_radius"));
 }
 
-TEST(MountSettings, AnEstimatorOfSettingsOutOfRangeIsRefused) {
+TEST(MountSettings, AnEstimatorRejectsSettingsOutOfRange) {
   MountSettings settings;
   settings.limits.reach = 1;
 

@@ -40,7 +40,7 @@ class Asked {
   GravityAlignedSegmenter levelled_;
 };
 
-TEST(EstimatedMount, IsThatOfTheFirstScanThatTellsIt) {
+TEST(EstimatedMount, IsTheFirstAcceptedEstimate) {
   Asked asked({.height = HeightSource::estimate});
 
   EXPECT_EQ(asked.about(0), MountVerdict::too_few_points);
@@ -52,7 +52,7 @@ TEST(EstimatedMount, IsThatOfTheFirstScanThatTellsIt) {
   EXPECT_NEAR(asked.height(), 1.2f, 0.001f);
 }
 
-TEST(EstimatedMount, OfTheTiltAloneLeavesTheHeight) {
+TEST(EstimatedMount, KeepsTheHeightIfOnlyTheTiltIsEstimated) {
   MountSettings settings{.tilt = TiltSource::estimate};
   settings.mount.sensor_height = 1.9f;
   Asked asked(settings);
@@ -62,7 +62,7 @@ TEST(EstimatedMount, OfTheTiltAloneLeavesTheHeight) {
   EXPECT_EQ(asked.height(), 1.9f);
 }
 
-TEST(EstimatedMount, IsForgottenByAReset) {
+TEST(EstimatedMount, IsClearedByReset) {
   Asked asked({.height = HeightSource::estimate});
   asked.about(1.2f);
 
@@ -73,7 +73,7 @@ TEST(EstimatedMount, IsForgottenByAReset) {
   EXPECT_NEAR(asked.height(), 2.0f, 0.001f);
 }
 
-TEST(TrackedMount, IsTheMeanOfTheFirstScans) {
+TEST(TrackedMount, IsTheMeanOfTheFirstEstimates) {
   Asked asked({.height = HeightSource::track});
 
   for (const float height : {1.70f, 1.76f, 1.73f, 1.77f}) asked.about(height);
@@ -91,7 +91,7 @@ TEST(TrackedMount, FollowsASlowChange) {
   EXPECT_NEAR(asked.height(), 2.1f, 0.06f);  // some scans behind
 }
 
-TEST(TrackedMount, RefusesAnOutlier) {
+TEST(TrackedMount, RejectsAnOutlier) {
   Asked asked({.height = HeightSource::track});
   for (int i = 0; i < 5; ++i) asked.about(1.7f);
 
@@ -102,7 +102,7 @@ TEST(TrackedMount, RefusesAnOutlier) {
   EXPECT_EQ(asked.about(1.7f), MountVerdict::accepted);
 }
 
-TEST(TrackedMount, BelievesWhatManyScansOnEndSay) {
+TEST(TrackedMount, AcceptsManyConsecutiveOutliersThatAgree) {
   Asked asked({.height = HeightSource::track, .tracking = {.patience = 4}});
   for (int i = 0; i < 5; ++i) asked.about(1.7f);
 
@@ -112,7 +112,7 @@ TEST(TrackedMount, BelievesWhatManyScansOnEndSay) {
   EXPECT_NEAR(asked.height(), 2.3f, 0.001f);
 }
 
-TEST(TrackedMount, OutliersThatDisagreeAreNeverBelieved) {
+TEST(TrackedMount, NeverAcceptsOutliersThatDisagree) {
   Asked asked({.height = HeightSource::track, .tracking = {.patience = 3}});
   for (int i = 0; i < 5; ++i) asked.about(1.7f);
 
@@ -123,7 +123,7 @@ TEST(TrackedMount, OutliersThatDisagreeAreNeverBelieved) {
   EXPECT_NEAR(asked.height(), 1.7f, 0.001f);
 }
 
-TEST(TrackedMount, KeepsItsStateOverScansThatTellNothing) {
+TEST(TrackedMount, KeepsItsStateOnScansWithoutAnEstimate) {
   Asked asked({.height = HeightSource::track});
   asked.about(2.0f);
 
@@ -132,7 +132,7 @@ TEST(TrackedMount, KeepsItsStateOverScansThatTellNothing) {
   EXPECT_NEAR(asked.height(), 2.0f, 0.001f);
 }
 
-TEST(TrackedMount, IsForgottenByAReset) {
+TEST(TrackedMount, IsClearedByReset) {
   Asked asked({.height = HeightSource::track});
   asked.about(2.0f);
 

@@ -106,7 +106,7 @@ Point any_point(double reach) {
           -1.5f};
 }
 
-TEST(ConcentricZones, AnyZonesRingsAndSectorsGiveTheBinOfEquation3) {
+TEST(ConcentricZones, FindTheBinOfEquation3ForAnyZonesRingsAndSectors) {
   EXPECT_TRUE(rc::check([] {
     const PatchworkConfig config = any_zones();
     config.check();
@@ -122,7 +122,7 @@ TEST(ConcentricZones, AnyZonesRingsAndSectorsGiveTheBinOfEquation3) {
   }));
 }
 
-TEST(ConcentricZones, AnyFieldOfViewGivesTheBinWithinItAndNoneOutside) {
+TEST(ConcentricZones, FindTheBinInsideAnyFieldOfViewAndNoneOutside) {
   EXPECT_TRUE(rc::check([] {
     PatchworkConfig config = any_zones();
     config.field_of_view = any_view();
@@ -138,7 +138,7 @@ TEST(ConcentricZones, AnyFieldOfViewGivesTheBinWithinItAndNoneOutside) {
   }));
 }
 
-TEST(ConcentricZones, SectorsOfAFieldOfViewAreCountedFromWhereItBegins) {
+TEST(ConcentricZones, CountSectorsFromTheStartOfTheFieldOfView) {
   PatchworkConfig config;
   config.zones = {{.ring_radii = {10, 20}, .sectors = 4}};
   config.field_of_view = {.begin = 120, .width = 120};  // to the rear, across theta = pi
@@ -158,7 +158,7 @@ TEST(ConcentricZones, SectorsOfAFieldOfViewAreCountedFromWhereItBegins) {
   }
 }
 
-TEST(ConcentricZones, AFullTurnThatBeginsElsewhereLeavesNoPointOut) {
+TEST(ConcentricZones, AFullTurnFromAnyStartContainsAllPoints) {
   EXPECT_TRUE(rc::check([] {
     PatchworkConfig config;
     config.zones = {{.ring_radii = {80}, .sectors = *rc::gen::inRange(1, 3601)}};
@@ -174,7 +174,7 @@ TEST(ConcentricZones, AFullTurnThatBeginsElsewhereLeavesNoPointOut) {
   }));
 }
 
-TEST(ConcentricZones, ThePapersBoundariesBelongToTheBinsBeyondThem) {
+TEST(ConcentricZones, PointsOnABoundaryOfThePaperBelongToTheBinBeyondIt) {
   const PatchworkConfig config = PatchworkConfig::preset("paper");
   const ConcentricZones zones(config);
 
@@ -202,7 +202,7 @@ TEST(ConcentricZones, ThetaOfPiIsThetaOfMinusPi) {
   EXPECT_EQ(locate(zones, {-5, -0.0f, 0}), 0u);
 }
 
-TEST(ConcentricZones, NoBitPatternEscapesItsBins) {
+TEST(ConcentricZones, CoordinatesOfAnyValueGetAValidBin) {
   const ConcentricZones zones{PatchworkConfig()};
   PatchworkConfig rear;
   rear.field_of_view = {.begin = 90, .width = 180};
@@ -214,7 +214,7 @@ TEST(ConcentricZones, NoBitPatternEscapesItsBins) {
   }));
 }
 
-TEST(ConcentricZones, AZoneThatBeginsAtTheOriginHasAPlaceForPointsAboveIt) {
+TEST(ConcentricZones, AZoneFromTheOriginHasABinForPointsAboveIt) {
   PatchworkConfig config;
   config.min_range = 0;
   const ConcentricZones zones(config);
@@ -223,7 +223,7 @@ TEST(ConcentricZones, AZoneThatBeginsAtTheOriginHasAPlaceForPointsAboveIt) {
   EXPECT_LT(locate(zones, {1e-40f, -1e-40f, -1}), zones.bin_count());
 }
 
-TEST(ConcentricZones, NoiseBeginsLowerWithRangeWhereTheGroundMayFallAway) {
+TEST(ConcentricZones, TheNoiseLimitDecreasesWithRangeIfTheGroundMaySlopeDown) {
   PatchworkConfig config;
   config.sensor_height = 1;
   config.noise_depth = 2;
@@ -237,7 +237,7 @@ TEST(ConcentricZones, NoiseBeginsLowerWithRangeWhereTheGroundMayFallAway) {
   EXPECT_EQ(locate(zones, {11, 0, -13.1f}), zones.noise());
 }
 
-TEST(ConcentricZones, PointsOnADiagonalLieInTheSectorThatBeginsThere) {
+TEST(ConcentricZones, PointsOnADiagonalAreInTheSectorThatBeginsThere) {
   // Sectors are numbered from theta = -pi; of 16, every other one begins on an axis or a diagonal.
   PatchworkConfig config;
   config.zones = {{.ring_radii = {80}, .sectors = 16}};
@@ -253,7 +253,7 @@ TEST(ConcentricZones, PointsOnADiagonalLieInTheSectorThatBeginsThere) {
   }
 }
 
-TEST(ConcentricZones, PointsInfinitelyFarAreOutOfRangeWhateverTheNumberOfRings) {
+TEST(ConcentricZones, PointsAtInfinityAreOutOfRangeForAnyNumberOfRings) {
   // Their squared range is infinite, and no power of two is the number of rings.
   for (const int rings : {1, 15, 16, 17, 33, 600, 1000}) {
     PatchworkConfig config;

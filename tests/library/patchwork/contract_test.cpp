@@ -39,7 +39,7 @@ TEST(PatchworkContract, PointsFarBelowAnyGroundAreNoise) {
   EXPECT_GT(std::ranges::count(labels, Label::ground), 30000);
 }
 
-TEST(PatchworkContract, AllPointsEqualAreOnePlace) {
+TEST(PatchworkContract, EqualPointsAreOnePatch) {
   const std::vector<Point> on_ground(5000, Point{6, 2, -1.7f});
   const std::vector<Point> in_the_air(5000, Point{6, 2, 1.5f});
 

@@ -51,7 +51,7 @@ TEST(PatchworkAtEdges, TheBottomOfADitchIsNotNoiseAndMostOfItIsGround) {
   EXPECT_LT(share_of(Label::noise, cloud, outcome.labels, is_bottom), 0.01);
 }
 
-TEST(PatchworkAtEdges, LoneGhostsAreNeverGround) {
+TEST(PatchworkAtEdges, SingleGhostPointsAreNeverGround) {
   std::vector<Point> cloud = tests::edge_scan(tests::step_of(0));
   const std::size_t first_ghost = cloud.size();
   tests::add_ghosts(cloud, 150);
@@ -89,7 +89,7 @@ Outcome of_ground_above(int count, int rows, const OffLevel& off_level,
 float rough(int i) { return 0.004f * std::sin(37.0f * static_cast<float>(i)); }
 float scattered(int i) { return 0.5f * std::sin(37.0f * static_cast<float>(i)); }
 
-TEST(PatchworkBelowAPatch, PointsInAPlaneOfTheirOwnAreGroundAndThePatchSaysHowMany) {
+TEST(PatchworkBelowAPatch, PointsThatFormASeparatePlaneAreGroundAndCounted) {
   const Outcome outcome = of_ground_above(30, 3, rough);
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::ground), 430);
   ASSERT_EQ(outcome.patches.size(), 1U);
@@ -109,12 +109,12 @@ TEST(PatchworkBelowAPatch, FewPointsAreNoise) {
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::noise), 11);
 }
 
-TEST(PatchworkBelowAPatch, ALongWayOfOneBeamIsGround) {
+TEST(PatchworkBelowAPatch, ALongLineOfOneBeamIsGround) {
   const Outcome outcome = of_ground_above(30, 1, rough);
   EXPECT_EQ(outcome.patches[0].lower_ground_count, 30U);
 }
 
-TEST(PatchworkBelowAPatch, NothingIsLookedForWithoutASupportMargin) {
+TEST(PatchworkBelowAPatch, AnInfiniteLowerPlaneMarginDisablesTheSearch) {
   PatchworkConfig config;
   config.lower_plane_margin = std::numeric_limits<float>::infinity();
   const Outcome outcome = of_ground_above(30, 3, rough, config);

@@ -36,7 +36,7 @@ double kappa(const PatchworkConfig& config) {
 const PatchworkConfig paper = PatchworkConfig::preset("paper");
 const PatchworkConfig reference = PatchworkConfig::preset("reference");
 
-TEST(Uprightness, AsksForANormalMoreThan45DegreesFromTheGround) {
+TEST(Uprightness, RequiresANormalMoreThan45DegreesFromTheGround) {
   EXPECT_EQ(judged(paper, plane(0.708, -1.7, 0.001)).verdict, Verdict::ground);
   const Patch leaning = judged(paper, plane(0.706, -1.7, 0.001));
   EXPECT_EQ(leaning.verdict, Verdict::not_upright);
@@ -44,7 +44,7 @@ TEST(Uprightness, AsksForANormalMoreThan45DegreesFromTheGround) {
   EXPECT_EQ(leaning.likelihood, 0);
 }
 
-TEST(Uprightness, CanBeSwitchedOff) {
+TEST(Uprightness, CanBeDisabled) {
   PatchworkConfig config = paper;
   config.uprightness.enabled = false;
 
@@ -65,7 +65,7 @@ TEST(Elevation, RejectsPatchesAboveItsMidpoint) {
   EXPECT_EQ(judged(config, plane(1, kappa(config) + 0.01, 0.001)).verdict, Verdict::too_high);
 }
 
-TEST(Elevation, AtItsMidpointIsOneHalfWhichIsNeitherLowNorHighAndNotGround) {
+TEST(Elevation, IsOneHalfAtItsMidpointWhichIsNotGround) {
   PatchworkConfig config = paper;
   config.elevation.base = 0;  // so that kappa is -h_s, exactly
 
@@ -77,7 +77,7 @@ TEST(Elevation, AtItsMidpointIsOneHalfWhichIsNeitherLowNorHighAndNotGround) {
   EXPECT_EQ(patch.verdict, Verdict::too_high);  // f > 0.5 in eq. (12), not >=
 }
 
-TEST(Elevation, JudgesRingsNearerThanItsRangeOnly) {
+TEST(Elevation, TestsOnlyRingsNearerThanItsRange) {
   PatchworkConfig config = paper;
   config.elevation.range = ConcentricZones(config).rings()[0].center_radius;
   EXPECT_EQ(judged(config, plane(1, 3, 0.1)).elevation, 1);  // r_n < L_tau in eq. (10), not <=
@@ -86,14 +86,14 @@ TEST(Elevation, JudgesRingsNearerThanItsRangeOnly) {
   EXPECT_LT(judged(config, plane(1, 3, 0.1)).elevation, 0.5f);
 }
 
-TEST(Elevation, CanBeSwitchedOff) {
+TEST(Elevation, CanBeDisabled) {
   PatchworkConfig config = paper;
   config.elevation.enabled = false;
 
   EXPECT_EQ(judged(config, plane(1, 3, 0.1)).verdict, Verdict::ground);
 }
 
-TEST(Elevation, DoesNotJudgeRingsBeyondItsRange) {
+TEST(Elevation, DoesNotTestRingsBeyondItsRange) {
   const std::size_t last_ring = ConcentricZones(paper).rings().size() - 1;
 
   const Patch patch = judged(paper, plane(1, 3, 0.1), last_ring);
@@ -102,7 +102,7 @@ TEST(Elevation, DoesNotJudgeRingsBeyondItsRange) {
   EXPECT_EQ(patch.verdict, Verdict::ground);
 }
 
-TEST(Elevation, GoesThroughTheStepsOfThePublicCode) {
+TEST(Elevation, MatchesTheStepsOfThePublicCode) {
   // 0.523, 0.746, 0.879 and 1.125 m above -h_s in the first four rings
   const ConcentricZones zones(reference);
   constexpr std::array steps = {0.523, 0.746, 0.879, 1.125};
@@ -124,7 +124,7 @@ TEST(Elevation, BecomesAStepAsItsScaleShrinks) {
   EXPECT_EQ(judged(config, plane(1, kappa(config) + 1e-3, 0.001)).elevation, 0);
 }
 
-TEST(Flatness, IsTheExponentialOfEquation11WhereThePatchIsHigh) {
+TEST(Flatness, IsTheExponentialOfEquation11IfThePatchIsHigh) {
   const double sigma = 0.01;
 
   const Patch patch = judged(paper, plane(1, kappa(paper) + 0.5, sigma));
@@ -133,11 +133,11 @@ TEST(Flatness, IsTheExponentialOfEquation11WhereThePatchIsHigh) {
               paper.flatness.gain * std::exp(-(sigma - paper.flatness.thresholds[0])), 1e-6);
 }
 
-TEST(Flatness, IsOneWhereThePatchIsLow) {
+TEST(Flatness, IsOneIfThePatchIsLow) {
   EXPECT_EQ(judged(paper, plane(1, kappa(paper) - 0.5, 0.3)).flatness, 1);
 }
 
-TEST(Flatness, AsPrintedBringsBackWhatIsALittleTooHigh) {
+TEST(Flatness, AsPrintedAcceptsPatchesThatAreSlightlyTooHigh) {
   // psi > 1 / (2 zeta) is enough: z up to kappa + log(2 zeta - 1)
   const double reach = std::log(2.0 * paper.flatness.gain - 1);
 
@@ -146,7 +146,7 @@ TEST(Flatness, AsPrintedBringsBackWhatIsALittleTooHigh) {
   EXPECT_EQ(judged(paper, plane(1, kappa(paper) + reach + 0.01, 1e-5)).verdict, Verdict::too_high);
 }
 
-TEST(Flatness, WithASmallScaleIsTheStepOfThePublicCode) {
+TEST(Flatness, IsTheStepOfThePublicCodeIfItsScaleIsSmall) {
   const double high = kappa(reference) + 5;
 
   const Patch even = judged(reference, plane(1, high, 0.0004));
@@ -156,7 +156,7 @@ TEST(Flatness, WithASmallScaleIsTheStepOfThePublicCode) {
   EXPECT_EQ(rough.verdict, Verdict::too_high);
 }
 
-TEST(Flatness, AndElevationBothAsStepsStillDecideBySigma) {
+TEST(Flatness, DecidesBySigmaIfItAndElevationAreSteps) {
   PatchworkConfig config = reference;
   config.elevation.scale = 1e-6f;
 
@@ -164,7 +164,7 @@ TEST(Flatness, AndElevationBothAsStepsStillDecideBySigma) {
   EXPECT_EQ(judged(config, plane(1, 2, 0.0006)).verdict, Verdict::too_high);
 }
 
-TEST(Flatness, CanBeSwitchedOff) {
+TEST(Flatness, CanBeDisabled) {
   PatchworkConfig config = reference;
   config.flatness.enabled = false;
 

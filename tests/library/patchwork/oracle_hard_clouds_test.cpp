@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Presets, OracleOnHardClouds,
                                            PatchworkConfig::preset_names().end()),
                          [](const auto& preset) { return std::string(preset.param); });
 
-TEST_P(OracleOnHardClouds, RealScansInNoOrder) {
+TEST_P(OracleOnHardClouds, ShuffledRealScans) {
   const std::vector<tests::RealScan> scans = tests::real_scans();
   FLAGSTONE_REQUIRE_SCANS(scans);
   Difference total;
@@ -88,7 +88,7 @@ TEST_P(OracleOnHardClouds, RealScansInNoOrder) {
   expect_agreement("preset " + std::string(GetParam()) + ", shuffled real scans", total);
 }
 
-TEST_P(OracleOnHardClouds, HalfOfABinEqual) {
+TEST_P(OracleOnHardClouds, HalfOfTheBinAtOnePosition) {
   for (const std::size_t block : {8U, 64U, 512U}) {
     std::vector<Point> cloud = random_cloud(40000, 21);
     for (std::size_t i = 1; i < cloud.size(); i += 2) cloud[i] = cloud[i / block * block];
@@ -191,7 +191,7 @@ TEST_P(OracleOnHardClouds, GroundBelowEveryMargin) {
   expect_agreement_on("ground at -100 m", surface(60000, 79, 14, level, 0.5f));
 }
 
-TEST_P(OracleOnHardClouds, ReflectionsAtMinus9000MetresThatNobodyCallsNoise) {
+TEST_P(OracleOnHardClouds, ReflectionsAtMinus9000MetresThatAreNotNoise) {
   config.noise_depth = std::numeric_limits<float>::infinity();
   for (const std::size_t every : {2U, 5U, 20U, 100U, 1000U}) {
     std::vector<Point> cloud = random_cloud(40000, 24);
@@ -200,7 +200,7 @@ TEST_P(OracleOnHardClouds, ReflectionsAtMinus9000MetresThatNobodyCallsNoise) {
   }
 }
 
-TEST_P(OracleOnHardClouds, SensorsOnTheGroundAndHighAbove) {
+TEST_P(OracleOnHardClouds, SensorsOnTheGroundAndFarAboveIt) {
   for (const float sensor_height : {0.0f, 0.3f, 30.0f, 100.0f}) {
     config.sensor_height = sensor_height;
     std::vector<Point> cloud = random_cloud(60000, 25);

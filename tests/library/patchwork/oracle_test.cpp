@@ -61,7 +61,7 @@ TEST_P(Oracle, AgreesOnSimulatedScans) {
   expect_agreement("preset " + preset + ", 3 simulated scans", total);
 }
 
-TEST_P(Oracle, AgreesOnMadeUpClouds) {
+TEST_P(Oracle, AgreesOnRandomClouds) {
   Difference total;
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
     total += compare(tests::view_of(tests::random_cloud(20000, seed)), config);
@@ -79,7 +79,7 @@ TEST_P(Oracle, AgreesOnCorruptedClouds) {
   expect_agreement("preset " + preset + ", 10 corrupted clouds", total);
 }
 
-TEST(OracleOnSettings, AgreesOnSettingsDerivedFromASensorAlsoWhereItsViewIsNarrow) {
+TEST(OracleOnSettings, AgreesOnSettingsForSensorsWithWideAndNarrowViews) {
   for (const char* name : {"hdl-64e", "vlp-16", "at128", "livox-avia"}) {
     const PatchworkConfig config = PatchworkConfig::for_sensor(name);
     Difference total;
@@ -90,7 +90,7 @@ TEST(OracleOnSettings, AgreesOnSettingsDerivedFromASensorAlsoWhereItsViewIsNarro
   }
 }
 
-TEST(OracleOnSettings, AgreesWhereEveryTermIsSwitched) {
+TEST(OracleOnSettings, AgreesForEveryCombinationOfTerms) {
   const std::vector<Point> cloud = tests::random_cloud(30000, 77);
   for (int switches = 0; switches < 32; ++switches) {
     PatchworkConfig config = PatchworkConfig::preset("paper");

@@ -37,7 +37,7 @@ TEST(PatchworkConfig, EveryPresetIsValid) {
   }
 }
 
-TEST(PatchworkConfig, AnUnknownPresetIsRefusedWithTheNamesThereAre) {
+TEST(PatchworkConfig, RejectsAnUnknownPresetAndListsThePresets) {
   try {
     PatchworkConfig::preset("best");
     FAIL();
@@ -49,7 +49,7 @@ TEST(PatchworkConfig, AnUnknownPresetIsRefusedWithTheNamesThereAre) {
   }
 }
 
-TEST(PatchworkConfig, ABadValueIsRefusedNamingFieldValueAndRange) {
+TEST(PatchworkConfig, RejectsABadValueAndNamesFieldValueAndRange) {
   const std::string message = complaint([](auto& c) { c.distance_margin = -0.25f; });
 
   EXPECT_THAT(message, HasSubstr("distance_margin"));
@@ -57,7 +57,7 @@ TEST(PatchworkConfig, ABadValueIsRefusedNamingFieldValueAndRange) {
   EXPECT_THAT(message, HasSubstr("above 0, up to 100 m"));
 }
 
-TEST(PatchworkConfig, PatchworkChecksItsConfigurationWhenMade) {
+TEST(PatchworkConfig, IsCheckedByTheConstructorOfPatchwork) {
   EXPECT_THROW(Patchwork({.sensor_height = nan}), std::invalid_argument);
 }
 
@@ -101,7 +101,7 @@ TEST(PatchworkConfig, EveryFieldHasARange) {
   for (const auto& [field, spoil] : spoilers) EXPECT_THAT(complaint(spoil), HasSubstr(field));
 }
 
-TEST(PatchworkConfig, NoNoiseDepthAndNoHeightMarginAreAllowed) {
+TEST(PatchworkConfig, NoiseDepthAndHeightMarginCanBeInfinite) {
   EXPECT_EQ(complaint([](auto& c) {
               c.noise_depth = inf;
               c.zones[0].height_margin = -inf;
@@ -109,11 +109,11 @@ TEST(PatchworkConfig, NoNoiseDepthAndNoHeightMarginAreAllowed) {
             "");
 }
 
-TEST(EqualRings, HaveThePapersWidths) {
+TEST(EqualRings, HaveTheWidthsOfThePaper) {
   EXPECT_THAT(equal_rings(2, 10, 4), ElementsAre(4, 6, 8, 10));
 }
 
-TEST(Presets, ThePapersZonesHave504BinsBetweenItsBoundaries) {
+TEST(Presets, ThePaperHas504BinsBetweenItsBoundaries) {
   const PatchworkConfig paper = PatchworkConfig::preset("paper");
 
   std::size_t bins = 0;
@@ -129,7 +129,7 @@ TEST(Presets, ThePapersZonesHave504BinsBetweenItsBoundaries) {
                                       testing::FloatEq(41.35f), testing::FloatEq(80)));
 }
 
-TEST(Presets, TheReferencesZonesHave544Bins) {
+TEST(Presets, TheReferenceHas544Bins) {
   std::size_t bins = 0;
   for (const Zone& zone : PatchworkConfig::preset("reference").zones) {
     bins += zone.ring_radii.size() * static_cast<std::size_t>(zone.sectors);
@@ -138,7 +138,7 @@ TEST(Presets, TheReferencesZonesHave544Bins) {
   EXPECT_EQ(bins, 544u);
 }
 
-TEST(Presets, TheTermsHaveTheNumbersOfThePaperAndOfThePublicCode) {
+TEST(Presets, HaveTheTermsOfThePaperAndOfThePublicCode) {
   const PatchworkConfig paper = PatchworkConfig::preset("paper");
   const PatchworkConfig reference = PatchworkConfig::preset("reference");
 
@@ -150,7 +150,7 @@ TEST(Presets, TheTermsHaveTheNumbersOfThePaperAndOfThePublicCode) {
   EXPECT_THAT(reference.flatness.thresholds, ElementsAre(0.0005f, 0.000725f, 0.001f));
 }
 
-TEST(Presets, ThePapersHeightMarginIsTightInTheFirstZoneAndLooserOutward) {
+TEST(Presets, ThePaperHasAHeightMarginThatLoosensOutwards) {
   const std::vector<Zone> zones = PatchworkConfig::preset("paper").zones;
 
   EXPECT_EQ(zones[0].height_margin, -1.1f);

@@ -172,14 +172,14 @@ std::string refusal_of(const Sensor& sensor) {
   return "accepted";
 }
 
-TEST(PatchworkForSensor, OfEveryKnownSensorAtAnyHeightPassesTheCheck) {
+TEST(PatchworkForSensor, IsValidForEveryKnownSensorAtAnyHeight) {
   for (const Sensor& sensor : known_sensors_at_heights()) {
     EXPECT_NO_THROW(PatchworkConfig::for_sensor(sensor).check())
         << sensor.name << " at " << sensor.height << " m";
   }
 }
 
-TEST(PatchworkForSensor, OfAnySensorPassesTheCheckAndAsFarAsFlatGroundIsSeenHasNoRingWithoutABeam) {
+TEST(PatchworkForSensor, IsValidForAnySensorAndHasABeamInEveryRingOnFlatGround) {
   EXPECT_TRUE(rc::check([] {
     const Sensor sensor = any_sensor();
     const PatchworkConfig config = PatchworkConfig::for_sensor(sensor);
@@ -188,7 +188,7 @@ TEST(PatchworkForSensor, OfAnySensorPassesTheCheckAndAsFarAsFlatGroundIsSeenHasN
   }));
 }
 
-TEST(PatchworkForSensor, BinsHaveThePointsThatAPlaneNeedsOnFlatGround) {
+TEST(PatchworkForSensor, BinsHaveEnoughPointsForAPlaneOnFlatGround) {
   for (const Sensor& sensor : known_sensors_at_heights()) {
     const PatchworkConfig config = PatchworkConfig::for_sensor(sensor);
     const Segmentation result = segmented(config, flat_scan(sensor));
@@ -233,7 +233,7 @@ TEST(PatchworkForSensor, ANarrowFieldOfViewHasNoBinsOutside) {
   }
 }
 
-TEST(PatchworkForSensor, OneTwoAndFourBeamsSuffice) {
+TEST(PatchworkForSensor, OneTwoOrFourBeamsAreEnough) {
   Sensor sensor = Sensor::named("vlp-16");
   for (const std::vector<double>& beams :
        std::vector<std::vector<double>>{{-10}, {-5, -15}, {-3, -7, -11, -15}, {10, -10}}) {
@@ -248,7 +248,7 @@ TEST(PatchworkForSensor, OneTwoAndFourBeamsSuffice) {
   }
 }
 
-TEST(PatchworkForSensor, BeyondFlatGroundThereAreRingsWhereGroundThatRisesIsSeen) {
+TEST(PatchworkForSensor, HasRingsForSlopedGroundBeyondTheLastBeam) {
   Sensor sensor = Sensor::named("vlp-16");
   const auto reach_of = [&] {
     return PatchworkConfig::for_sensor(sensor).zones.back().ring_radii.back();
@@ -261,7 +261,7 @@ TEST(PatchworkForSensor, BeyondFlatGroundThereAreRingsWhereGroundThatRisesIsSeen
   EXPECT_LT(reach_of(), 2 * sensor.height / std::tan(30 * degree));
 }
 
-TEST(PatchworkForSensor, RingsGrowWithTheSensorsHeight) {
+TEST(PatchworkForSensor, RingsScaleWithTheSensorHeight) {
   Sensor low = Sensor::named("hdl-64e");
   Sensor high = low;
   high.height = 2 * low.height;
@@ -274,7 +274,7 @@ TEST(PatchworkForSensor, RingsGrowWithTheSensorsHeight) {
   EXPECT_NEAR(of_high.elevation.range, 2 * of_low.elevation.range, 0.02);
 }
 
-TEST(PatchworkForSensor, ANarrowViewIsADegreeWiderOnBothSides) {
+TEST(PatchworkForSensor, ANarrowFieldOfViewIsOneDegreeWiderOnBothSides) {
   Sensor narrow = Sensor::named("hdl-64e");
   narrow.azimuth_begin = -45;
   narrow.azimuth_end = 45;
@@ -285,7 +285,7 @@ TEST(PatchworkForSensor, ANarrowViewIsADegreeWiderOnBothSides) {
   EXPECT_EQ(view.width, 92);
 }
 
-TEST(PatchworkForSensor, ASensorThatSeesNoGroundIsRefusedWithTheReason) {
+TEST(PatchworkForSensor, RejectsASensorThatSeesNoGroundWithTheReason) {
   Sensor sensor = Sensor::named("vlp-16");
   sensor.elevations = {15, 0};
   EXPECT_THAT(refusal_of(sensor), HasSubstr("vlp-16: no beam meets flat ground"));

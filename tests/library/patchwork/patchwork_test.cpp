@@ -56,7 +56,7 @@ TEST_P(OnEveryPreset, LevelGroundIsGround) {
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::ground), 400);
 }
 
-TEST_P(OnEveryPreset, APatchTellsItsPlane) {
+TEST_P(OnEveryPreset, APatchHasItsPlane) {
   std::vector<Point> cloud;
   add_square(cloud, 6.45f, 0.3f, [](float x, float y) { return -2.4f + 0.1f * x + rough(x, y); });
 
@@ -104,7 +104,7 @@ TEST_P(OnEveryPreset, ACarRoofNearTheSensorIsTooHigh) {
   EXPECT_EQ(outcome.patches[0].verdict, Verdict::too_high);
 }
 
-TEST_P(OnEveryPreset, WhatStandsOnTheGroundIsNotGround) {
+TEST_P(OnEveryPreset, ObjectsOnTheGroundAreNotGround) {
   std::vector<Point> cloud;
   add_square(cloud, 6.45f, 0.3f, [](float x, float y) { return -1.73f + rough(x, y); });
   for (int i = 0; i < 40; ++i) cloud.push_back({7.0f, 0.8f, -1.4f + 0.04f * static_cast<float>(i)});
@@ -130,7 +130,7 @@ auto ground_found(const tests::Outcome& outcome) {
   return std::count(outcome.labels.begin(), outcome.labels.begin() + 400, Label::ground);
 }
 
-TEST_P(OnEveryPreset, AFewReflectionsDoNotMislead) {
+TEST_P(OnEveryPreset, AFewReflectionsDoNotChangeTheGround) {
   EXPECT_EQ(ground_found(segment(ground_with_reflections(5), config)), 400);
 }
 
@@ -141,7 +141,7 @@ TEST(Reflections, BelowAPatchOfGroundAreNoise) {
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::noise), 8);
 }
 
-TEST(AdaptiveSeeds, PassOverReflectionsWhereThereAreMoreThanSeeds) {
+TEST(AdaptiveSeeds, SkipReflectionsEvenIfThereAreMoreThanSeeds) {
   // Taken for seeds, 25 of them would hold the first ground set down at their own level.
   PatchworkConfig config = PatchworkConfig::preset("paper");
   config.iterations = 1;
@@ -154,7 +154,7 @@ TEST(AdaptiveSeeds, PassOverReflectionsWhereThereAreMoreThanSeeds) {
   EXPECT_EQ(ground_found(segment(cloud, config)), 0);
 }
 
-TEST(AdaptiveSeeds, GroundFallingAwayFarOutIsKept) {
+TEST(AdaptiveSeeds, KeepDistantGroundThatSlopesDown) {
   // 20 % down: -1.73 - 0.2 * 30 m, far below M_h * h_s of the central zone.
   std::vector<Point> cloud;
   const PatchworkConfig config = PatchworkConfig::preset("paper");
@@ -165,7 +165,7 @@ TEST(AdaptiveSeeds, GroundFallingAwayFarOutIsKept) {
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::ground), 400);
 }
 
-TEST(AdaptiveSeeds, WithoutAMarginNoPointIsPassedOverWhateverTheSensorHeight) {
+TEST(AdaptiveSeeds, WithoutAMarginSkipNoPointForAnySensorHeight) {
   // Rising by 10 %, far out, where the margin is minus infinity: 3 m above the seeds of height 0
   // that a bin without candidates would have.
   std::vector<Point> cloud;
@@ -183,7 +183,7 @@ TEST(AdaptiveSeeds, WithoutAMarginNoPointIsPassedOverWhateverTheSensorHeight) {
   }
 }
 
-TEST(FewPoints, AreWhatTheConfigurationSays) {
+TEST(FewPoints, GetTheConfiguredLabel) {
   const std::vector<Point> cloud = {{7, 1, -1.7f}, {7.1f, 1, -1.7f}, {7, 1.1f, -1.7f}};
   PatchworkConfig config;
   config.sparse_bins_are_ground = true;
@@ -221,7 +221,7 @@ TEST(Patches, AreOrderedByZoneRingAndSector) {
   EXPECT_GT(patches.size(), 100u);
 }
 
-TEST(Zones, OneZoneOfEqualRingsIsTheUniformPolarGrid) {
+TEST(Zones, OneZoneOfEqualRingsIsAUniformPolarGrid) {
   PatchworkConfig config;
   config.zones = {
       {.ring_radii = equal_rings(config.min_range, 80, 30), .sectors = 108}};  // R-GPF's 3,240 bins

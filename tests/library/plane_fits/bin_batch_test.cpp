@@ -73,23 +73,23 @@ class BinBatchOn : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, BinBatchOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-TEST_P(BinBatchOn, HoldsThePointsOfItsBinsAsSeenFromTheirOrigins) {
+TEST_P(BinBatchOn, ContainsThePointsOfItsBinsRelativeToTheirOrigins) {
   expect_gathered(tests::random_cloud(60000, 1));
 }
 
-TEST_P(BinBatchOn, HoldsThemWhereTheCloudIsInNoOrder) {
+TEST_P(BinBatchOn, ContainsThePointsOfAnUnorderedCloud) {
   std::vector<Point> cloud = tests::random_cloud(60000, 2);
   std::ranges::shuffle(cloud, std::mt19937(1));
   expect_gathered(cloud);
 }
 
-TEST_P(BinBatchOn, HoldsThemWhereBinsHaveFewPoints) {
+TEST_P(BinBatchOn, ContainsThePointsOfSmallBins) {
   for (std::size_t size = 20; size < 60; ++size) {
     expect_gathered(tests::random_cloud(size, static_cast<std::uint32_t>(size)));
   }
 }
 
-TEST_P(BinBatchOn, HoldsABinOfAnySize) {
+TEST_P(BinBatchOn, ContainsABinOfAnySize) {
   for (std::size_t size = 1; size <= 70; ++size) {
     std::vector<Point> cloud;
     for (std::size_t i = 0; i < size; ++i) {
@@ -110,7 +110,7 @@ std::vector<MovedPoint> moved(std::size_t count, float first) {
   return points;
 }
 
-TEST_P(BinBatchOn, HoldsASampleOfEachPatchAtEvenSteps) {
+TEST_P(BinBatchOn, ContainsAnEvenlySpacedSampleOfEachBin) {
   for (const std::size_t most : {1U, 2U, 16U, 63U, 64U, 65U, 128U, 65535U}) {
     // As many points as are taken at most, fewer, and more, by a little and by far.
     const std::vector<std::size_t> sizes = {

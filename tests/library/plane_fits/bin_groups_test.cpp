@@ -47,7 +47,7 @@ std::vector<Point> shuffled(std::vector<Point> cloud) {
   return cloud;
 }
 
-TEST(BinGroups, HoldEveryPointOfEveryBinInInputOrder) {
+TEST(BinGroups, ContainEveryPointOfEveryBinInInputOrder) {
   EXPECT_TRUE(rc::check([] {
     const auto size = *rc::gen::oneOf(rc::gen::inRange<std::size_t>(1, 200),
                                       rc::gen::inRange<std::size_t>(8000, 20000));
@@ -67,11 +67,11 @@ TEST(BinGroups, HoldEveryPointOfEveryBinInInputOrder) {
   }));
 }
 
-TEST(BinGroups, OfAScanInOrderAreRuns) {
+TEST(BinGroups, OfAnOrderedScanAreRuns) {
   EXPECT_FALSE(tests::SortedScan(tests::random_cloud(100000, 1), {}).groups.moved());
 }
 
-TEST(BinGroups, OfACloudInNoOrderAreMovedPoints) {
+TEST(BinGroups, OfAnUnorderedCloudAreMovedPoints) {
   EXPECT_TRUE(tests::SortedScan(shuffled(tests::random_cloud(100000, 1)), {}).groups.moved());
 }
 
@@ -85,7 +85,7 @@ std::vector<Point> by_turns(std::size_t points, std::size_t run_length) {
   return cloud;
 }
 
-TEST(BinGroups, AreRightWhereRunsAreJustLongEnoughToKeep) {
+TEST(BinGroups, AreCorrectIfRunsAreJustLongEnoughToKeep) {
   // Four points a run is what memory is reserved for; chunks of 8,192 end between runs.
   for (const std::size_t run_length : {1U, 3U, 4U, 5U}) {
     const std::vector<Point> cloud = by_turns(40000, run_length);
@@ -99,7 +99,7 @@ TEST(BinGroups, AreRightWhereRunsAreJustLongEnoughToKeep) {
   }
 }
 
-TEST(BinGroups, ForgetTheScanBefore) {
+TEST(BinGroups, DoNotDependOnThePreviousScan) {
   const std::vector<Point> first = shuffled(tests::corrupted_cloud(20000, 2));
   const std::vector<Point> second = tests::random_cloud(9000, 3);
   tests::SortedScan sorted(first, {});
@@ -151,7 +151,7 @@ std::vector<std::uint32_t> indices_of(std::span<const MovedPoint> points) {
   return indices;
 }
 
-TEST_P(MovedPointsOn, OfAnyRangeOfBinsLieTogetherInInputOrderWithinABin) {
+TEST_P(MovedPointsOn, OfARangeOfBinsAreContiguousInInputOrderPerBin) {
   EXPECT_TRUE(rc::check([] {
     const auto size = *rc::gen::oneOf(rc::gen::inRange<std::size_t>(1, 200),
                                       rc::gen::inRange<std::size_t>(8000, 20000));
@@ -195,7 +195,7 @@ TEST_P(MovedPointsOn, KeepTheirCoordinatesBitForBit) {
   }
 }
 
-TEST_P(MovedPointsOn, ForgetTheScanBeforeAndItsBins) {
+TEST_P(MovedPointsOn, DoNotDependOnThePreviousScan) {
   const std::vector<Point> first = shuffled(tests::corrupted_cloud(20000, 2));
   tests::CellPoints moved(first, {.cell = 1, .width = 150});
   // Fewer bins, then more than ever, then fewer again.
@@ -215,7 +215,7 @@ TEST_P(MovedPointsOn, ForgetTheScanBeforeAndItsBins) {
   }
 }
 
-TEST_P(MovedPointsOn, AreRightWhereRunsAreJustLongEnoughToSort) {
+TEST_P(MovedPointsOn, AreCorrectIfRunsAreJustLongEnoughToSort) {
   for (const std::size_t run_length : {1U, 2U, 3U, 8U, 9U, 16U, 17U}) {
     const std::vector<Point> cloud = by_turns(20000, run_length);
     const tests::SquareCells cells{.cell = 1, .width = 20};

@@ -103,11 +103,11 @@ void check_sums(Precision precision, double share, std::size_t most_points) {
   }
 }
 
-TEST_P(SumMomentsOn, AreWithin4e6OfTheNaiveOnesInSinglePrecision) {
+TEST_P(SumMomentsOn, AreWithin4e6OfNaiveSumsInSinglePrecision) {
   EXPECT_TRUE(rc::check([] { check_sums(Precision::single, 4e-6, 300); }));
 }
 
-TEST_P(SumMomentsOn, AreWithin1e12OfTheNaiveOnesInFullPrecision) {
+TEST_P(SumMomentsOn, AreWithin1e12OfNaiveSumsInFullPrecision) {
   EXPECT_TRUE(rc::check([] { check_sums(Precision::full, 1e-12, 300); }));
 }
 
@@ -132,7 +132,7 @@ TEST_P(SumMomentsOn, KeepTheirPrecisionOverManyPoints) {
   }
 }
 
-TEST_P(SumMomentsOn, LeaveBinsThatAreNotWantedAlone) {
+TEST_P(SumMomentsOn, DoNotChangeOtherBins) {
   const BinBatch batch = tests::batch_of({{-1, -1, -1}, {-1, -1}, {-1, -1, -1, -1}});
   GroundSets sets{};
   sets.fill({0, 0, 1, -inf, inf});
@@ -149,7 +149,7 @@ TEST_P(SumMomentsOn, LeaveBinsThatAreNotWantedAlone) {
   EXPECT_EQ(moments.count[3], 77);
 }
 
-TEST_P(SumMomentsOn, CountWhatLiesOnTheBottomAndNotWhatLiesOnTheTop) {
+TEST_P(SumMomentsOn, IncludePointsOnTheBottomButNotOnTheTop) {
   const BinBatch batch = tests::batch_of({{-1, 0, 1, 2}});
   GroundSets sets{};
   sets[0] = {0, 0, 1, -1, 1};
@@ -183,7 +183,7 @@ TEST_P(SumMomentsOn, AreZeroForASetWithoutPointsOrBounds) {
   }
 }
 
-TEST_P(SumMomentsOn, OfFirstSetsAreThoseOfTheHeightsThatTheyLeave) {
+TEST_P(SumMomentsOn, OfFirstSetsMatchTheShiftedHeights) {
   BinBatch batch = tests::batch_of({{-1.5f, -1.25f, -1, 3}});
 
   MomentsBatch first{};

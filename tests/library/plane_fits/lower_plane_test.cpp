@@ -25,7 +25,7 @@ TEST(LowerPlane, IsGroundIfMostPointsBelowAreInIt) {
   EXPECT_FALSE(is_lower_ground(plane(), 34));  // 59 %
 }
 
-TEST(LowerPlane, NeedsTwelvePoints) {
+TEST(LowerPlane, RequiresTwelvePoints) {
   Plane small = plane();
   small.count = 12;
   EXPECT_TRUE(is_lower_ground(small, 12));
@@ -33,7 +33,7 @@ TEST(LowerPlane, NeedsTwelvePoints) {
   EXPECT_FALSE(is_lower_ground(small, 11));
 }
 
-TEST(LowerPlane, NeedsLengthAndWidthOrMoreLength) {
+TEST(LowerPlane, RequiresLengthAndWidthOrMoreLength) {
   EXPECT_TRUE(is_lower_ground(plane(0.31, 0.11), 20));
   EXPECT_FALSE(is_lower_ground(plane(0.29, 0.11), 20));
   EXPECT_FALSE(is_lower_ground(plane(0.31, 0.09), 20));
@@ -46,7 +46,7 @@ TEST(LowerPlane, IsThin) {
   EXPECT_FALSE(is_lower_ground(plane(1, 0.5, 0.051), 20));
 }
 
-TEST(LowerPlane, IsAtMost50DegreesSteep) {
+TEST(LowerPlane, HasASlopeOfAtMost50Degrees) {
   Plane steep = plane();
   steep.normal = {0.766, 0, 0.643};
   EXPECT_TRUE(is_lower_ground(steep, 20));

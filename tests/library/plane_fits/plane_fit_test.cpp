@@ -57,7 +57,7 @@ PlaneFit::Result fitted(const std::vector<Heights>& bins, const FitSettings& set
   return result;
 }
 
-TEST(PlaneFit, FirstSetReachesAsFarAboveTheSeedsMeanAsTheSeedHeight) {
+TEST(PlaneFit, FirstSetEndsTheSeedHeightAboveTheMeanOfTheSeeds) {
   const Heights heights = ground_and({-1.25f, -1.15f});
 
   const PlaneFit::Result result = fitted({heights}, first_set_only(), same_seeds(-inf, 20));
@@ -65,7 +65,7 @@ TEST(PlaneFit, FirstSetReachesAsFarAboveTheSeedsMeanAsTheSeedHeight) {
   EXPECT_EQ(result.judged.count[0], 301);
 }
 
-TEST(PlaneFit, FirstSetReachesAsFarBelowTheSeedsMeanAsTheSeedDepth) {
+TEST(PlaneFit, FirstSetBeginsTheSeedDepthBelowTheMeanOfTheSeeds) {
   const Heights heights = ground_and({-2.65f, -3.5f});
   FitSettings settings = first_set_only();
   const Seeds seeds = same_seeds(-inf, 200);  // whose mean is 1.4 cm below the ground
@@ -75,7 +75,7 @@ TEST(PlaneFit, FirstSetReachesAsFarBelowTheSeedsMeanAsTheSeedDepth) {
   EXPECT_EQ(fitted({heights}, settings, seeds).judged.count[0], 301);
 }
 
-TEST(PlaneFit, FirstSetHoldsPointsBelowTheFloorOfTheSeedsOnlyIfAskedTo) {
+TEST(PlaneFit, FirstSetContainsPointsBelowTheFloorOnlyIfConfigured) {
   const Heights heights = ground_and({-3.0f, -2.0f});
   FitSettings settings = first_set_only();
   const Seeds seeds = same_seeds(-2.25, 20);
@@ -85,7 +85,7 @@ TEST(PlaneFit, FirstSetHoldsPointsBelowTheFloorOfTheSeedsOnlyIfAskedTo) {
   EXPECT_EQ(fitted({heights}, settings, seeds).judged.count[0], 301);
 }
 
-TEST(PlaneFit, SeedDepthAndFloorBothHold) {
+TEST(PlaneFit, SeedDepthAndFloorBothApply) {
   const Heights heights = ground_and({-3.0f, -2.0f});
   FitSettings settings = first_set_only();
   settings.keep_below_floor = false;
@@ -96,7 +96,7 @@ TEST(PlaneFit, SeedDepthAndFloorBothHold) {
   EXPECT_EQ(fitted({heights}, settings, same_seeds(-2.25, 200)).judged.count[0], 301);
 }
 
-TEST(PlaneFit, FloorIsEachBinsOwn) {
+TEST(PlaneFit, FloorIsPerBin) {
   const Heights heights = ground_and({-3.5f, -3.5f});
   Seeds seeds = same_seeds(-inf, 1);
   seeds.floors[1] = -2;
@@ -107,7 +107,7 @@ TEST(PlaneFit, FloorIsEachBinsOwn) {
   EXPECT_EQ(result.judged.count[1], 302);
 }
 
-TEST(PlaneFit, NumberOfSeedsIsEachBinsOwn) {
+TEST(PlaneFit, NumberOfSeedsIsPerBin) {
   const Heights heights = ground_and({-3.5f, -3.5f});
   Seeds seeds = same_seeds(-inf, 2);
   seeds.counts[1] = 100;
@@ -119,7 +119,7 @@ TEST(PlaneFit, NumberOfSeedsIsEachBinsOwn) {
   EXPECT_EQ(result.judged.count[1], 302);
 }
 
-TEST(PlaneFit, LaterSetsReachFromTheNoiseMarginBelowThePlaneToTheDistanceMarginAbove) {
+TEST(PlaneFit, LaterSetsExtendFromTheNoiseMarginBelowToTheDistanceMarginAboveThePlane) {
   const Heights heights = ground_and({-1.6f, -1.55f, -2.05f, -2.15f});
   FitSettings settings = first_set_only();
   settings.iterations = 2;
@@ -129,7 +129,7 @@ TEST(PlaneFit, LaterSetsReachFromTheNoiseMarginBelowThePlaneToTheDistanceMarginA
   EXPECT_EQ(result.judged.count[0], 302);
 }
 
-TEST(PlaneFit, JudgingTheFinalSetIsOnePlaneMore) {
+TEST(PlaneFit, EvaluatingTheFinalSetFitsOneMorePlane) {
   const Heights heights = ground_and({-1.6f, -1.55f, -1.4f, -2.05f, -2.15f});
   FitSettings settings = first_set_only();
   settings.iterations = 2;
@@ -145,7 +145,7 @@ TEST(PlaneFit, JudgingTheFinalSetIsOnePlaneMore) {
   EXPECT_EQ(judged.judged.normal[2][0], three.judged.normal[2][0]);
 }
 
-TEST(PlaneFit, PlanesAreSeenFromTheirOrigins) {
+TEST(PlaneFit, PlanesAreRelativeToTheirOrigins) {
   const PlaneFit::Result result = fitted({ground_and({})}, first_set_only(), same_seeds(-inf, 20));
 
   const Plane plane = result.judged[0].moved_by(result.origins[0]);

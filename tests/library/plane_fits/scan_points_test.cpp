@@ -74,7 +74,7 @@ class ScanPointsOn : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, ScanPointsOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-TEST_P(ScanPointsOn, RunsTellTheBinOfEveryPoint) {
+TEST_P(ScanPointsOn, RunsContainTheBinOfEveryPoint) {
   const std::vector<ConcentricZones> layouts{ConcentricZones(PatchworkConfig{}),
                                              ConcentricZones(many_rings())};
   EXPECT_TRUE(rc::check([&] {
@@ -93,7 +93,7 @@ TEST_P(ScanPointsOn, RunsTellTheBinOfEveryPoint) {
   }));
 }
 
-TEST_P(ScanPointsOn, RunsTellTheBinWhateverFindsIt) {
+TEST_P(ScanPointsOn, RunsContainTheBinForAnyWayOfFindingIt) {
   constexpr tests::SquareCells cells{.cell = 0.25f, .width = 511};  // 261,122 bins: most that fit
   for (const std::size_t size : {1U, 16U, 17U, 8193U, 20000U}) {
     const std::vector<Point> cloud = tests::corrupted_cloud(size, 6);
@@ -110,7 +110,7 @@ TEST_P(ScanPointsOn, RunsTellTheBinWhateverFindsIt) {
   }
 }
 
-TEST_P(ScanPointsOn, RunsAreAsLongAsCanBe) {
+TEST_P(ScanPointsOn, RunsAreAsLongAsPossible) {
   const ConcentricZones zones{PatchworkConfig{}};
   const std::vector<Point> cloud = tests::random_cloud(20000, 3);
   ScanPoints scan;
@@ -126,7 +126,7 @@ TEST_P(ScanPointsOn, RunsAreAsLongAsCanBe) {
   }
 }
 
-TEST_P(ScanPointsOn, CoordinatesAreTheCloudsBitForBit) {
+TEST_P(ScanPointsOn, CoordinatesAreBitIdenticalToTheCloud) {
   const ConcentricZones zones{PatchworkConfig{}};
   for (const std::size_t size : {1U, 16U, 17U, 8193U}) {
     const std::vector<Point> cloud = tests::corrupted_cloud(size, 4);
@@ -145,7 +145,7 @@ TEST_P(ScanPointsOn, CoordinatesAreTheCloudsBitForBit) {
   }
 }
 
-TEST_P(ScanPointsOn, ChunksMayBeReadInAnyOrder) {
+TEST_P(ScanPointsOn, ChunksCanBeReadInAnyOrder) {
   const ConcentricZones zones{PatchworkConfig{}};
   const std::vector<Point> cloud = tests::random_cloud(3 * chunk_size + 5, 5);
   ScanPoints scan;

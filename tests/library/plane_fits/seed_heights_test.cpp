@@ -108,7 +108,7 @@ TEST_P(SeedHeightsOn, AreTheMeanOfTheLowestForBinsOf5000Points) {
   }
 }
 
-TEST_P(SeedHeightsOn, AreRightWhereHeightsComeInOrder) {
+TEST_P(SeedHeightsOn, AreCorrectForSortedHeights) {
   // The lowest points then all lie in few places, and in few lanes where steps are of sixteen.
   Heights rising(1000);
   Heights falling(1000);
@@ -123,7 +123,7 @@ TEST_P(SeedHeightsOn, AreRightWhereHeightsComeInOrder) {
   }
 }
 
-TEST_P(SeedHeightsOn, AreRightForAnyHeights) {
+TEST_P(SeedHeightsOn, AreCorrectForAnyHeights) {
   EXPECT_TRUE(rc::check([] {
     const auto seed_count = *rc::gen::oneOf(rc::gen::inRange<std::size_t>(1, 40),
                                             rc::gen::inRange<std::size_t>(1, 1001));
@@ -143,13 +143,13 @@ TEST_P(SeedHeightsOn, AreRightForAnyHeights) {
   }));
 }
 
-TEST_P(SeedHeightsOn, AreZeroWhereAllPointsAreBelowTheFloor) {
+TEST_P(SeedHeightsOn, AreZeroIfAllPointsAreBelowTheFloor) {
   for (const std::size_t seed_count : seed_counts) {
     EXPECT_EQ(found({Heights(100, -1.7f)}, -1, seed_count)[0], 0);
   }
 }
 
-TEST_P(SeedHeightsOn, CountPointsOnTheFloor) {
+TEST_P(SeedHeightsOn, IncludePointsOnTheFloor) {
   for (const std::size_t seed_count : seed_counts) {
     EXPECT_EQ(found({{-1.5f, -1.75f, -3.0f}}, -1.75f, seed_count)[0],
               seed_count == 1 ? -1.75 : (-1.75 - 1.5) / 2);
@@ -168,7 +168,7 @@ TEST_P(SeedHeightsOn, DoNotDependOnTheOrderOfThePoints) {
   }
 }
 
-TEST_P(SeedHeightsOn, MayBeOfANumberOfSeedsOfItsOwnInEachBin) {
+TEST_P(SeedHeightsOn, CanUseADifferentNumberOfSeedsPerBin) {
   std::mt19937 random(4);
   std::vector<Heights> bins;
   std::array<std::uint32_t, batch_size> counts{};

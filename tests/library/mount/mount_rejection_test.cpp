@@ -33,7 +33,7 @@ std::vector<Point> walls(float low, float high) {
   return points;
 }
 
-TEST(MountRefusal, OfAnEmptyCloud) {
+TEST(MountRejection, OfAnEmptyCloud) {
   const MountDecision decision = decided({});
 
   EXPECT_EQ(decision.verdict, MountVerdict::too_few_points);
@@ -41,17 +41,17 @@ TEST(MountRefusal, OfAnEmptyCloud) {
   EXPECT_EQ(decision.mount.sensor_height, 1.73f);  // what is given
 }
 
-TEST(MountRefusal, OfANullCloudThatClaimsPoints) {
+TEST(MountRejection, OfANullCloudWithPoints) {
   const MountDecision decision = MountEstimator().estimate(CloudView(nullptr, 1000));
 
   EXPECT_EQ(decision.verdict, MountVerdict::too_few_points);
 }
 
-TEST(MountRefusal, OfACloudOfZeros) {
+TEST(MountRejection, OfACloudOfZeros) {
   EXPECT_EQ(decided(std::vector<Point>(5000)).verdict, MountVerdict::too_few_points);
 }
 
-TEST(MountRefusal, OfAHandfulOfPoints) {
+TEST(MountRejection, OfAFewPoints) {
   std::vector<Point> points = level_ground(1.73f);
   points.resize(60);
 
@@ -61,7 +61,7 @@ TEST(MountRefusal, OfAHandfulOfPoints) {
   EXPECT_THAT(to_sentence(decision), HasSubstr("too few points"));
 }
 
-TEST(MountRefusal, OfWallsWithoutGround) {
+TEST(MountRejection, OfWallsWithoutGround) {
   const MountDecision decision = decided(walls(-1.7f, 3));
 
   EXPECT_EQ(decision.verdict, MountVerdict::obstructed);
@@ -69,11 +69,11 @@ TEST(MountRefusal, OfWallsWithoutGround) {
   EXPECT_THAT(to_sentence(decision), HasSubstr("at the base of objects"));
 }
 
-TEST(MountRefusal, OfWallsWithoutGroundAlsoWhereTheTiltIsAskedFor) {
+TEST(MountRejection, OfWallsWithoutGroundIfTheTiltIsEstimated) {
   EXPECT_FALSE(decided(walls(-1.7f, 3), {.tilt = TiltSource::estimate}).accepted());
 }
 
-TEST(MountRefusal, OfATableWithTheFloorSeenBesideIt) {
+TEST(MountRejection, OfATableNextToALowerFloor) {
   std::vector<Point> points;
   for (float x = -4; x < 4; x += 0.1f) {
     for (float y = -4; y < 4; y += 0.1f) points.push_back({x, y, -0.5f});
@@ -88,7 +88,7 @@ TEST(MountRefusal, OfATableWithTheFloorSeenBesideIt) {
   EXPECT_THAT(to_sentence(decision), HasSubstr("too many points below the best plane"));
 }
 
-TEST(MountRefusal, OfACloudWithoutAnyLevel) {
+TEST(MountRejection, OfACloudWithoutAPlane) {
   std::vector<Point> points;
   std::uint32_t random = 1;
   const auto uniform = [&random] {
@@ -103,7 +103,7 @@ TEST(MountRefusal, OfACloudWithoutAnyLevel) {
   EXPECT_FALSE(decided(points, {.tilt = TiltSource::estimate}).accepted());
 }
 
-TEST(MountRefusal, OfAHeightBeyondTheLimits) {
+TEST(MountRejection, OfAHeightOutsideTheLimits) {
   MountSettings settings;
   settings.limits.min_height = 1;
   settings.limits.max_height = 3;
@@ -113,7 +113,7 @@ TEST(MountRefusal, OfAHeightBeyondTheLimits) {
   EXPECT_FALSE(decided(level_ground(4), settings).accepted());
 }
 
-TEST(MountRefusal, OfATiltBeyondTheLimit) {
+TEST(MountRejection, OfATiltAboveTheLimit) {
   const tests::YardScan scan = tests::scan_of({.mounting = {.height = 1.73, .pitch = 12}});
   MountSettings settings{.tilt = TiltSource::estimate};
   settings.limits.max_tilt = 10;
@@ -126,7 +126,7 @@ TEST(MountRefusal, OfATiltBeyondTheLimit) {
               HasSubstr("the tilt exceeds the limit (rejected estimate: sensor 1.7"));
 }
 
-TEST(MountRefusal, OfWhatIsLessSureThanAskedFor) {
+TEST(MountRejection, OfAConfidenceBelowTheMinimum) {
   MountSettings settings;
   std::vector<Point> few = level_ground(1.73f);
   std::erase_if(few, [](const Point& p) { return p.x < 0 || p.y < 0 || p.y > 0.8f * p.x; });
@@ -140,7 +140,7 @@ TEST(MountRefusal, OfWhatIsLessSureThanAskedFor) {
   EXPECT_TRUE(decided(few, settings).accepted());
 }
 
-TEST(MountSentence, SaysHeightTiltAndConfidenceOfWhatIsAccepted) {
+TEST(MountSentence, ReportsHeightTiltAndConfidenceOfAnAcceptedEstimate) {
   const tests::YardScan scan = tests::scan_of({.mounting = {.height = 1.73, .pitch = 20}});
 
   const std::string sentence =
@@ -151,7 +151,7 @@ TEST(MountSentence, SaysHeightTiltAndConfidenceOfWhatIsAccepted) {
                                               "confidence 1\\.00"));
 }
 
-TEST(MountSentence, SaysWhatIsGiven) {
+TEST(MountSentence, ReportsTheConfiguredHeight) {
   EXPECT_EQ(to_sentence(MountDecision{}), "sensor 1.73 m above the ground, as configured");
 }
 
