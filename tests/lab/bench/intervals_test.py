@@ -43,14 +43,14 @@ class Intervals(unittest.TestCase):
 
     def test_one_scan_has_no_interval(self):
         self.assertIsNone(study.mean_of([0.1])["ci95"])
-        self.assertEqual(study.points_more(study.mean_of([0.1])), "+10.00 ± –")
+        self.assertEqual(study.percentage_points(study.mean_of([0.1])), "+10.00 ± –")
 
     def test_a_difference_is_bold_if_its_interval_excludes_zero(self):
-        self.assertEqual(study.points_more({"mean": 0.02, "ci95": 0.01}), "**+2.00 ± 1.00**")
-        self.assertEqual(study.points_more({"mean": -0.01, "ci95": 0.02}), "-1.00 ± 2.00")
+        self.assertEqual(study.percentage_points({"mean": 0.02, "ci95": 0.01}), "**+2.00 ± 1.00**")
+        self.assertEqual(study.percentage_points({"mean": -0.01, "ci95": 0.02}), "-1.00 ± 2.00")
 
     def test_a_difference_of_zero_has_no_minus_sign(self):
-        self.assertEqual(study.points_more({"mean": -1e-6, "ci95": 1e-7}), "+0.00 ± 0.00")
+        self.assertEqual(study.percentage_points({"mean": -1e-6, "ci95": 1e-7}), "+0.00 ± 0.00")
 
 
 class Pages(unittest.TestCase):
@@ -58,9 +58,13 @@ class Pages(unittest.TestCase):
         page = "before\n<!-- table a -->\nold\n<!-- end -->\nafter"
         self.assertEqual(study.filled(page, {"a": "new"}), "before\n<!-- table a -->\n\nnew\n\n<!-- end -->\nafter")
 
-    def test_names_a_table_without_results(self):
-        with self.assertRaisesRegex(SystemExit, "wants a table b; there are a"):
-            study.filled("<!-- table b --><!-- end -->", {"a": ""})
+    def test_keeps_tables_of_other_studies(self):
+        page = "<!-- table b -->\nold\n<!-- end -->"
+        self.assertEqual(study.filled(page, {"a": "new"}), page)
+
+    def test_names_a_table_missing_from_the_pages(self):
+        with self.assertRaisesRegex(SystemExit, "README.md: missing tables: no-such-table"):
+            study.exit_if_missing([study.ROOT / "README.md"], {"no-such-table": ""})
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Tests of the perturbations in bench/surface_disturbances.py.
+"""Tests of the perturbations in bench/surface_perturbations.py.
 
-    python3 surface_disturbances_test.py BENCH    BENCH: the directory bench
+    python3 surface_perturbations_test.py BENCH    BENCH: the directory bench
 
 Exits with 77, which ctest treats as skipped, if NumPy is not installed.
 """
@@ -16,7 +16,7 @@ try:
 except ImportError as error:
     print(f"skipped: {error}")
     sys.exit(77)
-import surface_disturbances as disturbances
+import surface_perturbations as perturbations
 
 ROAD, BUILDING = 40, 50
 
@@ -26,7 +26,7 @@ def a_scan():
     azimuths = np.radians(np.arange(90) * 4 + 1.5)
     points, classes = [], []
     for ring in (4, 6, 8, 10):
-        flat = np.full(90, -disturbances.HEIGHT)
+        flat = np.full(90, -perturbations.HEIGHT)
         points.append(np.stack([ring * np.cos(azimuths), ring * np.sin(azimuths), flat, flat], axis=1))
         classes.append(np.full(90, ROAD))
     azimuths = np.radians(np.arange(80) + 1.5)
@@ -38,12 +38,12 @@ def a_scan():
 
 def perturbed(name):
     points, classes = a_scan()
-    disturbance = next(entry for entry in disturbances.DISTURBANCES if entry.name == name)
-    moved, their_classes, sources = disturbance.disturb(points, classes, np.random.default_rng(1))
+    perturbation = next(entry for entry in perturbations.PERTURBATIONS if entry.name == name)
+    moved, their_classes, sources = perturbation.perturb(points, classes, np.random.default_rng(1))
     return points, classes, moved, their_classes, np.asarray(sources)
 
 
-class Disturbances(unittest.TestCase):
+class Perturbations(unittest.TestCase):
     def test_a_roll_of_3_degrees_raises_the_left_and_keeps_distances(self):
         points, _, moved, _, _ = perturbed("rolled by +3°")
         left = np.argmax(points[:, 1])
@@ -59,29 +59,29 @@ class Disturbances(unittest.TestCase):
         ahead = np.argmax(points[:, 0])
         self.assertLess(moved[ahead, 2], points[ahead, 2] - 0.3)
 
-    def test_half_the_beams_are_every_second_complete_beam(self):
-        points, classes, moved, their_classes, sources = perturbed("half the beams")
+    def test_every_other_beam_is_kept_complete(self):
+        points, classes, moved, their_classes, sources = perturbed("every other beam")
         np.testing.assert_array_equal(sources, np.r_[0:90, 180:270, 360:440])
         np.testing.assert_array_equal(moved, points[sources])
         np.testing.assert_array_equal(their_classes, classes[sources])
 
     def test_the_four_quarters_of_the_view_add_up_to_the_scan(self):
-        kept = [perturbed(f"90° of the view, {where}")[4] for where in ("ahead", "left", "behind", "right")]
+        kept = [perturbed(f"90° field of view, {name}")[4] for name in ("front", "left", "rear", "right")]
         np.testing.assert_array_equal(np.sort(np.concatenate(kept)), np.arange(440))
 
     def test_the_left_quarter_has_positive_y(self):
-        _, _, moved, _, _ = perturbed("90° of the view, left")
+        _, _, moved, _, _ = perturbed("90° field of view, left")
         self.assertGreater(moved[:, 1].min(), 0)
 
     def test_one_percent_of_the_points_get_a_ghost_point_below_the_ground(self):
-        points, _, moved, their_classes, sources = perturbed("1 % ghosts")
+        points, _, moved, their_classes, sources = perturbed("1 % ghost points, not scored")
         ghosts = sources < 0
         self.assertEqual(ghosts.sum(), len(points) // 100)
-        np.testing.assert_array_equal(their_classes[ghosts], disturbances.OUTLIER)
+        np.testing.assert_array_equal(their_classes[ghosts], perturbations.OUTLIER)
         np.testing.assert_array_equal(moved[~ghosts], points)
         for ghost in moved[ghosts]:
             above = points[(points[:, :2] == ghost[:2]).all(axis=1)]
-            self.assertAlmostEqual(float(ghost[2]), -2 * disturbances.HEIGHT - float(above[0, 2]), places=4)
+            self.assertAlmostEqual(float(ghost[2]), -2 * perturbations.HEIGHT - float(above[0, 2]), places=4)
 
 
 if __name__ == "__main__":
