@@ -129,8 +129,8 @@ def evaluate(
         threads: Number of scans to process in parallel, 1 to 1,024; all cores by default. Use 1 to compare `hz`.
 
     Returns:
-        Data frames with one row per method, per method and scan, and per method and range interval. A scan that fails
-        is listed in `failed`, and a RuntimeWarning is issued.
+        Data frames with one row per method, per method and scan, and per method and range interval. Scans
+        that fail are listed in `failed`, with a RuntimeWarning.
 
     Raises:
         FileNotFoundError: A dataset does not exist.

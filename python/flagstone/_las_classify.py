@@ -31,12 +31,12 @@ def classify_las(
 
     Only points with a class in `overwrite_classes` are changed:
 
-    - Points labelled ground get class 2 (ground).
-    - Points labelled noise get class 7 (low point).
-    - Points labelled nonground get class 1 (unclassified) if they had class 0 (never classified), 2 or 7.
-    - Points labelled out of range or invalid keep their class.
+    - Points labelled `ground` get class 2 (ground).
+    - Points labelled `noise` get class 7 (low point).
+    - Points labelled `nonground` get class 1 (unclassified) if they had class 0 (never classified), 2 or 7.
+    - Points labelled `out_of_range` or `invalid` keep their class.
 
-    Everything else in the file is bit-identical: the header, variable length records, all other dimensions, the flags
+    The rest of the file is bit-identical: the header, variable length records, all other dimensions, the flags
     stored with the class, and all data after the points. A LAZ file is compressed again with the same parameters and
     verified before it replaces the destination. Offsets of the data after the points and the index of a COPC file are
     updated. Memory use is limited to the labels and one million points.

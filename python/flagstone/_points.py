@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Conversion of points of any supported type to three columns, zero-copy where possible."""
+"""Conversion of points of any supported type to three columns, zero-copy if possible."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Column = npt.NDArray[np.float32] | npt.NDArray[np.float64]
 
 _EXPECTED = "expected (N, 3) or more columns, float32 or float64: x, y, z in metres"
 _CPU_DEVICES = (1, 3)  # kDLCPU and kDLCUDAHost of DLPack; both are host memory
-# An array with so few rows and so many columns is transposed: scans have more points and fewer columns.
+# Up to this many rows with more than this many columns: the array is probably transposed.
 _FEW_ROWS, _MANY_COLUMNS = 8, 8
 _MAX_FIELDS_NAMED = 8  # in an error message
 

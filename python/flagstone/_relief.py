@@ -26,7 +26,7 @@ TONES = np.array(
 )
 _SHADOW = np.array([0.16, 0.17, 0.30])  # bluish, as under an open sky
 _SUNLIGHT = np.array([1, 0.99, 0.93])
-_DARKEST = 0.72  # fraction of shadow colour where no light falls
+_DARKEST = 0.72  # fraction of shadow colour in full shade
 _BRIGHTEST = 1.5  # fraction of sunlight colour per unit of brightness above that of level ground
 _FAINTEST = 0.25  # opacity of ground with confidence 0
 

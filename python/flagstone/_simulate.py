@@ -82,7 +82,7 @@ def simulate(
             positive roll lowers its right side.
         noise: `"clean"`, `"default"` or `"harsh"`.
         weather: One or more of `"clear"`, `"wet"`, `"rain"` and `"dust"`.
-        keep_no_returns: Write missing returns as points at (0, 0, 0), as many drivers do.
+        keep_no_returns: Write missing returns as points at (0, 0, 0), like many drivers.
         frames: Number of scans, 1 to 100,000. A new environment starts every 10 scans.
         seed: Seed of the environments and the noise, 0 to 2**64 - 1.
         sequence: Name of the sequence, two digits. One directory can contain several sequences.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Codes of point labels and patch verdicts."""
+"""Codes of point labels and of the status of patches."""
 
 from enum import IntEnum
 

@@ -188,7 +188,7 @@ def format_of(path: Path) -> str | None:
 def is_scan_name(path: Path) -> bool:
     """Whether a file found in a directory is treated as a scan.
 
-    The extension must be that of a scan. Hidden files and files of labels or heights are not scans.
+    Hidden files, label files, height files and files with other extensions are not scans.
     """
     return _core.is_scan_name(os.fspath(path))
 

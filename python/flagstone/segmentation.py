@@ -100,7 +100,7 @@ class Segmentation:
 
     @property
     def patches(self) -> npt.NDArray[np.void]:
-        """(P,): the bins S_n that contain points, with plane and verdict; sections III-B to III-D of the paper.
+        """(P,): the bins S_n that contain points, with plane and status; sections III-B to III-D of the paper.
 
         Patches of `patchwork` are ordered by zone, ring and sector, patches of `surface` by distance from the sensor.
         Methods without patches return an empty array. Fields:

@@ -32,7 +32,7 @@ class Segmenter:
     Thread-safe: threads that share a segmenter take turns. `segment` releases the GIL, so use one segmenter per thread
     to segment several scans in parallel. After a fork, both the parent and the child may use the segmenter.
 
-    A segmenter can be pickled. The pickle contains its arguments, but not what it has estimated from scans.
+    A segmenter can be pickled. The pickle contains its arguments, but not its estimates from scans.
     """
 
     def __init__(
@@ -250,7 +250,7 @@ def make_segmenter(
 
     Raises:
         TypeError: An argument has the wrong type.
-        ValueError: The method or a setting is unknown, or a value is out of range. The message names what is allowed.
+        ValueError: The method or a setting is unknown, or a value is out of range. The message names the allowed values.
     """
     made_of: dict[str, Any] = {
         "sensor": sensor,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Sensors that flagstone knows by name."""
+"""Sensors that you can select by name."""
 
 from __future__ import annotations
 

@@ -7,12 +7,14 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -22,6 +24,7 @@
 #include "files/io/label_files.hpp"
 #include "files/io/read_cloud.hpp"
 #include "files/io/write_cloud.hpp"
+#include "library/core/did_you_mean.hpp"
 
 namespace nb = nanobind;
 
@@ -30,7 +33,7 @@ namespace {
 
 template <class Number>
 using Row = nb::ndarray<nb::numpy, Number, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-/// Name, type, count and offset of a field.
+/// Name, type, count and byte offset of a field.
 using FieldTuple = std::tuple<std::string, std::string, std::size_t, std::size_t>;
 
 io::FieldType type_named(const std::string& name) {
@@ -39,8 +42,8 @@ io::FieldType type_named(const std::string& name) {
     if (name == to_string(type)) return type;
   }
   throw nb::type_error(
-      fmt::format("fields of type {} cannot be written; integers of 8 to 64 bits, float32 and "
-                  "float64 can",
+      fmt::format("points: dtype {} cannot be written (expected integers of 8 to 64 bits, float32 "
+                  "or float64)",
                   name)
           .c_str());
 }
@@ -50,11 +53,11 @@ io::CloudFormat format_named(const std::string& name) {
   if (name == "pcd") return io::CloudFormat::pcd;
   if (name == "ply") return io::CloudFormat::ply;
   if (name == "npy") return io::CloudFormat::npy;
-  throw std::invalid_argument(
-      fmt::format("format = {:?} is not known; there are raw, pcd, ply, npy", name));
+  constexpr std::array<std::string_view, 4> names = {"raw", "pcd", "ply", "npy"};
+  throw std::invalid_argument("format: " + no_such("format", name, names));
 }
 
-/// The rows of a cloud, which Python owns from now on, and what is in them.
+/// Moves the rows of a cloud to Python. Returns the bytes of the rows, the fields and the stride.
 nb::tuple rows_of(io::Cloud cloud) {
   nb::list fields;
   for (const io::Field& field : cloud.fields()) {

@@ -78,7 +78,7 @@ const char* type_of(const Setting& setting) {
   return names.at(setting.value.index());
 }
 
-/// For every setting of a method: key, type, meaning, what is allowed.
+/// Key, Python type, meaning and valid range of every setting of a method.
 nb::list settings(const std::string& method) {
   MethodConfig config = config::resolve_one({.methods = {method}}).config;
   nb::list list;

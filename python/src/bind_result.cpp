@@ -33,15 +33,15 @@ template <class Number>
 using Row = nb::ndarray<nb::numpy, const Number, nb::ndim<1>, nb::c_contig>;
 template <class Number>
 using Table = nb::ndarray<nb::numpy, const Number, nb::ndim<2>, nb::c_contig>;
-using Places = nb::ndarray<nb::numpy, const float, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Coordinates = nb::ndarray<nb::numpy, const float, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-/// A read-only array of memory that the result owns.
+/// A read-only view of memory that the result owns.
 template <class Number>
 Row<Number> row_of(std::span<const Number> values, nb::handle owner) {
   return Row<Number>(values.data(), {values.size()}, owner);
 }
 
-/// Memory of an array that Python shall own.
+/// Passes the ownership of an array to Python.
 template <class Number>
 nb::capsule owner_of(Number* numbers) {
   return nb::capsule(numbers, [](void* memory) noexcept { delete[] static_cast<Number*>(memory); });
@@ -64,7 +64,7 @@ Row<float> heights(nb::handle self) {
   return row_of<float>(nb::cast<Result&>(self).heights(), self);
 }
 
-/// The bytes of the patches; patch_fields() says what they mean.
+/// The bytes of the patches; patch_fields() describes their layout.
 Row<std::uint8_t> patches(nb::handle self) {
   const std::span<const Patch> patches = result_of(self).segmentation().patches();
   return row_of<std::uint8_t>(
@@ -79,7 +79,7 @@ nb::tuple counts(const Result& result) {
   return nb::tuple(counts);
 }
 
-/// For every grid: side of a cell, heights, confidences.
+/// Cell size, heights and confidences of every grid.
 nb::list grids(nb::handle self) {
   nb::list list;
   for (const GroundSurface::Grid& grid : result_of(self).segmentation().surface().grids()) {
@@ -90,33 +90,34 @@ nb::list grids(nb::handle self) {
   return list;
 }
 
-/// What `ask(surface, x, y)` says of every place.
-template <class Ask>
-Row<float> asked(const Result& result, const Places& x, const Places& y, Ask ask) {
-  if (x.size() != y.size()) throw nb::value_error("x and y differ in length");
-  const std::size_t places = x.size();
-  auto* const values = new float[places == 0 ? 1 : places];
+/// Calls `query(surface, x, y)` for every position, without the GIL.
+template <class Query>
+Row<float> query_each(const Result& result, const Coordinates& x, const Coordinates& y,
+                      Query query) {
+  if (x.size() != y.size()) throw nb::value_error("x and y have different lengths");
+  const std::size_t count = x.size();
+  auto* const values = new float[count == 0 ? 1 : count];
   nb::capsule owner = owner_of(values);
   const GroundSurface& surface = result.segmentation().surface();
   {
     const nb::gil_scoped_release released;
-    for (std::size_t i = 0; i < places; ++i) values[i] = ask(surface, x.data()[i], y.data()[i]);
+    for (std::size_t i = 0; i < count; ++i) values[i] = query(surface, x.data()[i], y.data()[i]);
   }
-  return Row<float>(values, {places}, owner);
+  return Row<float>(values, {count}, owner);
 }
 
-/// For every place: height, normal x, y, z, slope, confidence.
-Table<float> ground_at(const Result& result, const Places& x, const Places& y) {
-  if (x.size() != y.size()) throw nb::value_error("x and y differ in length");
+/// Columns: height, normal x, y, z, slope, confidence. One row per position.
+Table<float> ground_at(const Result& result, const Coordinates& x, const Coordinates& y) {
+  if (x.size() != y.size()) throw nb::value_error("x and y have different lengths");
   constexpr std::size_t columns = 6;
-  const std::size_t places = x.size();
-  auto* const values = new float[places == 0 ? 1 : columns * places];
+  const std::size_t count = x.size();
+  auto* const values = new float[count == 0 ? 1 : columns * count];
   nb::capsule owner = owner_of(values);
   const GroundSurface& surface = result.segmentation().surface();
   {
     const nb::gil_scoped_release released;
     float* to = values;
-    for (std::size_t i = 0; i < places; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       const GroundSample at = surface.at(x.data()[i], y.data()[i]);
       *to++ = at.height;
       for (const float component : at.normal) *to++ = component;
@@ -124,10 +125,10 @@ Table<float> ground_at(const Result& result, const Places& x, const Places& y) {
       *to++ = at.confidence;
     }
   }
-  return Table<float>(values, {places, columns}, owner);
+  return Table<float>(values, {count, columns}, owner);
 }
 
-/// Name, NumPy's format and offset of every field of a patch, and the size of one.
+/// Name, NumPy format and byte offset of every field of a patch, and the size of a patch.
 nb::tuple patch_fields() {
   nb::list fields;
   const auto add = [&](const char* name, const char* format, std::size_t offset) {
@@ -154,14 +155,14 @@ nb::tuple patch_fields() {
 
 nb::tuple tuple_of(const std::array<float, 3>& v) { return nb::make_tuple(v[0], v[1], v[2]); }
 
-/// Height of the sensor, up, origin, scale, and what the decision about them was.
+/// Sensor height, up direction, origin, scale, and how they were determined, in words.
 nb::tuple mount(const Result& result) {
   const Mount& mount = result.mount();
   return nb::make_tuple(mount.sensor_height, tuple_of(mount.up), tuple_of(mount.origin),
                         mount.scale, result.decision());
 }
 
-/// All of a result, for pickling: what restored_result() takes.
+/// Contents of a result, for pickling: the arguments of restored_result().
 nb::tuple state(nb::handle self) {
   const Segmentation& segmentation = result_of(self).segmentation();
   nb::object known_heights = nb::none();
@@ -182,7 +183,9 @@ using GivenMount =
 void restore_labels(const Given<std::uint8_t>& labels, Segmentation& segmentation) {
   const std::span<Label> restored = segmentation.start(labels.size());
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (labels.data()[i] >= label_count) throw nb::value_error("pickled result: unknown label");
+    if (labels.data()[i] >= label_count) {
+      throw nb::value_error("pickled result: unknown label (expected 0 to 4)");
+    }
     restored[i] = static_cast<Label>(labels.data()[i]);
   }
 }
@@ -192,7 +195,7 @@ GroundSurface::Grid restored_grid(const GivenGrid& given) {
   const std::size_t width = heights.shape(0);
   const bool is_square = width >= 2 && width % 2 == 0 && heights.shape(1) == width;
   if (!is_square || confidences.shape(0) != width || confidences.shape(1) != width || !(cell > 0)) {
-    throw nb::value_error("pickled result: grids of an unknown layout");
+    throw nb::value_error("pickled result: a grid has an unknown layout");
   }
   return {.cell = cell,
           .width = width,
@@ -200,7 +203,8 @@ GroundSurface::Grid restored_grid(const GivenGrid& given) {
           .confidences = {confidences.data(), confidences.data() + confidences.size()}};
 }
 
-/// A result from its state(). Throws nb::value_error for a state of another version's layout.
+/// A result from its state(). Throws nb::value_error if the state has the layout of another
+/// version.
 std::unique_ptr<Result> restored_result(const Given<std::uint8_t>& labels,
                                         const std::optional<Given<float>>& heights,
                                         const Given<std::uint8_t>& patches,
@@ -209,11 +213,13 @@ std::unique_ptr<Result> restored_result(const Given<std::uint8_t>& labels,
   auto segmentation = std::make_unique<Segmentation>();
   restore_labels(labels, *segmentation);
   if (heights) {
-    if (heights->size() != labels.size()) throw nb::value_error("pickled result: heights missing");
+    if (heights->size() != labels.size()) {
+      throw nb::value_error("pickled result: the numbers of heights and labels differ");
+    }
     std::copy_n(heights->data(), heights->size(), segmentation->start_heights().begin());
   }
   if (patches.size() % sizeof(Patch) != 0) {
-    throw nb::value_error("pickled result: patches of another version of flagstone");
+    throw nb::value_error("pickled result: written by another version of flagstone");
   }
   segmentation->mutable_patches().resize(patches.size() / sizeof(Patch));
   if (patches.size() != 0) {
@@ -257,20 +263,22 @@ void bind_result(nb::module_& module) {
       .def("extent", [](const Result& result) { return result.segmentation().surface().extent(); })
       .def(
           "height_at",
-          [](const Result& result, const Places& x, const Places& y) {
-            return asked(result, x, y, [](const GroundSurface& surface, float at_x, float at_y) {
-              return surface.height(at_x, at_y);
-            });
+          [](const Result& result, const Coordinates& x, const Coordinates& y) {
+            return query_each(result, x, y,
+                              [](const GroundSurface& surface, float at_x, float at_y) {
+                                return surface.height(at_x, at_y);
+                              });
           },
           nb::arg("x"), nb::arg("y"),
           nb::sig("def height_at(self, x: numpy.typing.NDArray[numpy.float32], y: "
                   "numpy.typing.NDArray[numpy.float32]) -> numpy.typing.NDArray[numpy.float32]"))
       .def(
           "resolution_at",
-          [](const Result& result, const Places& x, const Places& y) {
-            return asked(result, x, y, [](const GroundSurface& surface, float at_x, float at_y) {
-              return surface.resolution(at_x, at_y);
-            });
+          [](const Result& result, const Coordinates& x, const Coordinates& y) {
+            return query_each(result, x, y,
+                              [](const GroundSurface& surface, float at_x, float at_y) {
+                                return surface.resolution(at_x, at_y);
+                              });
           },
           nb::arg("x"), nb::arg("y"),
           nb::sig("def resolution_at(self, x: numpy.typing.NDArray[numpy.float32], y: "

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/map.h>
@@ -12,12 +11,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@
 #include "bindings.hpp"
 #include "lab/eval/results_export.hpp"
 #include "lab/sim/scene.hpp"
+#include "library/core/did_you_mean.hpp"
 #include "library/core/thread_pool.hpp"
 #include "method.hpp"
 
@@ -35,15 +37,15 @@ namespace nb = nanobind;
 namespace flagstone::python {
 namespace {
 
-/// Draws a line of progress of at most `columns` characters; none to draw nothing.
+/// Function that draws a progress line, None for no progress, and the maximum length of the line.
 struct ProgressLine {
   nb::object draw;
   std::size_t columns = 0;
 };
 
-/// Runs `work(callbacks)` without the GIL. Signals are handled between jobs on the calling thread,
-/// so that Ctrl-C ends the run as KeyboardInterrupt. Returns the messages of the run. What cannot
-/// be read or written is an OSError.
+/// Runs `work(callbacks)` without the GIL and returns the messages of the run. Signals are handled
+/// between jobs on the calling thread, so that Ctrl-C raises KeyboardInterrupt. Errors of reading
+/// and writing raise OSError.
 template <class Work>
 std::vector<std::string> run(const ProgressLine& line, const Work& work) {
   std::vector<std::string> messages;
@@ -73,20 +75,20 @@ std::vector<std::string> run(const ProgressLine& line, const Work& work) {
   return messages;
 }
 
-/// A number from Python, checked before it is narrowed.
+/// Checks that an integer of any size is in range, before it is narrowed.
 template <class Number>
-Number checked(const char* name, nb::int_ value, Number least, Number most) {
+Number checked(const char* name, nb::int_ value, Number minimum, Number maximum) {
   Number number = 0;
-  if (nb::try_cast(value, number) && number >= least && number <= most) return number;
+  if (nb::try_cast(value, number) && number >= minimum && number <= maximum) return number;
   throw std::invalid_argument(fmt::format("{}: {} is out of range (expected {} to {})", name,
-                                          nb::cast<std::string>(nb::str(value)), least, most));
+                                          nb::cast<std::string>(nb::str(value)), minimum, maximum));
 }
 
 unsigned checked_threads(const std::optional<nb::int_>& threads) {
   return threads ? checked("threads", *threads, 1U, max_threads) : 0;
 }
 
-/// Writes a sequence of simulated scans; returns how many frames have one environment.
+/// Writes a sequence of simulated scans and returns the number of frames per environment.
 int simulate(const std::string& output, const std::string& scene, const std::string& sensor,
              std::optional<double> sensor_height, const std::string& tilt, const std::string& noise,
              const std::vector<std::string>& weather, bool keep_no_returns, nb::int_ frames,
@@ -110,7 +112,7 @@ int simulate(const std::string& output, const std::string& scene, const std::str
   return sim::frames_per_drive;
 }
 
-/// Settings of methods and of the mount, by name.
+/// Settings of methods and of the mounting pose, by name.
 std::vector<config::GivenSettings> settings_of(const nb::dict& settings) {
   std::vector<config::GivenSettings> all;
   for (const auto& [key, own] : settings) {
@@ -122,16 +124,17 @@ std::vector<config::GivenSettings> settings_of(const nb::dict& settings) {
       continue;
     }
     if (std::ranges::find(config::method_names(), name) == config::method_names().end()) {
-      throw std::invalid_argument(fmt::format("{}: no method is named {:?} (expected mount, {})",
-                                              source, name,
-                                              fmt::join(config::method_names(), ", ")));
+      std::vector<std::string_view> tables = {"mount"};
+      std::ranges::copy(config::method_names(), std::back_inserter(tables));
+      throw std::invalid_argument("settings: " + no_such("method", name, tables));
     }
     all.push_back({.method = name, .table = value_of(own, name), .source = source});
   }
   return all;
 }
 
-/// The results as JSON and as CSV, both empty if no scan could be read, and the run's messages.
+/// The results as JSON and as CSV, and the messages of the run. JSON and CSV are empty if no scan
+/// could be read.
 nb::typed<nb::tuple, std::string, nb::bytes, std::vector<std::string>> evaluate(
     const std::vector<std::string>& datasets, std::vector<std::string> methods,
     const std::string& protocol, const std::vector<std::string>& sequences, nb::int_ every,

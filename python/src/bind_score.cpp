@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bindings.hpp"
 #include "lab/eval/protocol.hpp"
 #include "lab/eval/score.hpp"
+#include "library/core/did_you_mean.hpp"
 #include "points.hpp"
 
 namespace nb = nanobind;
@@ -24,13 +26,12 @@ template <class Number>
 using Row = nb::ndarray<nb::numpy, const Number, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
 const eval::Protocol& protocol_named(const std::string& name) {
-  std::string names;
+  std::vector<std::string_view> names;
   for (const eval::Protocol* protocol : eval::known_protocols()) {
     if (protocol->name == name) return *protocol;
-    names += (names.empty() ? "" : ", ") + protocol->name;
+    names.push_back(protocol->name);
   }
-  throw std::invalid_argument(
-      fmt::format("protocol = {:?} is not known; there are {}", name, names));
+  throw std::invalid_argument("protocol: " + no_such("protocol", name, names));
 }
 
 nb::tuple score(const Row<std::uint8_t>& labels, const Row<std::uint32_t>& classes, nb::handle x,
@@ -40,8 +41,9 @@ nb::tuple score(const Row<std::uint8_t>& labels, const Row<std::uint32_t>& class
   std::vector<float> copy;
   const CloudView cloud = points.view(copy);
   if (labels.size() != cloud.size() || classes.size() != cloud.size()) {
-    throw std::invalid_argument(fmt::format("{} labels and {} classes for {} points", labels.size(),
-                                            classes.size(), cloud.size()));
+    throw std::invalid_argument(fmt::format(
+        "{} labels and {} classes do not match {} points (expected one of each per point)",
+        labels.size(), classes.size(), cloud.size()));
   }
   eval::Confusion confusion;
   {

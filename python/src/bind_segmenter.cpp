@@ -32,7 +32,7 @@ namespace nb = nanobind;
 namespace flagstone::python {
 namespace {
 
-/// How often this process and its ancestors have forked.
+/// Number of forks of this process and its ancestors.
 std::atomic<std::uint32_t> forks = 0;
 
 unsigned checked_threads(std::int64_t threads) {
@@ -41,16 +41,16 @@ unsigned checked_threads(std::int64_t threads) {
       fmt::format("threads: {} is out of range (expected 1 to {})", threads, max_threads));
 }
 
-/// Are nine points in ten out of range? A scan in millimetres looks like this. Few points may be
-/// anywhere.
+/// Whether more than 90 % of the points are out of range, as in a scan in millimetres. Small clouds
+/// are excluded, because all of their points may be far away.
 bool mostly_out_of_range(const Segmentation& segmentation) {
   constexpr std::size_t min_points = 1000;
   const std::size_t finite = segmentation.labels().size() - segmentation.count(Label::invalid);
   return finite >= min_points && segmentation.count(Label::out_of_range) > finite / 10 * 9;
 }
 
-/// A method and its settings. Threads that share it take turns. After a fork the child may use it,
-/// even if another thread of the parent was segmenting.
+/// A method with its settings. Thread-safe: calls take turns. After a fork the child may use it
+/// too, even if another thread of the parent was segmenting.
 class SharedSegmenter {
  public:
   SharedSegmenter(config::ResolvedMethod method, unsigned threads)
@@ -58,7 +58,7 @@ class SharedSegmenter {
     make();
   }
 
-  /// None where they are not rows of points; segment() says then whether they are points at all.
+  /// Fast path for rows of float32. Returns nullptr for other objects; use segment() for those.
   std::unique_ptr<Result> segment_rows(nb::handle array) {
     const Rows rows(array);
     return rows.are_points() ? segment_points(rows) : nullptr;
@@ -84,9 +84,9 @@ class SharedSegmenter {
         config.make(threads_), sensor_height_of(config, mount.mount.sensor_height), mount);
   }
 
-  /// If a thread that the child process does not have was segmenting during the fork, its lock is
-  /// never released and its memory is half written: both are abandoned. The caller holds the
-  /// interpreter's lock, so that no other thread of the child is here.
+  /// If another thread was segmenting during the fork, the child has its lock and its memory but
+  /// not the thread. The lock is never released and the memory is inconsistent, so both are leaked.
+  /// The caller holds the GIL, so no other thread of the child runs this function.
   void recover_from_fork() {
     const std::uint32_t now = forks.load(std::memory_order_relaxed);
     if (forks_ == now) return;
@@ -107,8 +107,8 @@ class SharedSegmenter {
     if (has_warned_ || !mostly_out_of_range(segmentation)) return;
     has_warned_ = true;
     const std::string message = fmt::format(
-        "{} of {} points are out of range; is the scan in metres? For millimetres pass "
-        "mount={{\"scale\": 0.001}}; `flagstone doctor SCAN` finds the scale",
+        "points: {} of {} points are out of range (the scan may not be in metres; for millimetres "
+        "pass mount={{\"scale\": 0.001}}; `flagstone doctor SCAN` finds the scale)",
         segmentation.count(Label::out_of_range), segmentation.labels().size());
     if (PyErr_WarnEx(PyExc_UserWarning, message.c_str(), 2) != 0) throw nb::python_error();
   }
@@ -120,7 +120,7 @@ class SharedSegmenter {
     std::unique_ptr<Result> result;
     {
       const nb::gil_scoped_release released;
-      // Taken after the interpreter's lock is given up: others wait for their turn without it.
+      // Locked after the GIL is released, so that waiting threads do not hold the GIL.
       const std::scoped_lock lock(*turn_);
       std::unique_ptr<Segmentation> segmentation = spare_->take();
       status = segmenter_->segment(points.view(*copy_), *segmentation);
@@ -142,7 +142,7 @@ class SharedSegmenter {
   bool has_warned_ = false;
 };
 
-/// The number that the shortest text of a float stands for: 1.73 instead of 1.7300000190734863.
+/// The shortest decimal number that rounds to a float: 1.73 instead of 1.7300000190734863.
 double decimal(float number) { return std::strtod(fmt::format("{}", number).c_str(), nullptr); }
 
 nb::object value_of(const Setting& setting) {
@@ -208,16 +208,16 @@ nb::dict settings_dict(const SharedSegmenter& segmenter) {
   return settings;
 }
 
-/// Where the first number of the first row is read by segment_rows(); 0 where they are not points.
+/// Address from which segment_rows() reads the first point; 0 if it does not accept the object.
 std::uintptr_t address_of_rows(nb::handle array) {
   const Rows rows(array);
   return rows.are_points() ? reinterpret_cast<std::uintptr_t>(rows.view({}).data()) : 0;
 }
 
-/// Where the x of the first point is read by segment(); 0 for points that it copies first.
+/// Address from which segment() reads the x of the first point; 0 if it copies the points.
 std::uintptr_t address_of(nb::handle x, nb::handle y, nb::handle z) {
   const Points points(x, y, z);
-  if (!points.lie_in_place()) return 0;
+  if (!points.are_zero_copy()) return 0;
   std::vector<float> none;
   return reinterpret_cast<std::uintptr_t>(points.view(none).data());
 }

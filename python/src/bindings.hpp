@@ -6,8 +6,8 @@
 
 #include "flagstone/status.hpp"
 
-/// What the module `flagstone._core` holds, a function a file. What people use, and its
-/// documentation, is in the package's Python files.
+/// Contents of the module `flagstone._core`, one function per file. The public API and its
+/// documentation are in the Python files of the package.
 namespace flagstone::python {
 
 void bind_segmenter(nanobind::module_& module);
@@ -17,8 +17,8 @@ void bind_files(nanobind::module_& module);
 void bind_score(nanobind::module_& module);
 void bind_runs(nanobind::module_& module);
 
-/// Does nothing if all went well; else throws what Python shows as MemoryError, ValueError, or for
-/// files FileNotFoundError or OSError.
+/// Throws the Python exception for a failed status: MemoryError, ValueError, FileNotFoundError or
+/// OSError.
 void raise_if_failed(const Status& status);
 
 }  // namespace flagstone::python

@@ -18,14 +18,14 @@ std::string name_of_type(nb::handle object) {
   return nb::cast<std::string>(nb::str(object.type().attr("__name__")));
 }
 
-bool is_truth_value(nb::handle object) {
+bool is_boolean(nb::handle object) {
   if (PyBool_Check(object.ptr())) return true;
   const std::string name = name_of_type(object);
-  return name == "bool_" || name == "bool";  // NumPy's
+  return name == "bool_" || name == "bool";  // of NumPy
 }
 
-/// Too large ones become the largest there are, which no setting may be.
-std::int64_t whole_number(nb::handle object) {
+/// Integers that do not fit are clamped to 64 bits. No setting allows these limits.
+std::int64_t clamped_integer(nb::handle object) {
   const nb::object whole = nb::steal(PyNumber_Index(object.ptr()));
   if (!whole.is_valid()) throw nb::python_error();
   int overflow = 0;
@@ -47,8 +47,8 @@ config::Value::Table table_of(nb::handle mapping, const std::string& key) {
 }  // namespace
 
 config::Value value_of(nb::handle object, const std::string& key) {
-  if (is_truth_value(object)) return {.held = PyObject_IsTrue(object.ptr()) == 1};
-  if (PyLong_Check(object.ptr())) return {.held = whole_number(object)};
+  if (is_boolean(object)) return {.held = PyObject_IsTrue(object.ptr()) == 1};
+  if (PyLong_Check(object.ptr())) return {.held = clamped_integer(object)};
   if (nb::isinstance<nb::str>(object)) return {.held = nb::cast<std::string>(object)};
   if (nb::hasattr(object, "items")) return {.held = table_of(object, key)};
   const bool is_bytes = PyBytes_Check(object.ptr()) != 0;
@@ -59,14 +59,14 @@ config::Value value_of(nb::handle object, const std::string& key) {
     }
     return {.held = std::move(list)};
   }
-  if (PyIndex_Check(object.ptr()) != 0) return {.held = whole_number(object)};
+  if (PyIndex_Check(object.ptr()) != 0) return {.held = clamped_integer(object)};
   if (nb::hasattr(object, "__float__")) {
     const double number = PyFloat_AsDouble(object.ptr());
     if (number == -1 && PyErr_Occurred() != nullptr) throw nb::python_error();
     return {.held = number};
   }
-  throw nb::type_error(fmt::format("{} is a {}; settings are numbers, truth values, texts, lists "
-                                   "and dicts",
+  throw nb::type_error(fmt::format("{}: {} is not a type of settings (expected a number, boolean, "
+                                   "string, list or dict)",
                                    key, name_of_type(object))
                            .c_str());
 }

@@ -12,19 +12,20 @@
 
 namespace flagstone::python {
 
-/// Metres, `estimate` or `track`; none as the settings have it.
+/// Sensor height: metres, `estimate` or `track`; monostate to use the settings.
 using Height = std::variant<std::monostate, float, std::string>;
-/// Where up is, `off` or `estimate`; none as the settings have it.
+/// Tilt: up direction, `off` or `estimate`; monostate to use the settings.
 using Tilt = std::variant<std::monostate, std::array<float, 3>, std::string>;
 
-/// Settings by name; a table is a mapping.
+/// Settings by name; tables are mappings.
 using Settings = nanobind::typed<nanobind::dict, nanobind::str, nanobind::any>;
 
-/// A Python object as the value of setting `key`: numbers, truth values, texts, sequences and
-/// mappings, those of NumPy too. Throws nanobind::type_error naming the key for anything else.
+/// Converts a Python or NumPy object to the value of setting `key`: a number, boolean, string,
+/// sequence or mapping. Throws nanobind::type_error with the key for any other object.
 config::Value value_of(nanobind::handle object, const std::string& key = "");
 
-/// Throws std::invalid_argument.
+/// Converts the arguments `sensor_height` and `tilt`. Throws std::invalid_argument if a word is
+/// unknown.
 config::MountChoice mount_choice(const Height& sensor_height, const Tilt& tilt);
 
 }  // namespace flagstone::python

@@ -11,7 +11,7 @@ namespace flagstone::python {
 
 namespace {
 
-/// Messages name the command's option; Python's users have the keyword.
+/// Replaces the name of the command's option by the name of the Python argument.
 std::string with_keywords(std::string message) {
   constexpr std::string_view option = "--columns";
   const std::size_t at = message.rfind(option);
@@ -39,7 +39,7 @@ void raise_if_failed(const Status& status) {
 
 NB_MODULE(_core, module) {
   using namespace flagstone::python;
-  nanobind::set_leak_warnings(false);  // a segmenter in a global variable is no leak
+  nanobind::set_leak_warnings(false);  // a segmenter in a global variable is not a leak
   module.attr("version") = FLAGSTONE_VERSION;
   bind_result(module);
   bind_segmenter(module);

@@ -19,8 +19,8 @@ void copy_column(const Column& column, float* to) {
   }
 }
 
-/// The type of a buffer's numbers, without their byte order where it is this machine's: NumPy says
-/// "=f" for fields of records that are not aligned.
+/// Format of the numbers in a buffer, without the prefix for native byte order. NumPy uses "=f" for
+/// unaligned fields of records.
 std::string_view format_of(const Py_buffer& buffer) {
   std::string_view format = buffer.format == nullptr ? "B" : buffer.format;
   constexpr bool is_little = std::endian::native == std::endian::little;
@@ -40,7 +40,7 @@ Column::Column(nanobind::handle object) {
   const std::string_view format = format_of(buffer_);
   if (buffer_.ndim != 1 || (format != "f" && format != "d")) {
     PyBuffer_Release(&buffer_);
-    throw nanobind::type_error("a column is one row of float32 or float64");
+    throw nanobind::type_error("a column must be a one-dimensional array of float32 or float64");
   }
 }
 
@@ -68,17 +68,17 @@ CloudView Rows::view(const std::vector<float>& /*unused*/) const noexcept {
 
 Points::Points(nanobind::handle x, nanobind::handle y, nanobind::handle z) : x_(x), y_(y), z_(z) {
   if (x_.size() != y_.size() || x_.size() != z_.size()) {
-    throw nanobind::value_error("x, y and z differ in length");
+    throw nanobind::value_error("x, y and z have different lengths");
   }
 }
 
-bool Points::lie_in_place() const noexcept {
+bool Points::are_zero_copy() const noexcept {
   if (x_.is_double() || y_.is_double() || z_.is_double()) return false;
   return x_.size() < 2 || (x_.stride() == y_.stride() && x_.stride() == z_.stride());
 }
 
 CloudView Points::view(std::vector<float>& copy) const {
-  if (lie_in_place()) {
+  if (are_zero_copy()) {
     return {x_.data(), x_.size(), {x_.stride(), 0, y_.data() - x_.data(), z_.data() - x_.data()}};
   }
   if (copy.size() < 3 * x_.size()) copy.resize(3 * x_.size());

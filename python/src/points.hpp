@@ -12,12 +12,12 @@
 
 namespace flagstone::python {
 
-/// One coordinate of every point, read where it lies: memory of a Python object that speaks the
-/// buffer protocol, held for as long as this lives.
+/// Zero-copy view of one coordinate of every point, in the memory of a Python object that supports
+/// the buffer protocol. Keeps the buffer valid for its own lifetime.
 class Column {
  public:
-  /// Throws nanobind::python_error, or nanobind::type_error where the object is not one row of
-  /// numbers of 32 or 64-bit floats in the byte order of this machine.
+  /// Throws nanobind::python_error, or nanobind::type_error if the object is not a one-dimensional
+  /// array of 32- or 64-bit floats in native byte order.
   explicit Column(nanobind::handle object);
   ~Column();
   Column(const Column&) = delete;
@@ -38,12 +38,13 @@ class Column {
   Py_buffer buffer_{};
 };
 
-/// Points that are rows of an array, read where they lie: the usual case, looked at in one step.
+/// Zero-copy view of points that are rows of a float32 array: the most common input, checked in one
+/// step.
 class Rows {
  public:
-  /// Looks whether the object speaks the buffer protocol and has N rows of 3 or more 32-bit floats,
-  /// and not so few rows of so many that rows and columns were exchanged. Python holds no error
-  /// afterwards.
+  /// Checks whether the object supports the buffer protocol and has N rows of at least 3 32-bit
+  /// floats. Arrays with few rows and many columns are not accepted, because they are probably
+  /// transposed. Leaves no Python error set.
   explicit Rows(nanobind::handle object) noexcept;
   ~Rows();
   Rows(const Rows&) = delete;
@@ -53,7 +54,7 @@ class Rows {
 
   [[nodiscard]] bool are_points() const noexcept { return are_points_; }
 
-  /// The points; only if they are.
+  /// The points. Call it only if are_points().
   [[nodiscard]] CloudView view(const std::vector<float>& unused) const noexcept;
 
  private:
@@ -61,18 +62,18 @@ class Rows {
   bool are_points_ = false;
 };
 
-/// The points that three columns make. Where they are 32-bit floats with one stride, as columns of
-/// one array are, they are viewed where they lie.
+/// Points from three columns. They are zero-copy if all columns are 32-bit floats with the same
+/// stride, as columns of one array are.
 class Points {
  public:
-  /// Throws as Column does, and nanobind::value_error where they are not equally long.
+  /// Throws like Column, and nanobind::value_error if the columns have different lengths.
   Points(nanobind::handle x, nanobind::handle y, nanobind::handle z);
 
-  /// Can the points be viewed where they lie?
-  [[nodiscard]] bool lie_in_place() const noexcept;
+  /// Whether view() is zero-copy.
+  [[nodiscard]] bool are_zero_copy() const noexcept;
 
-  /// The points: where they lie, or copied to `copy`, which is enlarged as needed. No Python object
-  /// is touched. May throw std::bad_alloc.
+  /// A view of the columns, or of a copy in `copy`, which is enlarged as needed. Does not access
+  /// Python objects, so the GIL is not needed. May throw std::bad_alloc.
   [[nodiscard]] CloudView view(std::vector<float>& copy) const;
 
  private:

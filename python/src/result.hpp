@@ -18,9 +18,9 @@
 
 namespace flagstone::python {
 
-/// Results that are no longer in use, kept so that the next scan finds their memory grown: after
-/// the first scans, a scan allocates nothing, as in C++. Any thread may take and give back. Neither
-/// ever waits, so a lock that was held while the process forked cannot block the child.
+/// Pool of unused results, so that `segment` reuses their memory and does not allocate after the
+/// first scans, as in C++. Thread-safe. Neither function waits for the lock, so a lock that was
+/// held during a fork cannot block the child.
 class SpareResults {
  public:
   SpareResults() { spare_.reserve(max_kept); }
@@ -45,8 +45,8 @@ class SpareResults {
   std::vector<std::unique_ptr<Segmentation>> spare_;
 };
 
-/// The result of one scan, as Python reads it. NumPy arrays of its memory keep it alive; when the
-/// last of them is gone, its memory serves another scan.
+/// Result of one scan in Python. NumPy arrays that view its memory keep it alive. When the last
+/// reference is gone, its memory returns to the pool.
 class Result {
  public:
   Result(std::unique_ptr<Segmentation> segmentation, std::shared_ptr<SpareResults> spare,
@@ -56,7 +56,7 @@ class Result {
         mount_(mount),
         decision_(decision) {}
 
-  /// A result restored from a pickle, with its decision in words.
+  /// A result from a pickle, which contains the decision in words.
   Result(std::unique_ptr<Segmentation> segmentation, const Mount& mount, std::string decision)
       : segmentation_(std::move(segmentation)),
         mount_(mount),
@@ -73,12 +73,12 @@ class Result {
   [[nodiscard]] const Segmentation& segmentation() const noexcept { return *segmentation_; }
   [[nodiscard]] const Mount& mount() const noexcept { return mount_; }
 
-  /// What the scan says about the mount, in one sentence.
+  /// How the mounting pose was determined, in one sentence.
   [[nodiscard]] std::string decision() const {
     return decision_in_words_.empty() ? to_sentence(decision_) : decision_in_words_;
   }
 
-  /// 1 for each point of the ground, else 0. May throw std::bad_alloc, the first time.
+  /// 1 for each ground point, otherwise 0. The first call may throw std::bad_alloc.
   [[nodiscard]] std::span<const std::uint8_t> ground() {
     const std::span<const Label> labels = segmentation_->labels();
     if (ground_.size() != labels.size()) {
@@ -90,7 +90,7 @@ class Result {
     return ground_;
   }
 
-  /// The heights; all NaN where the method has none. May throw std::bad_alloc, the first time.
+  /// Heights; all NaN if the method does not compute them. The first call may throw std::bad_alloc.
   [[nodiscard]] std::span<const float> heights() {
     const std::size_t points = segmentation_->labels().size();
     if (segmentation_->heights().size() == points) return segmentation_->heights();

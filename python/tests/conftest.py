@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What several tests use: made-up and simulated scans, the command, the real scans."""
+"""Shared by several tests: random scans, simulated scans and the command."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from flagstone import _command
 Scan = npt.NDArray[np.float32]
 
 
-def made_up_scan(points: int = 20_000, seed: int = 1) -> Scan:
-    """(points, 4): flat ground 1.73 m below the sensor, a wall and a post on it, in no order."""
+def random_scan(points: int = 20_000, seed: int = 1) -> Scan:
+    """(points, 4): flat ground 1.73 m below the sensor and a wall, in random order."""
     random = np.random.default_rng(seed)
     ground = random.uniform([-40, -40, -1.75, 0], [40, 40, -1.71, 1], (points * 8 // 10, 4))
     wall = random.uniform([10, -20, -1.7, 0], [10.1, 20, 1, 1], (points - len(ground), 4))
@@ -28,18 +28,18 @@ def made_up_scan(points: int = 20_000, seed: int = 1) -> Scan:
 
 @pytest.fixture(scope="session")
 def scan() -> Scan:
-    return made_up_scan()
+    return random_scan()
 
 
 def run_command(*arguments: str | Path) -> str:
-    """What the package's own command prints."""
+    """Runs the command of the package and returns its output."""
     done = subprocess.run([_command.path(), *arguments], check=True, capture_output=True, text=True)
     return done.stdout
 
 
 @pytest.fixture(scope="session")
 def simulated(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of a simulated drive of two scans: sequences/00/velodyne/000000.bin and so on."""
+    """Directory of a simulated sequence of two scans: sequences/00/velodyne/000000.bin and so on."""
     folder = tmp_path_factory.mktemp("simulated")
     run_command("simulate", "--scene", "flat_street", "--sensor", "vlp-16", "--frames", "2", "--output", folder)
     return folder

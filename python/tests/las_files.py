@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""LAS and LAZ files for tests, full of what a file can hold."""
+"""LAS and LAZ files for tests, with all kinds of contents."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ point_formats = range(11)
 
 
 def write_random_las(path: Path, point_format: int, count: int = 1000, seed: int = 1) -> None:
-    """A file whose points are random bytes, with extra bytes, records of others, and records behind the points."""
+    """Writes points of random bytes, with extra bytes, unknown records, and records after the points."""
     header = laspy.LasHeader(point_format=point_format)
     header.scales, header.offsets = [0.01, 0.01, 0.001], [500_000, 5_000_000, 100]
     header.system_identifier, header.generating_software = "a scanner", "somebody's"
@@ -27,7 +27,7 @@ def write_random_las(path: Path, point_format: int, count: int = 1000, seed: int
     header.vlrs.append(laspy.VLR("someone", 7, "a record", b"kept as it is"))
     points = laspy.ScaleAwarePointRecord.zeros(count, header=header)
     points.array.view(np.uint8)[:] = np.random.default_rng(seed).integers(0, 256, points.array.nbytes, np.uint8)
-    if point_format >= 9:  # lazrs loses waveforms where scanner channels alternate
+    if point_format >= 9:  # lazrs loses waveforms if scanner channels alternate
         points["scanner_channel"] = np.zeros(count, np.uint8)
     las = laspy.LasData(header, points)
     if str(header.version) == "1.4":
@@ -36,7 +36,7 @@ def write_random_las(path: Path, point_format: int, count: int = 1000, seed: int
 
 
 def write_copc(path: Path) -> None:
-    """A COPC file of four nodes, the last of them in a page of its own, with records of others about its index."""
+    """Writes a COPC file of four nodes. The last node is in a separate page, and unknown records surround the index."""
     import lazrs
 
     random = np.random.default_rng(3)
@@ -48,7 +48,7 @@ def write_copc(path: Path) -> None:
         points.array.view(np.uint8)[:] = random.integers(0, 256, points.array.nbytes, np.uint8)
         for axis in ("x", "y", "z"):
             points[axis] = random.uniform(low, high, len(points))
-        points["gps_time"] = header.point_count + np.arange(len(points))  # the place in the file
+        points["gps_time"] = header.point_count + np.arange(len(points))  # the index in the file
         nodes.append(points)
         header.grow(points)
 
@@ -84,7 +84,7 @@ def write_copc(path: Path) -> None:
 
 
 def set_classes(path: Path, classes: np.ndarray[Any, Any]) -> None:
-    """Writes the file again with these classes."""
+    """Rewrites the file with the given classes."""
     las = laspy.read(path)
     las.classification = classes
     las.write(path)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What the tests of flagstone.ray share: scans to label, the command to compare with, files that kill."""
+"""Shared by the tests of flagstone.ray: scans, labels of the command, and files that crash workers."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from flagstone import _command
 
 
 def street(seed: int, points: int = 4000) -> npt.NDArray[np.void]:
-    """A rough plane 1.73 m below the sensor with boxes on it."""
+    """Rough ground 1.73 m below the sensor, with boxes."""
     random = np.random.default_rng(seed)
     scan = np.zeros(points, [(name, "<f4") for name in ("x", "y", "z", "intensity")])
     scan["x"], scan["y"] = random.uniform(-30, 30, (2, points))
@@ -32,7 +32,7 @@ def street(seed: int, points: int = 4000) -> npt.NDArray[np.void]:
 
 
 def write_scans(folder: Path, names: list[str]) -> None:
-    """A street a name, no two alike and of different lengths."""
+    """Writes one scan per name. The scans differ, also in length."""
     for seed, name in enumerate(names):
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -46,14 +46,14 @@ def write_scans(folder: Path, names: list[str]) -> None:
 
 
 def label_with_command(source: Path, output: Path, *options: str) -> None:
-    """What the labels are compared with."""
+    """Writes the expected labels with the command."""
     subprocess.run(
         [_command.path(), "segment", source, "--output", output, *options], check=True, stdout=subprocess.DEVNULL
     )
 
 
 def files(folder: Path) -> dict[str, bytes]:
-    """Names and contents of all files in a folder and below, without those of statistics."""
+    """Names and contents of all files in a directory and its subdirectories, except statistics."""
     return {
         str(path.relative_to(folder)): path.read_bytes()
         for path in sorted(folder.rglob("*"))
@@ -62,7 +62,7 @@ def files(folder: Path) -> dict[str, bytes]:
 
 
 class DeadlyFiles(fsspec.implementations.local.LocalFileSystem):
-    """Whoever opens a scan named deadly is killed, as by a system that is out of memory."""
+    """Kills the process that opens deadly.bin, like an operating system that is out of memory."""
 
     protocol = "deadly"
 

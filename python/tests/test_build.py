@@ -37,7 +37,7 @@ def test_a_compiler_in_the_path_is_enough(backend, tmp_path, name):
     backend.check_compiler({"PATH": str(tmp_path)})
 
 
-def test_the_build_announces_what_it_compiles_and_how_long_that_takes(backend, tmp_path):
+def test_the_build_announces_its_steps_and_duration(backend, tmp_path):
     terminal = tmp_path / "terminal"
     backend.announce(terminal)
     assert "compiling the library, the command and the Python module: 2 to 4 minutes" in terminal.read_text()
@@ -47,7 +47,7 @@ def test_without_a_terminal_nothing_is_announced(backend, tmp_path):
     backend.announce(tmp_path / "none" / "tty")
 
 
-def test_the_hooks_of_scikit_build_core_are_all_there(backend):
+def test_all_hooks_of_scikit_build_core_exist(backend):
     build = importlib.import_module("scikit_build_core.build")
     assert all(hasattr(backend, hook) for hook in build.__all__)
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""flagstone.io.classify_las: classes of a LAS file from labels, and nothing else touched."""
+"""`flagstone.io.classify_las` sets the classes of a LAS file and changes nothing else."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def random_labels(count: int, seed: int = 2) -> np.ndarray[Any, Any]:
 
 
 def class_of(before: int, label: int, overwrite_classes: set[int]) -> int:
-    """The rule, a point at a time."""
+    """The rule for one point."""
     if before not in overwrite_classes or label in (OUT_OF_RANGE, INVALID):
         return before
     if label == GROUND:
@@ -36,7 +36,7 @@ def class_of(before: int, label: int, overwrite_classes: set[int]) -> int:
 
 @pytest.mark.parametrize("ending", endings)
 @pytest.mark.parametrize("point_format", point_formats)
-def test_points_get_the_class_that_the_rule_says(tmp_path: Path, point_format: int, ending: str) -> None:
+def test_points_get_the_class_of_the_rule(tmp_path: Path, point_format: int, ending: str) -> None:
     source, copy = tmp_path / f"a.{ending}", tmp_path / f"b.{ending}"
     write_random_las(source, point_format)
     before = np.asarray(laspy.read(source).classification)
@@ -52,7 +52,7 @@ def test_points_get_the_class_that_the_rule_says(tmp_path: Path, point_format: i
 
 
 @pytest.mark.parametrize("point_format", point_formats)
-def test_a_las_file_differs_in_the_bits_of_classes_only(tmp_path: Path, point_format: int) -> None:
+def test_only_the_class_bits_of_a_las_file_change(tmp_path: Path, point_format: int) -> None:
     source, copy = tmp_path / "a.las", tmp_path / "b.las"
     write_random_las(source, point_format)
     labels = random_labels(1000)
@@ -77,7 +77,7 @@ def test_a_laz_file_keeps_everything_else(tmp_path: Path, point_format: int) -> 
         begin = before.header.offset_to_point_data
         moved = slice(227, 243) if str(before.header.version) == "1.4" else slice(0, 0)
         heads = [bytearray(file.read_bytes()[:begin]) for file in (source, copy)]
-        for head in heads:  # where the records behind the points begin
+        for head in heads:  # offsets of the records after the points
             head[moved] = b""
         assert heads[0] == heads[1]
         assert [record.record_data for record in before.header.evlrs or []] == [
@@ -91,7 +91,7 @@ def test_a_laz_file_keeps_everything_else(tmp_path: Path, point_format: int) -> 
             assert np.asarray(points[name]).tobytes() == np.asarray(others[name]).tobytes(), name
 
 
-def test_what_others_classified_stays_unless_it_may_change(tmp_path: Path) -> None:
+def test_other_classes_are_kept_unless_overwriting_is_allowed(tmp_path: Path) -> None:
     file, copy = tmp_path / "a.las", tmp_path / "b.las"
     write_random_las(file, 6)
     others = np.setdiff1d(np.arange(256, dtype=np.uint8), [0, 1, 2, 7])
@@ -105,7 +105,7 @@ def test_what_others_classified_stays_unless_it_may_change(tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("ending", endings)
-def test_many_points_go_through_in_parts(tmp_path: Path, ending: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_many_points_are_processed_in_blocks(tmp_path: Path, ending: str, monkeypatch: pytest.MonkeyPatch) -> None:
     source, whole, parts = (tmp_path / f"{name}.{ending}" for name in "abc")
     write_random_las(source, 6, count=1003)
     labels = random_labels(1003)
@@ -115,7 +115,7 @@ def test_many_points_go_through_in_parts(tmp_path: Path, ending: str, monkeypatc
     assert whole.read_bytes() == parts.read_bytes()
 
 
-def test_laz_with_chunks_of_any_size_keeps_them(tmp_path: Path) -> None:
+def test_laz_chunks_of_variable_size_are_kept(tmp_path: Path) -> None:
     import lazrs
 
     source, copy = tmp_path / "a.laz", tmp_path / "b.laz"
@@ -153,7 +153,7 @@ def test_a_file_without_points_is_copied(tmp_path: Path, ending: str) -> None:
     assert copy.read_bytes() == source.read_bytes()
 
 
-def test_a_loss_in_compression_is_noticed_and_the_destination_left(
+def test_a_lossy_compression_is_detected_and_the_destination_is_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     import lazrs
@@ -178,7 +178,7 @@ def test_a_loss_in_compression_is_noticed_and_the_destination_left(
     assert copy.read_bytes() == b"before"
 
 
-def test_labels_that_do_not_fit_are_one_line(tmp_path: Path) -> None:
+def test_labels_that_do_not_match_raise_one_line_errors(tmp_path: Path) -> None:
     source, copy = tmp_path / "a.las", tmp_path / "b.las"
     write_random_las(source, 6)
     with pytest.raises(ValueError, match=r"a\.las: 999 labels do not match 1,000 points"):
@@ -198,7 +198,7 @@ def test_labels_that_do_not_fit_are_one_line(tmp_path: Path) -> None:
     assert not copy.exists()
 
 
-def test_the_index_of_a_copc_file_leads_to_the_same_points_with_their_new_classes(tmp_path: Path) -> None:
+def test_the_index_of_a_copied_copc_file_finds_the_same_points(tmp_path: Path) -> None:
     source, copy = tmp_path / "a.copc.laz", tmp_path / "b.copc.laz"
     write_copc(source)
     classify_las(source, copy, np.full(len(laspy.read(source)), GROUND), overwrite_classes=range(256))
@@ -213,14 +213,14 @@ def test_the_index_of_a_copc_file_leads_to_the_same_points_with_their_new_classe
         for found in by_index:
             assert len(found) > 0
             assert found.tobytes() == in_order[found["gps_time"].astype(int)].tobytes()
-    assert places[0] != places[1]  # or nothing was put to the test
+    assert places[0] != places[1]  # otherwise the test shows nothing
 
 
-def test_a_copc_file_whose_index_is_damaged_is_refused(tmp_path: Path) -> None:
+def test_a_copc_file_with_a_damaged_index_is_rejected(tmp_path: Path) -> None:
     source = tmp_path / "a.copc.laz"
     write_copc(source)
     damaged = bytearray(source.read_bytes())
-    damaged[-16] ^= 1  # where the chunk of the last node begins
+    damaged[-16] ^= 1  # offset of the chunk of the last node
     source.write_bytes(damaged)
     with pytest.raises(ValueError, match=r"a\.copc\.laz: the COPC index does not match the chunks"):
         classify_las(source, tmp_path / "b.copc.laz", random_labels(laspy.open(source).header.point_count))
@@ -239,7 +239,7 @@ def test_the_source_is_not_overwritten(tmp_path: Path, link: Callable[[Path, Pat
     assert source.read_bytes() == before
 
 
-def test_a_chunk_table_that_lies_is_refused_before_memory_is_taken_for_it(tmp_path: Path) -> None:
+def test_a_damaged_chunk_table_is_rejected_before_memory_is_allocated(tmp_path: Path) -> None:
     source = tmp_path / "a.copc.laz"
     write_copc(source)
     whole = source.read_bytes()
@@ -260,7 +260,7 @@ def test_a_chunk_table_that_lies_is_refused_before_memory_is_taken_for_it(tmp_pa
     assert refused > 10
 
 
-def test_las_in_compatibility_mode_is_refused(tmp_path: Path) -> None:
+def test_las_in_compatibility_mode_is_rejected(tmp_path: Path) -> None:
     source = tmp_path / "a.laz"
     write_random_las(source, 6)
     las = laspy.read(source)
@@ -271,7 +271,7 @@ def test_las_in_compatibility_mode_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("ending", endings)
-def test_a_source_that_is_cut_off_leaves_the_destination_as_it_was(tmp_path: Path, ending: str) -> None:
+def test_a_truncated_source_leaves_the_destination_unchanged(tmp_path: Path, ending: str) -> None:
     source, destination = tmp_path / f"a.{ending}", tmp_path / f"b.{ending}"
     write_random_las(source, 6)
     destination.write_bytes(b"what was there")
@@ -285,7 +285,7 @@ def test_a_source_that_is_cut_off_leaves_the_destination_as_it_was(tmp_path: Pat
         assert {file.name for file in tmp_path.iterdir()} == {source.name, destination.name}
 
 
-def test_folders_and_missing_files_are_told(tmp_path: Path) -> None:
+def test_directories_and_missing_files_are_errors(tmp_path: Path) -> None:
     write_random_las(tmp_path / "a.las", 6)
     labels = np.zeros(1000, np.uint8)
     with pytest.raises(FileNotFoundError, match=r"none\.las"):

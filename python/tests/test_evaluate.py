@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""`flagstone.evaluate`: what the command finds, as data frames."""
+"""`flagstone.evaluate` returns the results of the command as data frames."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ import flagstone
 
 pandas = pytest.importorskip("pandas", reason="pandas is not installed: pip install 'flagstone[pandas]'")
 
-HEIGHT = 0.6  # of the simulated sensor, metres
+HEIGHT = 0.6  # metres; height of the simulated sensor
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +25,9 @@ def evaluation(simulated: Path) -> flagstone.Evaluation:
     return flagstone.evaluate(simulated, protocol="simulation", sensor_height=HEIGHT, threads=1)
 
 
-def test_figures_are_those_of_the_command(evaluation: flagstone.Evaluation, simulated: Path, tmp_path: Path) -> None:
+def test_metrics_are_identical_to_the_command(
+    evaluation: flagstone.Evaluation, simulated: Path, tmp_path: Path
+) -> None:
     options = ["--protocol", "simulation", "--sensor-height", str(HEIGHT), "--threads", "1"]
     run_command("eval", simulated, *options, "--json", tmp_path / "a.json", "--csv", tmp_path / "a.csv")
     results = json.loads((tmp_path / "a.json").read_text())
@@ -46,13 +48,13 @@ def test_figures_are_those_of_the_command(evaluation: flagstone.Evaluation, simu
         ]
 
 
-def test_there_is_a_row_a_method_in_the_order_asked_for(evaluation: flagstone.Evaluation) -> None:
+def test_methods_have_one_row_each_in_the_requested_order(evaluation: flagstone.Evaluation) -> None:
     assert evaluation.methods.index.tolist() == ["surface", "patchwork"]
     assert evaluation.methods["scans"].tolist() == [2, 2]
     assert (evaluation.methods["hz"] > 0).all()
 
 
-def test_there_is_a_row_a_method_and_scan(evaluation: flagstone.Evaluation, simulated: Path) -> None:
+def test_scans_have_one_row_per_method_and_scan(evaluation: flagstone.Evaluation, simulated: Path) -> None:
     scans = evaluation.scans
     assert scans[["method", "scan"]].apply(tuple, axis=1).tolist() == [
         (method, f"00/{frame:06}") for method in ("surface", "patchwork") for frame in range(2)
@@ -62,24 +64,24 @@ def test_there_is_a_row_a_method_and_scan(evaluation: flagstone.Evaluation, simu
     assert counted.tolist() == [points[scan.removeprefix("00/")] for scan in scans["scan"]]
 
 
-def test_bands_of_range_are_followed_by_all_points(evaluation: flagstone.Evaluation) -> None:
+def test_the_last_range_interval_covers_all_points(evaluation: flagstone.Evaluation) -> None:
     for _, rows in evaluation.ranges.groupby("method", sort=False):
         assert rows["from"].tolist() == [0, 10, 20, 40, 0]
         assert rows["to"].tolist() == [10, 20, 40, 80, np.inf]
         *bands, everywhere = rows["points"].tolist()
-        assert 0.99 * everywhere < sum(bands) <= everywhere  # few points lie beyond 80 m
+        assert 0.99 * everywhere < sum(bands) <= everywhere  # few points are beyond 80 m
 
 
-def test_heights_are_scored_where_the_truth_is_there(evaluation: flagstone.Evaluation) -> None:
+def test_heights_are_scored_if_the_dataset_has_true_heights(evaluation: flagstone.Evaluation) -> None:
     heights = evaluation.heights
-    assert set(heights["method"]) == {"surface"}  # Patchwork gives no heights
+    assert set(heights["method"]) == {"surface"}  # Patchwork computes no heights
     assert heights["points"].tolist() == ["ground"] * 4 + ["all"] * 4
     near = heights.iloc[0]
     assert (near["from"], near["to"]) == (0, 20)
     assert 0 < near["median"] < 0.05
 
 
-def test_heights_are_an_empty_frame_where_it_is_not(simulated: Path, tmp_path: Path) -> None:
+def test_heights_are_empty_if_the_dataset_has_no_true_heights(simulated: Path, tmp_path: Path) -> None:
     folder = simulated / "sequences" / "00"
     for name in ("velodyne", "labels"):
         (tmp_path / name).symlink_to(folder / name)
@@ -95,7 +97,7 @@ def test_one_scan_has_no_interval(simulated: Path) -> None:
     assert np.isnan(evaluation.methods.loc["surface", "f1_ci95"])
 
 
-def test_settings_are_passed_on_by_method(simulated: Path) -> None:
+def test_settings_are_passed_to_their_method(simulated: Path) -> None:
     def recall(**settings: Any) -> float:
         evaluation = flagstone.evaluate(simulated, methods=["surface"], sensor_height=HEIGHT, settings=settings)
         return float(evaluation.methods.loc["surface", "recall"])
@@ -103,7 +105,7 @@ def test_settings_are_passed_on_by_method(simulated: Path) -> None:
     assert recall(surface={"point": {"margin": 0.01}}) < recall() == recall(surface={}) == recall(mount={})
 
 
-def test_labels_made_elsewhere_are_scored_like_a_method(simulated: Path, tmp_path: Path) -> None:
+def test_labels_of_other_programs_are_scored_like_a_method(simulated: Path, tmp_path: Path) -> None:
     truth = simulated / "sequences" / "00" / "labels"
     (tmp_path / "00").symlink_to(truth)
     evaluation = flagstone.evaluate(
@@ -114,7 +116,7 @@ def test_labels_made_elsewhere_are_scored_like_a_method(simulated: Path, tmp_pat
     assert np.isnan(evaluation.methods.loc["truth", "hz"])
 
 
-def test_a_scan_that_cannot_be_read_is_a_row_and_a_warning(simulated: Path, tmp_path: Path) -> None:
+def test_an_unreadable_scan_is_listed_as_failed_with_a_warning(simulated: Path, tmp_path: Path) -> None:
     for name in ("velodyne", "labels"):
         (tmp_path / name).mkdir()
         for file in (simulated / "sequences" / "00" / name).iterdir():
@@ -130,7 +132,7 @@ def test_a_scan_that_cannot_be_read_is_a_row_and_a_warning(simulated: Path, tmp_
         flagstone.evaluate(tmp_path)
 
 
-def test_a_scan_without_ground_has_an_accuracy_alone(simulated: Path, tmp_path: Path) -> None:
+def test_a_scan_without_ground_has_only_an_accuracy(simulated: Path, tmp_path: Path) -> None:
     for name in ("velodyne", "labels"):
         (tmp_path / name).mkdir()
         for file in (simulated / "sequences" / "00" / name).iterdir():
@@ -145,7 +147,7 @@ def test_a_scan_without_ground_has_an_accuracy_alone(simulated: Path, tmp_path: 
     assert 0 < second["accuracy"] <= 1
 
 
-def test_it_is_shown_as_a_table(evaluation: flagstone.Evaluation, simulated: Path) -> None:
+def test_repr_is_a_table(evaluation: flagstone.Evaluation, simulated: Path) -> None:
     heading = f"2 scans of {simulated.name}, protocol simulation"
     assert repr(evaluation).startswith(f"{heading}\n")
     assert f"{evaluation.methods.loc['surface', 'f1']:.4f}" in repr(evaluation)
@@ -166,23 +168,25 @@ def test_it_is_shown_as_a_table(evaluation: flagstone.Evaluation, simulated: Pat
         ({"label_map": "kitti"}, "label_map: 'kitti' is not a label map"),
         ({"sequences": ["77"]}, "77"),
         ({"settings": {"surface": {"margin": 1}}}, "no setting 'margin' .did you mean 'point.margin'"),
-        ({"settings": {"roof": {"margin": 1}}}, "settings roof"),
+        ({"settings": {"roof": {"margin": 1}}}, "settings: no method is named 'roof'"),
     ],
 )
-def test_a_wrong_argument_is_one_line_that_names_it(simulated: Path, arguments: dict[str, Any], message: str) -> None:
+def test_an_invalid_argument_raises_a_one_line_error_with_its_name(
+    simulated: Path, arguments: dict[str, Any], message: str
+) -> None:
     with pytest.raises(ValueError, match=message) as caught:
         flagstone.evaluate(simulated, **arguments)
     assert "\n" not in str(caught.value)
 
 
-def test_a_dataset_that_is_not_there_or_holds_no_scans_is_told(tmp_path: Path) -> None:
+def test_a_missing_or_empty_dataset_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match="none: this dataset does not exist"):
         flagstone.evaluate(tmp_path / "none")
     with pytest.raises(ValueError, match=r"not a dataset \(expected a directory with"):
         flagstone.evaluate(tmp_path)
 
 
-def test_a_dataset_may_begin_with_a_dash(simulated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_dataset_name_can_start_with_a_dash(simulated: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "-scans").symlink_to(simulated)
     monkeypatch.chdir(tmp_path)
     assert flagstone.evaluate("-scans", methods=["patchwork"]).datasets == ("-scans",)

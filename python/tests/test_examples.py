@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The programs in examples/python run as they stand, and the comparison with other packages says what is so."""
+"""The programs in examples/python run, and the comparison with other packages reports correct results."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ NUMBERED = sorted(EXAMPLES.glob("0*.py"))
 
 
 def run(program: Path, *arguments: str, folder: Path) -> str:
-    """What it prints, run in a folder; real scans are out of its sight."""
+    """Runs a program in a directory, without access to real scans, and returns its output."""
     environment = {name: value for name, value in os.environ.items() if name != "FLAGSTONE_DATA"}
     environment["PYTHONPATH"] = str(Path(flagstone.__file__).parents[1])
     done = subprocess.run(
@@ -37,7 +37,7 @@ def side_by_side() -> ModuleType:
     spec = importlib.util.spec_from_file_location("side_by_side", EXAMPLES / "side_by_side.py")
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module  # its functions' sources are looked up there
+    sys.modules[spec.name] = module  # inspect.getsource needs it
     spec.loader.exec_module(module)
     return module
 
@@ -54,14 +54,14 @@ runpy.run_path(sys.argv[1], run_name="__main__")
 
 
 @pytest.mark.parametrize("example", NUMBERED, ids=lambda path: path.stem)
-def test_an_example_has_at_most_40_lines_and_needs_numpy_alone(example: Path, tmp_path: Path) -> None:
+def test_an_example_has_at_most_40_lines_and_needs_only_numpy(example: Path, tmp_path: Path) -> None:
     assert len(example.read_text().splitlines()) <= 40
     program = tmp_path / "program.py"
     program.write_text(WITHOUT_OTHER_PACKAGES)
     assert run(program, str(example), folder=tmp_path)
 
 
-def test_all_kinds_of_points_give_the_same_labels(tmp_path: Path) -> None:
+def test_all_types_of_points_give_the_same_labels(tmp_path: Path) -> None:
     printed = run(EXAMPLES / "03_your_own_points.py", folder=tmp_path)
 
     assert re.findall("(records|bytes|organized): (True|False)", printed) == [
@@ -71,7 +71,7 @@ def test_all_kinds_of_points_give_the_same_labels(tmp_path: Path) -> None:
     ]
 
 
-def test_an_example_writes_the_labels_that_one_thread_would(tmp_path: Path) -> None:
+def test_an_example_with_threads_writes_the_labels_of_one_thread(tmp_path: Path) -> None:
     run(EXAMPLES / "05_a_folder_of_scans.py", folder=tmp_path)
 
     segmenter = flagstone.Surface(sensor="hdl-64e")
@@ -83,7 +83,7 @@ def test_an_example_writes_the_labels_that_one_thread_would(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("protocol", ["patchwork", "patchwork++"])
-def test_side_by_side_scores_as_the_package_does(side_by_side: ModuleType, simulated: Path, protocol: str) -> None:
+def test_side_by_side_scores_like_the_package(side_by_side: ModuleType, simulated: Path, protocol: str) -> None:
     sequence = simulated / "sequences" / "00"
     scan = side_by_side.read_scan(sequence / "velodyne" / "000000.bin", sequence / "labels" / "000000.label")
     labels = flagstone.Surface(sensor="vlp-16").segment(scan.points).labels
@@ -94,7 +94,9 @@ def test_side_by_side_scores_as_the_package_does(side_by_side: ModuleType, simul
     assert 0.5 < f1 < 1
 
 
-def test_side_by_side_compares_what_is_installed_and_names_the_rest(side_by_side: ModuleType, tmp_path: Path) -> None:
+def test_side_by_side_compares_installed_packages_and_names_missing_ones(
+    side_by_side: ModuleType, tmp_path: Path
+) -> None:
     printed = run(EXAMPLES / "side_by_side.py", "--quick", folder=tmp_path)
 
     for contender in side_by_side.CONTENDERS:
@@ -114,7 +116,7 @@ def test_side_by_side_fills_the_tables_of_a_page(side_by_side: ModuleType) -> No
     )
 
 
-def test_side_by_side_says_how_a_crash_and_an_error_came_about(side_by_side: ModuleType) -> None:
+def test_side_by_side_reports_crashes_and_errors(side_by_side: ModuleType) -> None:
     scan = side_by_side.Scan(np.zeros((10, 4), np.float32), np.zeros(10, np.uint32))
 
     crash = side_by_side.Contender("", "", crashing, "")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""`flagstone.io`: every format there and back, and files that are none."""
+"""`flagstone.io` writes and reads every format, and rejects invalid files."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from flagstone import io
 
 
 @pytest.mark.parametrize("name", ["scan.bin", "scan.pcd", "scan.ply", "scan.npy"])
-def test_points_come_back_as_they_were_written(name: str, scan: Scan, tmp_path: Path) -> None:
+def test_points_survive_a_round_trip(name: str, scan: Scan, tmp_path: Path) -> None:
     io.write(tmp_path / name, scan)
     read = io.read(tmp_path / name)
     assert read.dtype.names == ("x", "y", "z", "intensity")
@@ -24,7 +24,7 @@ def test_points_come_back_as_they_were_written(name: str, scan: Scan, tmp_path: 
 
 
 @pytest.mark.parametrize("name", ["scan.pcd", "scan.ply", "scan.npy"])
-def test_fields_of_every_type_come_back(name: str, tmp_path: Path) -> None:
+def test_fields_of_every_type_survive_a_round_trip(name: str, tmp_path: Path) -> None:
     kinds = ["i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8"]
     rows = np.zeros(100, [("x", "f8"), ("y", "f8"), ("z", "f8"), *((kind, kind) for kind in kinds)])
     for field in rows.dtype.names or ():
@@ -43,7 +43,7 @@ def test_labels_and_heights_become_fields(scan: Scan, tmp_path: Path) -> None:
     assert np.array_equal(read["height"], result.heights, equal_nan=True)
 
 
-def test_what_was_read_is_segmented_without_a_copy(scan: Scan, tmp_path: Path) -> None:
+def test_points_from_a_file_are_zero_copy(scan: Scan, tmp_path: Path) -> None:
     io.write(tmp_path / "scan.bin", scan)
     read = io.read(tmp_path / "scan.bin")
     segmenter = flagstone.Surface()
@@ -52,7 +52,7 @@ def test_what_was_read_is_segmented_without_a_copy(scan: Scan, tmp_path: Path) -
     assert read.flags.writeable
 
 
-def test_raw_files_have_as_many_columns_as_they_are_said_to(tmp_path: Path) -> None:
+def test_raw_files_are_read_with_the_given_number_of_columns(tmp_path: Path) -> None:
     (tmp_path / "scan.bin").write_bytes(np.arange(30, dtype="<f4").tobytes())
     assert io.read(tmp_path / "scan.bin", columns=6).dtype.names == ("x", "y", "z", "intensity", "ring", "c5")
     with pytest.raises(ValueError, match=r"scan\.bin: .*16"):
@@ -60,13 +60,13 @@ def test_raw_files_have_as_many_columns_as_they_are_said_to(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("name", ["scan.bin", "scan.pcd", "scan.ply", "scan.npy"])
-def test_bytes_are_read_as_the_file_is(name: str, scan: Scan, tmp_path: Path) -> None:
+def test_bytes_are_parsed_like_the_file(name: str, scan: Scan, tmp_path: Path) -> None:
     io.write(tmp_path / name, scan)
     parsed = io.parse((tmp_path / name).read_bytes(), io.format_of(name) or "")
     assert np.array_equal(parsed, io.read(tmp_path / name))
 
 
-def test_errors_of_files_are_one_line_with_the_file(tmp_path: Path) -> None:
+def test_file_errors_are_one_line_with_the_file_name(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"nowhere\.pcd"):
         io.read(tmp_path / "nowhere.pcd")
     (tmp_path / "bad.pcd").write_text("VERSION 0.7\nFIELDS x y\n")
@@ -79,7 +79,7 @@ def test_errors_of_files_are_one_line_with_the_file(tmp_path: Path) -> None:
         io.write(tmp_path / "nowhere" / "scan.ply", np.zeros((1, 3), np.float32))
 
 
-def test_a_format_that_cannot_hold_a_field_says_so(scan: Scan, tmp_path: Path) -> None:
+def test_a_field_that_a_format_cannot_store_is_an_error(scan: Scan, tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="label"):
         io.write(tmp_path / "scan.bin", scan, labels=np.zeros(len(scan), np.uint8))
     with pytest.raises(TypeError, match="complex128"):
@@ -90,7 +90,7 @@ def test_a_format_that_cannot_hold_a_field_says_so(scan: Scan, tmp_path: Path) -
 
 
 @pytest.mark.parametrize("name", ["scan.label", "scan.npy"])
-def test_labels_come_back(name: str, scan: Scan, tmp_path: Path) -> None:
+def test_labels_survive_a_round_trip(name: str, scan: Scan, tmp_path: Path) -> None:
     labels = flagstone.Surface().segment(scan).labels
     io.write_labels(tmp_path / name, labels)
     assert np.array_equal(io.read_labels(tmp_path / name, len(scan)), labels)
@@ -98,19 +98,19 @@ def test_labels_come_back(name: str, scan: Scan, tmp_path: Path) -> None:
         io.read_labels(tmp_path / name, len(scan) + 1)
 
 
-def test_labels_can_be_written_as_semantickitti_numbers(tmp_path: Path) -> None:
+def test_labels_can_be_written_as_semantickitti_classes(tmp_path: Path) -> None:
     io.write_labels(tmp_path / "scan.label", [0, 1, 2, 3, 4], label_map="semantic-kitti")
     assert list(io.read_labels(tmp_path / "scan.label", 5)) == [0, 40, 0, 0, 0]
 
 
 @pytest.mark.parametrize("labels", [[0, 5], [-1], [0.5], [[0]]])
-def test_what_are_no_labels_is_not_written(labels: list[object], tmp_path: Path) -> None:
+def test_invalid_labels_are_not_written(labels: list[object], tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="integers from 0 to 4"):
         io.write_labels(tmp_path / "scan.label", labels)
     assert not (tmp_path / "scan.label").exists()
 
 
-def test_names_tell_formats_and_scans() -> None:
+def test_names_determine_formats_and_scans() -> None:
     assert [io.format_of(name) for name in ("a.BIN", "a.pcd.bin", "a.pcd", "a.ply", "a.npy", "a.txt")] == [
         "raw",
         "raw",
@@ -122,7 +122,7 @@ def test_names_tell_formats_and_scans() -> None:
     assert io.is_scan_name("a.bin") and not io.is_scan_name("a_lidarseg.bin") and not io.is_scan_name(".a.bin")
 
 
-def test_errors_name_the_keyword_and_not_the_option_of_the_command(tmp_path: Path) -> None:
+def test_errors_name_the_argument_instead_of_the_option(tmp_path: Path) -> None:
     file = tmp_path / "a.bin"
     file.write_bytes(bytes(28))
     with pytest.raises(ValueError, match=r"set columns=, or check") as raised:

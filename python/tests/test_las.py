@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""flagstone.io.read and write of LAS and LAZ."""
+"""`flagstone.io` reads and writes LAS and LAZ."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_every_dimension_of_every_point_format_is_read(tmp_path: Path, point_for
         assert np.asarray(las[name]).tobytes() == np.ascontiguousarray(points[name]).tobytes(), name
 
 
-def test_coordinates_are_double_and_the_origin_is_subtracted_before_they_lose_digits(tmp_path: Path) -> None:
+def test_the_origin_is_subtracted_in_double_precision(tmp_path: Path) -> None:
     file = tmp_path / "a.las"
     sensor = np.array([690_123.4, 5_336_789.1, 519.9])
     near = np.array([[1.234, -2.345, -1.73], [80.001, 0.004, -1.5]])
@@ -40,10 +40,10 @@ def test_coordinates_are_double_and_the_origin_is_subtracted_before_they_lose_di
     points = read(file, origin=sensor)
     assert points["x"].dtype == np.float64
     for i, axis in enumerate("xyz"):
-        assert np.abs(points[axis].astype(np.float32) - near[:, i]).max() < 0.00052  # half of a millimetre, rounded
+        assert np.abs(points[axis].astype(np.float32) - near[:, i]).max() < 0.00052  # half a millimetre, plus rounding
 
 
-def test_scaled_extra_bytes_are_read_as_what_they_mean(tmp_path: Path) -> None:
+def test_scaled_extra_bytes_are_read_as_scaled_values(tmp_path: Path) -> None:
     file = tmp_path / "a.las"
     header = laspy.LasHeader(point_format=6)
     header.add_extra_dim(laspy.ExtraBytesParams("range", "u2", scales=np.array([0.01]), offsets=np.array([5.0])))
@@ -62,7 +62,7 @@ def test_a_file_without_points_is_an_empty_array(tmp_path: Path, ending: str) ->
 
 
 @pytest.mark.parametrize("ending", endings)
-def test_what_is_written_is_read_back(tmp_path: Path, ending: str) -> None:
+def test_fields_survive_a_round_trip(tmp_path: Path, ending: str) -> None:
     file = tmp_path / f"a.{ending}"
     random = np.random.default_rng(1)
     kind = [("x", "f4"), ("y", "f4"), ("z", "f4"), ("intensity", "u2"), ("gps_time", "f8"), ("ring", "u1")]
@@ -80,11 +80,11 @@ def test_what_is_written_is_read_back(tmp_path: Path, ending: str) -> None:
 
 
 @pytest.mark.parametrize("point_format", point_formats)
-def test_all_that_is_read_of_a_file_can_be_written(tmp_path: Path, point_format: int) -> None:
+def test_all_fields_of_a_file_can_be_written(tmp_path: Path, point_format: int) -> None:
     write_random_las(tmp_path / "a.las", point_format)
     points = read(tmp_path / "a.las")
     for axis in "xyz":
-        points[axis] = 0  # random ones are farther apart than millimetres can tell
+        points[axis] = 0  # the range of random coordinates is too large for millimetres
     write(tmp_path / "b.las", points)
     again = read(tmp_path / "b.las")
     for name in set(points.dtype.names or ()) - set("xyz"):
@@ -101,13 +101,13 @@ def test_colours_choose_the_point_format(tmp_path: Path) -> None:
             assert str(reader.header.version) == "1.4"
 
 
-def test_an_intensity_of_zero_to_one_is_spread_over_what_las_has(tmp_path: Path) -> None:
+def test_intensity_from_0_to_1_is_scaled_to_16_bits(tmp_path: Path) -> None:
     file = tmp_path / "a.las"
     write(file, np.array([[1, 2, 3, 0.0], [1, 2, 3, 0.5], [1, 2, 3, 1.0]], np.float32))
     assert read(file)["intensity"].tolist() == [0, 32768, 65535]
 
 
-def test_a_classification_that_was_there_is_changed_as_labels_say_and_else_kept(tmp_path: Path) -> None:
+def test_labels_change_an_existing_classification_by_the_rule(tmp_path: Path) -> None:
     file = tmp_path / "a.las"
     points = np.zeros(4, [("x", "f8"), ("y", "f8"), ("z", "f8"), ("classification", "u1")])
     points["classification"] = [6, 2, 1, 7]
@@ -149,28 +149,28 @@ xyz = {axis: np.zeros(2) for axis in "xyz"}
         (structured(**xyz, beams=np.zeros((2, 4))), "field beams does not fit into LAS"),
     ],
 )
-def test_what_las_cannot_hold_is_one_line_and_writes_nothing(tmp_path: Path, points: Any, message: str) -> None:
+def test_fields_that_las_cannot_store_raise_one_line_errors(tmp_path: Path, points: Any, message: str) -> None:
     with pytest.raises(ValueError, match=message) as caught:
         write(tmp_path / "a.las", points)
     assert "\n" not in str(caught.value)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_labels_and_heights_are_one_a_point(tmp_path: Path) -> None:
+def test_labels_and_heights_must_match_the_points(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"labels: shape \(2,\) does not match 3 points \(expected \(3,\)"):
         write(tmp_path / "a.las", np.zeros((3, 3)), labels=np.zeros(2, np.uint8))
     with pytest.raises(ValueError, match=r"heights: shape \(3, 1\) does not match 3 points \(expected \(3,\)"):
         write(tmp_path / "a.las", np.zeros((3, 3)), heights=np.zeros((3, 1)))
 
 
-def test_an_origin_is_three_finite_numbers(tmp_path: Path) -> None:
+def test_an_origin_must_be_three_finite_numbers(tmp_path: Path) -> None:
     write_random_las(tmp_path / "a.las", 6)
     for origin in ([1, 2], [1, 2, float("nan")]):
         with pytest.raises(ValueError, match=r"origin: .* is not a position \(expected three finite numbers"):
             read(tmp_path / "a.las", origin=origin)
 
 
-def test_other_files_and_none_are_told(tmp_path: Path) -> None:
+def test_missing_files_and_other_formats_are_errors(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"none\.las"):
         read(tmp_path / "none.las")
     (tmp_path / "a.las").write_bytes(b"ply\n" * 1000)
@@ -178,7 +178,7 @@ def test_other_files_and_none_are_told(tmp_path: Path) -> None:
         read(tmp_path / "a.las")
 
 
-def test_a_las_file_that_is_cut_off_is_told_with_both_sizes(tmp_path: Path) -> None:
+def test_a_truncated_las_file_is_an_error_with_both_sizes(tmp_path: Path) -> None:
     file = tmp_path / "a.las"
     write_random_las(file, 0)
     file.write_bytes(file.read_bytes()[:20_000])
@@ -189,7 +189,7 @@ def test_a_las_file_that_is_cut_off_is_told_with_both_sizes(tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("ending", endings)
-def test_damaged_files_are_one_line_or_read_but_nothing_worse(tmp_path: Path, ending: str) -> None:
+def test_damaged_files_raise_one_line_errors_or_are_read(tmp_path: Path, ending: str) -> None:
     file = tmp_path / f"a.{ending}"
     random = np.random.default_rng(5)
     refused = 0
@@ -208,7 +208,7 @@ def test_damaged_files_are_one_line_or_read_but_nothing_worse(tmp_path: Path, en
             except ValueError as error:
                 assert str(error).startswith(f"{file}: ") and "\n" not in str(error)
                 refused += 1
-            except MemoryError:  # of a number of points that LAZ might have
+            except MemoryError:  # the damaged number of points is valid for LAZ
                 refused += 1
     assert refused > 20
 
@@ -228,7 +228,7 @@ def test_a_full_disk_leaves_no_file(tmp_path: Path, ending: str) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_without_laspy_it_is_said_how_to_get_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_laspy_the_error_names_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_random_las(tmp_path / "a.las", 6)
     monkeypatch.setitem(sys.modules, "laspy", None)
     with pytest.raises(

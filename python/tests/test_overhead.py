@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The program that bench/python_overhead.py times beside the C++ one speaks as that one does."""
+"""The Python program of bench/python_overhead.py has the interface of the C++ program."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ def fnv_1a(data: bytes) -> int:
     return number
 
 
-def test_it_prints_hashes_of_all_labels_then_a_time_a_scan_for_each_line(
+def test_it_prints_label_hashes_then_the_time_per_scan_for_each_line(
     scan: npt.NDArray[np.float32], tmp_path: Path
 ) -> None:
-    assert fnv_1a(b"a") == 0xAF63DC4C8601EC8C  # as published
+    assert fnv_1a(b"a") == 0xAF63DC4C8601EC8C  # a published value
     files = [tmp_path / "1.bin", tmp_path / "2.bin"]
     for file, points in zip(files, (scan, scan[:1000]), strict=True):
         points.tofile(file)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Pictures on Matplotlib axes: what is drawn, where and in which colour."""
+"""Plots on Matplotlib axes: contents, positions and colours."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import flagstone
 from flagstone._palette import LABELS, VERDICTS, rgb
 from flagstone.plot import birds_eye, surface
 
-matplotlib = pytest.importorskip("matplotlib", reason="matplotlib draws the pictures")
+matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
 matplotlib.use("Agg")
 plt = pytest.importorskip("matplotlib.pyplot")
 
@@ -35,7 +35,7 @@ def result(scan: Scan) -> flagstone.Segmentation:
 
 
 def places_by_color(axes: Any) -> dict[tuple[float, float, float], Any]:
-    """Of the points drawn, (N, 2) x and y by colour."""
+    """x and y (N, 2) of the drawn points, by colour."""
     drawn: dict[tuple[float, float, float], Any] = {}
     for line in axes.get_lines():
         if line.get_rasterized():
@@ -50,7 +50,7 @@ def legend_texts(axes: Any) -> list[str]:
 
 
 def pixels(axes: Any) -> Any:
-    """(H, W, 3) of 0 to 255: the axes' own part of the figure as it is drawn."""
+    """(H, W, 3), 0 to 255: the pixels of the axes in the rendered figure."""
     axes.figure.canvas.draw()
     whole = np.asarray(axes.figure.canvas.buffer_rgba())[..., :3]
     box = axes.get_window_extent()
@@ -58,7 +58,7 @@ def pixels(axes: Any) -> Any:
     return whole[top:bottom, int(box.x0) : int(box.x1)]
 
 
-def test_x_points_up_and_y_to_the_left() -> None:
+def test_x_points_up_and_y_points_left() -> None:
     ahead_and_left = np.array([[15.0, 5.0, -1.7]])
     picture = pixels(birds_eye(ahead_and_left, [1], range=20))
     yellow = np.abs(picture.astype(int) - LABELS[flagstone.Label.GROUND]).sum(axis=2) < 60
@@ -67,14 +67,14 @@ def test_x_points_up_and_y_to_the_left() -> None:
     assert column == pytest.approx((20 - 5) / 40, abs=0.02)
 
 
-def test_axes_are_in_metres_of_one_scale(scan: Scan, result: flagstone.Segmentation) -> None:
+def test_axes_are_in_metres_with_equal_scales(scan: Scan, result: flagstone.Segmentation) -> None:
     axes = birds_eye(scan, result, range=30)
     assert axes.get_xlim() == (30, -30)
     assert axes.get_ylim() == (-30, 30)
     assert axes.get_aspect() == 1
 
 
-def test_without_a_range_nearly_all_points_are_in_the_picture(scan: Scan, result: flagstone.Segmentation) -> None:
+def test_the_default_range_shows_98_percent_of_the_points(scan: Scan, result: flagstone.Segmentation) -> None:
     far = birds_eye(scan, result).get_ylim()[1]
     assert far % 10 == 0
     assert (np.hypot(scan[:, 0], scan[:, 1]) <= far).mean() >= 0.98
@@ -86,18 +86,18 @@ def test_each_point_has_the_colour_of_its_label(scan: Scan, result: flagstone.Se
         np.testing.assert_array_equal(drawn[rgb(LABELS[label])], scan[result.labels == label, :2])
 
 
-def test_legend_names_labels_that_occur_with_their_share(scan: Scan, result: flagstone.Segmentation) -> None:
+def test_the_legend_lists_labels_with_percentages(scan: Scan, result: flagstone.Segmentation) -> None:
     share = 100 * result.ground.mean()
     assert legend_texts(birds_eye(scan, result))[0] == f"ground {share:.1f} %"
 
 
-def test_any_programs_mask_can_be_drawn(scan: Scan) -> None:
+def test_a_mask_of_another_program_can_be_drawn(scan: Scan) -> None:
     mask = scan[:, 2] < -1.5
     drawn = places_by_color(birds_eye(scan, mask))
     np.testing.assert_array_equal(drawn[rgb(LABELS[flagstone.Label.GROUND])], scan[mask, :2])
 
 
-def test_reference_colours_right_and_wrong() -> None:
+def test_a_reference_colours_correct_and_wrong_labels() -> None:
     points = np.array([[1.0, 0, 0], [2, 0, 0], [3, 0, 0], [4, 0, 0], [5, 0, 0]])
     truth = np.ma.array([True, False, True, False, True], mask=[False] * 4 + [True])
     drawn = places_by_color(birds_eye(points, [1, 1, 0, 2, 1], reference=truth))
@@ -109,7 +109,7 @@ def test_reference_colours_right_and_wrong() -> None:
     assert x_of[rgb((70, 77, 87))] == [5], "not scored"
 
 
-def test_heights_above_ground_go_from_yellow_to_cyan(scan: Scan, result: flagstone.Segmentation) -> None:
+def test_heights_above_ground_are_yellow_to_cyan(scan: Scan, result: flagstone.Segmentation) -> None:
     axes = birds_eye(scan, result, color="heights")
     drawn = places_by_color(axes)
     assert sum(map(len, drawn.values())) == (result.labels != flagstone.Label.INVALID).sum()
@@ -118,7 +118,7 @@ def test_heights_above_ground_go_from_yellow_to_cyan(scan: Scan, result: flagsto
     assert "height above the ground" in axes.child_axes[0].get_ylabel()
 
 
-def test_points_that_are_nowhere_are_left_out() -> None:
+def test_points_without_a_position_are_omitted() -> None:
     points = np.array([[5.0, 1, 0], [np.nan, 1, 0], [6, np.inf, 0], [7, 1, -np.inf], [0, 0, 0]], np.float32)
     result = flagstone.Surface().segment(points)
     for color in ("labels", "z"):
@@ -127,7 +127,7 @@ def test_points_that_are_nowhere_are_left_out() -> None:
 
 
 @pytest.mark.parametrize("color", ["labels", "z"])
-def test_empty_scan_is_an_empty_picture(color: Any) -> None:
+def test_an_empty_scan_gives_an_empty_plot(color: Any) -> None:
     empty = np.empty((0, 3), np.float32)
     axes = birds_eye(empty, flagstone.Surface().segment(empty), color=color)
     assert not np.concatenate([*places_by_color(axes).values(), np.empty((0, 2))]).size
@@ -135,7 +135,7 @@ def test_empty_scan_is_an_empty_picture(color: Any) -> None:
 
 
 @pytest.mark.parametrize("method", ["surface", "patchwork"])
-def test_patches_are_tinted_by_verdict(scan: Scan, method: str) -> None:
+def test_patches_are_tinted_by_status(scan: Scan, method: str) -> None:
     result = flagstone.make_segmenter(method).segment(scan)
     axes = birds_eye(scan, result, patches=True)
     tinted = {
@@ -161,7 +161,7 @@ def test_patches_are_drawn_around_their_points(scan: Scan, method: str, tilt: An
         assert any(path.contains_point((y, x)) for path in outlines), f"no bin around {patch}"
 
 
-def test_surface_is_drawn_where_it_is_known(scan: Scan, result: flagstone.Segmentation) -> None:
+def test_the_known_part_of_the_surface_is_drawn(scan: Scan, result: flagstone.Segmentation) -> None:
     axes = surface(result, range=60)
     opacity = np.asarray(axes.get_images()[0].get_array())[..., 3]
     line = 60 * (1 - (2 * np.arange(len(opacity)) + 1) / len(opacity))
@@ -185,13 +185,13 @@ def test_surface_has_contour_lines_where_the_ground_rises() -> None:
     assert len(set(levels)) == len(levels)
 
 
-def test_pictures_go_on_the_axes_that_are_given(scan: Scan, result: flagstone.Segmentation) -> None:
+def test_plots_use_the_given_axes(scan: Scan, result: flagstone.Segmentation) -> None:
     _, (left, right) = plt.subplots(1, 2)
     assert birds_eye(scan, result, axes=left) is left
     assert surface(result, axes=right) is right
 
 
-def test_points_are_rasters_in_a_pdf(scan: Scan, result: flagstone.Segmentation, tmp_path: Path) -> None:
+def test_points_are_raster_graphics_in_a_pdf(scan: Scan, result: flagstone.Segmentation, tmp_path: Path) -> None:
     birds_eye(scan, result)
     plt.savefig(tmp_path / "scan.pdf")
     document = (tmp_path / "scan.pdf").read_bytes()
@@ -216,7 +216,7 @@ def test_points_are_rasters_in_a_pdf(scan: Scan, result: flagstone.Segmentation,
         ({"range": float("nan")}, "range: nan"),
     ],
 )
-def test_what_cannot_be_drawn_is_said_in_one_line(arguments: dict[str, Any], message: str) -> None:
+def test_invalid_arguments_raise_one_line_errors(arguments: dict[str, Any], message: str) -> None:
     points = np.array([[1.0, 0, 0], [2, 0, 0], [3, 0, 0]])
     with pytest.raises(ValueError, match=message) as error:
         birds_eye(points, **arguments)
@@ -224,12 +224,12 @@ def test_what_cannot_be_drawn_is_said_in_one_line(arguments: dict[str, Any], mes
     assert not plt.get_fignums() or "range" in arguments, "no empty figure is left behind"
 
 
-def test_methods_without_a_surface_are_told_apart(scan: Scan) -> None:
+def test_a_result_without_a_surface_is_an_error(scan: Scan) -> None:
     with pytest.raises(ValueError, match="contains no surface"):
         surface(flagstone.Patchwork().segment(scan))
 
 
-def test_without_matplotlib_the_extra_is_named(scan: Scan, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_matplotlib_the_error_names_the_extra(scan: Scan, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("matplotlib", "matplotlib.pyplot"):
         monkeypatch.setitem(__import__("sys").modules, name, None)
     with pytest.raises(ImportError, match=r"pip install 'flagstone\[plot\]'"):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Labelling folders of scans with Ray: one Ray, started for all of these tests."""
+"""Labels of directories of scans with Ray. All tests use the same Ray instance."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ NO_SCANS = ["00/a.label.npy", "00/.hidden.bin", "00/readme.txt", "01/x_lidarseg.
 
 @pytest.fixture(scope="module", autouse=True)
 def one_ray() -> Iterator[None]:
-    """Two cores, as little memory as Ray takes, and workers that find what this process found."""
+    """Ray with two cores and little memory. Its workers import the same modules as this process."""
     found = [str(Path(flagstone.__file__).parents[1]), str(Path(__file__).parent)]
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", os.pathsep.join([*found, os.environ.get("PYTHONPATH", "")]))
@@ -43,7 +43,7 @@ def one_ray() -> Iterator[None]:
 
 @pytest.fixture
 def scans(tmp_path: Path) -> Path:
-    """Scans of all formats in folders, and files beside them that are no scans."""
+    """Scans of all formats in subdirectories, and other files next to them."""
     folder = tmp_path / "scans"
     write_scans(folder, SCANS)
     for name in NO_SCANS:
@@ -51,7 +51,7 @@ def scans(tmp_path: Path) -> Path:
     return folder
 
 
-def test_labels_are_those_of_the_command_byte_for_byte(scans: Path, tmp_path: Path) -> None:
+def test_labels_are_bit_identical_to_the_command(scans: Path, tmp_path: Path) -> None:
     summary = flagstone.ray.segment(scans, tmp_path / "labels")
     label_with_command(scans, tmp_path / "expected")
     assert files(tmp_path / "labels") == files(tmp_path / "expected")
@@ -67,18 +67,20 @@ def test_labels_are_those_of_the_command_byte_for_byte(scans: Path, tmp_path: Pa
     assert (frame[["read_ms", "segment_ms", "write_ms"]] > 0).all(axis=None)
 
 
-def test_settings_formats_and_places_are_those_asked_for(scans: Path, tmp_path: Path) -> None:
+def test_settings_formats_and_destinations_are_used(scans: Path, tmp_path: Path) -> None:
     segmenter = flagstone.Patchwork(sensor="hdl-32e", sensor_height=1.6, uprightness={"angle": 50})
     asked = {"segmenter": segmenter, "format": "u8", "label_map": "semantic-kitti", "workers": 1}
     before = files(scans)
-    flagstone.ray.segment(scans, None, **asked)  # beside the scans
+    flagstone.ray.segment(scans, None, **asked)  # next to the scans
     options = "--method patchwork --sensor hdl-32e --sensor-height 1.6 --set uprightness.angle=50 --format u8"
     label_with_command(scans, tmp_path / "expected", *options.split(), "--label-map", "semantic-kitti")
     assert files(scans) == before | files(tmp_path / "expected")
-    assert flagstone.ray.segment(scans, None, **asked).already_labelled == len(SCANS)  # no label is taken for a scan
+    assert flagstone.ray.segment(scans, None, **asked).already_labelled == len(
+        SCANS
+    )  # label files are not treated as scans
 
 
-def test_what_fails_costs_itself_alone_and_only_what_is_left_is_done(
+def test_failures_do_not_affect_other_scans_and_a_second_run_retries_them(
     scans: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     label_with_command(scans, tmp_path / "expected")
@@ -86,7 +88,7 @@ def test_what_fails_costs_itself_alone_and_only_what_is_left_is_done(
     (scans / "00" / "b.pcd").write_bytes(good[:-100])
     labels = tmp_path / "labels"
     labels.mkdir()
-    (labels / "01").write_text("a file where a folder must be")
+    (labels / "01").write_text("a file with the name of a directory")
     assert command.main([str(scans), "--output", str(labels), "--workers", "1"]) == 1
     printed = capsys.readouterr().out
     assert f"4 of {len(SCANS)} scans labelled" in printed
@@ -108,7 +110,9 @@ def test_what_fails_costs_itself_alone_and_only_what_is_left_is_done(
     assert flagstone.ray.statistics(labels)["error"].isna().all()
 
 
-def test_other_filesystems_get_the_same_bytes_and_a_deadly_scan_costs_itself_alone(scans: Path, tmp_path: Path) -> None:
+def test_other_filesystems_get_identical_labels_despite_a_scan_that_crashes_workers(
+    scans: Path, tmp_path: Path
+) -> None:
     label_with_command(scans, tmp_path / "expected")
     (scans / "00" / "deadly.bin").write_bytes(b"")
     (scans / "02" / "torn.bin").write_bytes(b"torn")
@@ -134,7 +138,7 @@ def test_labels_are_not_written_through_a_link_to_a_scan(scans: Path, tmp_path: 
     assert files(scans) == before
 
 
-def test_what_is_not_a_terminal_gets_a_line_now_and_then(
+def test_progress_is_logged_in_lines_without_a_terminal(
     scans: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     flagstone.ray.segment(scans, tmp_path / "labels", workers=1)
@@ -147,7 +151,7 @@ def test_scans_whose_rows_were_lost_are_not_labelled_again(scans: Path, tmp_path
     labels = tmp_path / "labels"
     flagstone.ray.segment(scans, labels, workers=1)
     _, *rows = sorted((labels / "flagstone-statistics").iterdir())
-    for part in rows:  # as where the driver was killed before it wrote them
+    for part in rows:  # as if the driver had been killed before it wrote them
         part.unlink()
     (labels / "a.label").unlink()
     kept = {path: path.stat().st_ino for path in labels.rglob("*.label")}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""2,000 scans on a cluster of a head and two workers, each a node of its own: a node killed, the driver killed.
+"""2,000 scans on a cluster of three nodes, a head and two workers. One test kills a node, one the driver.
 
 Takes a minute or two on two cores: `make test-all` runs it, `make test` does not.
 """
@@ -30,7 +30,7 @@ import flagstone.ray  # noqa: E402
 
 pytestmark = pytest.mark.slow
 
-DISTINCT = 200  # simulated; each stands under ten names, since simulating takes longer than all that is tested
+DISTINCT = 200  # simulated; each scan has ten names, because simulating takes longer than the tests
 SCANS = 2000
 PATIENCE = 300  # seconds
 
@@ -54,7 +54,7 @@ def scans(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def expected(scans: Path) -> dict[str, bytes]:
-    """What the command makes of them."""
+    """Labels of the command."""
     label_with_command(scans, scans.parent / "expected")
     labels = files(scans.parent / "expected")
     assert len(labels) == SCANS
@@ -63,7 +63,7 @@ def expected(scans: Path) -> dict[str, bytes]:
 
 @pytest.fixture
 def cluster() -> Iterator[Any]:
-    """A head without cores and two nodes of a core each."""
+    """A head without cores and two nodes with one core each."""
     found = [str(Path(flagstone.__file__).parents[1]), os.environ.get("PYTHONPATH", "")]
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PYTHONPATH", os.pathsep.join(found))
@@ -95,7 +95,7 @@ def wait_until(is_so: Callable[[], bool], run: subprocess.Popen[str]) -> None:
 
 
 def wait_until_quiet(labels: Path) -> None:
-    """Workers of a killed driver go on for a moment."""
+    """Waits until the workers of a killed driver have stopped."""
     count = -1
     while count != label_count(labels):
         count = label_count(labels)
@@ -107,17 +107,17 @@ def label_count(labels: Path) -> int:
 
 
 def whole(labels: Path) -> dict[str, bytes]:
-    """All files, but for those that a killed worker had half written under another name."""
+    """All files except temporary files of killed workers."""
     return {name: data for name, data in files(labels).items() if not Path(name).name.startswith(".flagstone-")}
 
 
 def with_children(process: int) -> list[int]:
-    """A process and all that it started, as /proc tells."""
+    """A process and its descendants, from /proc."""
     children: dict[int, list[int]] = {}
     for stat in Path("/proc").glob("[0-9]*/stat"):
         try:
             parent = int(stat.read_text().rpartition(")")[2].split()[1])
-        except FileNotFoundError:  # has ended meanwhile
+        except FileNotFoundError:  # the process has ended
             continue
         children.setdefault(parent, []).append(int(stat.parent.name))
     found = [process]
@@ -127,22 +127,20 @@ def with_children(process: int) -> list[int]:
 
 
 def kill_node(node: Any) -> None:
-    """All of a node's processes at once, as where its power is cut."""
+    """Kills all processes of a node at once, like a power failure."""
     started = [information.process.pid for kind in node.all_processes.values() for information in kind]
     for process in {one for each in started for one in with_children(each)}:
         os.kill(process, signal.SIGKILL)
 
 
-def test_a_node_that_is_killed_in_the_middle_costs_nothing(
-    cluster: Any, scans: Path, expected: dict[str, bytes], tmp_path: Path
-) -> None:
+def test_a_killed_node_loses_no_scan(cluster: Any, scans: Path, expected: dict[str, bytes], tmp_path: Path) -> None:
     labels = tmp_path / "labels"
     run = start(cluster, scans, labels)
     wait_until(lambda: label_count(labels) >= SCANS // 3, run)
     kill_node(cluster.worker_nodes.copy().pop())
     at_kill = label_count(labels)
     printed, error = run.communicate(timeout=PATIENCE)
-    print(f"{at_kill} labels stood when the node was killed\n{printed}{error}")
+    print(f"{at_kill} labels were written when the node was killed\n{printed}{error}")
     assert at_kill < SCANS, "too late to show anything"
     assert run.returncode == 0, error
     assert f"{SCANS} of {SCANS} scans labelled" in printed
@@ -152,9 +150,7 @@ def test_a_node_that_is_killed_in_the_middle_costs_nothing(
     assert frame["node"].nunique() == 2
 
 
-def test_a_driver_that_is_killed_costs_no_label(
-    cluster: Any, scans: Path, expected: dict[str, bytes], tmp_path: Path
-) -> None:
+def test_a_killed_driver_loses_no_label(cluster: Any, scans: Path, expected: dict[str, bytes], tmp_path: Path) -> None:
     labels = tmp_path / "labels"
     run = start(cluster, scans, labels)
     wait_until(lambda: any(labels.glob("flagstone-statistics/*-00001.parquet")), run)
@@ -164,11 +160,13 @@ def test_a_driver_that_is_killed_costs_no_label(
     assert 0 < len(known) < SCANS, "too late to show anything"
     wait_until_quiet(labels)
     so_far = whole(labels)
-    assert so_far.items() <= expected.items(), "labels that are there are whole"
+    assert so_far.items() <= expected.items(), "existing label files are complete"
 
     again = start(cluster, scans, labels)
     printed, error = again.communicate(timeout=PATIENCE)
-    print(f"{len(so_far)} labels stood when the driver was killed, {len(known)} were written down\n{printed}{error}")
+    print(
+        f"{len(so_far)} labels were written when the driver was killed, {len(known)} with statistics\n{printed}{error}"
+    )
     assert again.returncode == 0, error
     assert f"; {len(so_far)} already labelled" in printed
     assert whole(labels) == expected
@@ -176,7 +174,7 @@ def test_a_driver_that_is_killed_costs_no_label(
 
 
 @pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
-def test_a_run_that_is_interrupted_says_what_is_done(
+def test_an_interrupted_run_reports_the_finished_scans(
     cluster: Any, scans: Path, expected: dict[str, bytes], tmp_path: Path, by: signal.Signals
 ) -> None:
     labels = tmp_path / "labels"

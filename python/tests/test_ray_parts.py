@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The parts of flagstone.ray that need no Ray started."""
+"""Parts of flagstone.ray that do not need a running Ray."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def test_labels_are_named_after_their_scan(scan: str, label: str) -> None:
 @pytest.mark.parametrize("format", ["label", "u8"])
 @pytest.mark.parametrize("label_map", ["flagstone", "semantic-kitti"])
 @pytest.mark.parametrize("points", [0, 1, 9, 123_456])
-def test_label_files_in_memory_are_those_that_io_writes(
+def test_label_files_in_memory_are_identical_to_those_of_io(
     tmp_path: Path, format: str, label_map: str, points: int
 ) -> None:
     labels = np.random.default_rng(1).integers(0, 5, points, np.uint8)
@@ -64,14 +64,14 @@ def test_label_files_in_memory_are_those_that_io_writes(
 
 
 @pytest.mark.parametrize("method", flagstone.method_names())
-def test_workers_segment_as_the_segmenter_that_was_given(method: str) -> None:
+def test_workers_use_the_settings_of_the_segmenter(method: str) -> None:
     given = flagstone.make_segmenter(method, sensor="os0-128", sensor_height=1.5)
     task = Task(given.method, given.settings, Location("/a"), Location("/b"), "label", "flagstone", None)
     assert task.segmenter().settings == given.settings
 
 
 class TestLocation:
-    def test_of_a_path_is_local_and_absolute(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def test_a_path_is_local_and_absolute(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.chdir(tmp_path)
         assert (
             location_of("scans/")
@@ -80,13 +80,13 @@ class TestLocation:
             == Location(str(tmp_path / "scans"))
         )
 
-    def test_of_an_unknown_url_is_refused_in_one_line(self) -> None:
+    def test_an_unknown_url_raises_a_one_line_error(self) -> None:
         with pytest.raises(ValueError, match=r"^nowhere://a/b: no filesystem supports this URL") as caught:
             location_of("nowhere://a/b")
         assert "\n" not in str(caught.value)
 
     @pytest.mark.parametrize("filesystem", [None, HERE])
-    def test_lists_files_below_it(self, tmp_path: Path, filesystem: pyarrow.fs.FileSystem | None) -> None:
+    def test_lists_files_recursively(self, tmp_path: Path, filesystem: pyarrow.fs.FileSystem | None) -> None:
         (tmp_path / "a" / "b").mkdir(parents=True)
         (tmp_path / "a" / "b" / "c.bin").write_bytes(bytes(7))
         (tmp_path / "d.bin").write_bytes(b"")
@@ -95,14 +95,14 @@ class TestLocation:
         assert all(file.modified == (tmp_path / file.name).stat().st_mtime_ns / 1e9 for file in here.files())
         assert list(here.below("none").files()) == []
 
-    def test_does_not_follow_links_to_folders(self, tmp_path: Path) -> None:
+    def test_does_not_follow_links_to_directories(self, tmp_path: Path) -> None:
         (tmp_path / "loop").symlink_to(tmp_path)
         (tmp_path / "a.bin").write_bytes(b"")
         (tmp_path / "b.bin").symlink_to(tmp_path / "a.bin")
         assert sorted(file.name for file in Location(str(tmp_path)).files()) == ["a.bin", "b.bin"]
 
     @pytest.mark.parametrize("filesystem", [None, HERE])
-    def test_writes_files_whole(self, tmp_path: Path, filesystem: pyarrow.fs.FileSystem | None) -> None:
+    def test_writes_files_atomically(self, tmp_path: Path, filesystem: pyarrow.fs.FileSystem | None) -> None:
         here = Location(str(tmp_path), filesystem)
         for data in (b"first", b"second, longer"):
             here.write("a/b/c.label", data)
@@ -110,16 +110,14 @@ class TestLocation:
         assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["c.label"]
 
     @pytest.mark.parametrize("filesystem", [None, HERE])
-    def test_leaves_nothing_where_a_file_cannot_be_put(
-        self, tmp_path: Path, filesystem: pyarrow.fs.FileSystem | None
-    ) -> None:
+    def test_leaves_no_file_if_writing_fails(self, tmp_path: Path, filesystem: pyarrow.fs.FileSystem | None) -> None:
         (tmp_path / "c.label").mkdir()
         (tmp_path / "c.label" / "full").touch()
         with pytest.raises(OSError, match=r"c\.label"):
             Location(str(tmp_path), filesystem).write("c.label", b"data")
         assert [path.name for path in tmp_path.iterdir()] == ["c.label"]
 
-    def test_knows_object_stores_whose_puts_are_whole(self) -> None:
+    def test_recognises_object_stores_which_write_atomically(self) -> None:
         fsspec = pytest.importorskip("fsspec")
         assert is_object_store(pyarrow.fs.S3FileSystem(anonymous=True, region="eu-west-1"))
         assert not is_object_store(HERE)
@@ -130,9 +128,9 @@ class TestLocation:
 
 
 class TestInProgressLog:
-    def test_knows_what_predecessors_died_of(self, tmp_path: Path) -> None:
+    def test_counts_crashes_per_scan(self, tmp_path: Path) -> None:
         held = []
-        for _ in range(2):  # two predecessors, each killed in the midst of scan b
+        for _ in range(2):  # the worker dies twice, each time while it processes scan b
             killed = InProgressLog(tmp_path / "notes")
             with killed.on("a"):
                 pass
@@ -141,34 +139,34 @@ class TestInProgressLog:
         successor = InProgressLog(tmp_path / "notes")
         assert [successor.deaths(scan) for scan in ("a", "b\nc", "c")] == [0, 2, 0]
 
-    def test_begins_without_deaths(self, tmp_path: Path) -> None:
+    def test_starts_without_crashes(self, tmp_path: Path) -> None:
         assert InProgressLog(tmp_path / "notes").deaths("a") == 0
 
 
 class TestStatistics:
-    def test_are_read_in_the_order_they_were_written(self, tmp_path: Path) -> None:
+    def test_rows_are_read_in_the_order_in_which_they_were_written(self, tmp_path: Path) -> None:
         for error in ("torn", None):
             writer = StatisticsWriter(Location(str(tmp_path / "flagstone-statistics")), {"version": "1"})
             writer.add(rows_of({"path": "a.bin", "error": error}))
             writer.add(rows_of({"path": "b.bin"}))
             writer.flush()
-            writer.flush()  # has nothing to write
+            writer.flush()  # writes nothing
         frame = flagstone.ray.statistics(tmp_path)
         assert list(frame["path"]) == ["a.bin", "b.bin"]
         assert frame["error"].isna().all()  # the last row of each scan
 
-    def test_say_where_there_are_none(self, tmp_path: Path) -> None:
+    def test_missing_statistics_are_an_error_with_the_path(self, tmp_path: Path) -> None:
         with pytest.raises(FileNotFoundError, match="flagstone-statistics: no statistics"):
             flagstone.ray.statistics(tmp_path)
 
-    def test_say_which_file_is_none_of_theirs(self, tmp_path: Path) -> None:
+    def test_a_foreign_file_is_an_error_with_its_name(self, tmp_path: Path) -> None:
         (tmp_path / "x.parquet").write_bytes(b"torn")
         with pytest.raises(ValueError, match=r"x\.parquet: not a statistics file"):
             read_rows(Location(str(tmp_path)))
 
 
 class TestFindScans:
-    def test_finds_them_in_folders_sorted(self, tmp_path: Path) -> None:
+    def test_finds_scans_in_subdirectories_sorted_by_name(self, tmp_path: Path) -> None:
         for name in ("b.bin", "a/c.npy", "a/c.label.npy", ".hidden.bin", "note.txt"):
             (tmp_path / name).parent.mkdir(exist_ok=True)
             (tmp_path / name).write_bytes(b"123")
@@ -176,14 +174,14 @@ class TestFindScans:
         assert source == Location(str(tmp_path))
         assert [(name, file.size) for name, file in scans.items()] == [("a/c.npy", 3), ("b.bin", 3)]
 
-    def test_takes_a_single_one(self, tmp_path: Path) -> None:
+    def test_accepts_a_single_scan(self, tmp_path: Path) -> None:
         (tmp_path / "b.bin").write_bytes(b"123")
         source, scans = plan.find_scans(Location(str(tmp_path / "b.bin")))
         assert source == Location(str(tmp_path)) and scans["b.bin"].size == 3
 
 
 class TestFinishedScans:
-    """Of a destination with a row of a.bin, 160 bytes and 10 points, in the statistics."""
+    """The statistics contain one row: a.bin, 160 bytes, 10 points."""
 
     def finished(self, tmp_path: Path, scans: dict[str, int], **row: object) -> set[str]:
         writer = StatisticsWriter(Location(str(tmp_path / "flagstone-statistics")), {})
@@ -195,30 +193,30 @@ class TestFinishedScans:
         files = {name: File(name, size, modified) for name, size in scans.items()}
         return plan.finished_scans(files, Location(str(tmp_path)), "label", {})
 
-    def test_have_a_row_and_labels_of_the_right_size(self, tmp_path: Path) -> None:
+    def test_have_a_row_and_a_label_file_of_the_right_size(self, tmp_path: Path) -> None:
         (tmp_path / "a.label").write_bytes(bytes(40))
         (tmp_path / "b.label").write_bytes(bytes(40))
         assert self.finished(tmp_path, {"a.bin": 160, "b.bin": 160}) == {"a.bin"}
 
     @pytest.mark.parametrize("size", [None, 0, 36, 44])
-    def test_are_not_those_whose_labels_are_missing_or_cut(self, tmp_path: Path, size: int | None) -> None:
+    def test_exclude_scans_with_missing_or_truncated_labels(self, tmp_path: Path, size: int | None) -> None:
         if size is not None:
             (tmp_path / "a.label").write_bytes(bytes(size))
         assert self.finished(tmp_path, {"a.bin": 160}) == set()
 
-    def test_are_not_those_that_have_changed_or_failed(self, tmp_path: Path) -> None:
+    def test_exclude_changed_and_failed_scans(self, tmp_path: Path) -> None:
         (tmp_path / "a.label").write_bytes(bytes(40))
         assert self.finished(tmp_path, {"a.bin": 176}) == set()
         assert self.finished(tmp_path, {"a.bin": 160}, error="torn", points=None) == set()
 
-    def test_are_none_once_the_statistics_are_forgotten(self, tmp_path: Path) -> None:
+    def test_are_empty_after_the_statistics_are_removed(self, tmp_path: Path) -> None:
         (tmp_path / "a.label").write_bytes(bytes(40))
         assert self.finished(tmp_path, {"a.bin": 160}) == {"a.bin"}
         plan.forget(Location(str(tmp_path)))
         assert self.found(tmp_path, {"a.bin": 160}).scans == set()
         assert (tmp_path / "a.label").exists()
 
-    def test_are_those_whose_rows_a_killed_run_has_lost(self, tmp_path: Path) -> None:
+    def test_include_scans_whose_rows_a_killed_run_lost(self, tmp_path: Path) -> None:
         for name in ("before", "other"):
             (tmp_path / f"{name}.label").write_bytes(bytes(40))
         os.utime(tmp_path / "before.label", (1, 1))
@@ -229,7 +227,7 @@ class TestFinishedScans:
         assert self.found(tmp_path, scans) == ({"a.bin"}, {"a.bin": 10})
         assert self.found(tmp_path, scans, modified=(tmp_path / "a.label").stat().st_mtime + 1) == (set(), {})
 
-    def test_are_found_where_a_killed_run_has_left_files_half_written(self, tmp_path: Path) -> None:
+    def test_temporary_files_of_killed_runs_are_removed(self, tmp_path: Path) -> None:
         self.finished(tmp_path, {})
         dead = subprocess.Popen(["true"])
         dead.wait()
@@ -240,7 +238,7 @@ class TestFinishedScans:
         assert sorted(path.name for path in tmp_path.iterdir() if path.is_file()) == sorted(kept)
 
 
-def test_errors_are_one_line_that_names_the_scan_once() -> None:
+def test_errors_are_one_line_and_name_the_scan_once() -> None:
     assert one_line(ValueError("/s/a.bin: byte 3: torn"), "/s/a.bin") == "/s/a.bin: byte 3: torn"
     assert one_line(ValueError("byte 3:\n torn"), "b/a.bin") == "b/a.bin: byte 3: torn"
     missing = FileNotFoundError(errno.ENOENT, "No such file or directory", "/s/a.bin")
@@ -248,7 +246,7 @@ def test_errors_are_one_line_that_names_the_scan_once() -> None:
     assert one_line(MemoryError(), "a.bin") == "a.bin: MemoryError"
 
 
-def test_a_summary_lists_what_failed_and_why() -> None:
+def test_a_summary_lists_failures_with_reasons() -> None:
     failures = tuple(Failure(f"{i:02}.bin", f"/s/{i:02}.bin: torn") for i in range(25))
     text = str(Summary(30, 2, 3, failures, 30, 480, 0.5, 2, 3.0, 6.0, 1.5, "/d/flagstone-statistics"))
     assert text.startswith("3 of 30 scans labelled, 30 points; 2 already labelled\n6.0 scans per second")
@@ -259,7 +257,7 @@ def test_a_summary_lists_what_failed_and_why() -> None:
 
 
 class TestUsage:
-    """What is wrong is said in one line before Ray is started."""
+    """Usage errors are one line, before Ray is started."""
 
     @pytest.fixture
     def scan(self, tmp_path: Path) -> Path:
@@ -280,7 +278,7 @@ class TestUsage:
             (["--tilt", "estimate"], "tilt: 'estimate' is not supported here"),
         ],
     )
-    def test_wrong_options_are_refused(
+    def test_invalid_options_are_rejected(
         self, scan: Path, capsys: pytest.CaptureFixture[str], options: list[str], message: str
     ) -> None:
         assert command.main([str(scan), "--output", str(scan / "out"), *options]) == 2
@@ -290,31 +288,31 @@ class TestUsage:
         assert not (scan / "out").exists()
 
     @pytest.mark.parametrize("word", ["estimate", "track"])
-    def test_heights_to_be_found_out_are_refused(self, scan: Path, word: str) -> None:
+    def test_estimated_heights_are_rejected(self, scan: Path, word: str) -> None:
         with pytest.raises(ValueError, match=f"sensor_height: '{word}' is not supported here"):
             flagstone.ray.segment(scan, segmenter=flagstone.Surface(sensor_height=word))  # type: ignore[arg-type]
 
-    def test_a_source_without_scans_is_refused(self, tmp_path: Path) -> None:
+    def test_a_source_without_scans_is_rejected(self, tmp_path: Path) -> None:
         for source in (tmp_path, tmp_path / "missing"):
             with pytest.raises(FileNotFoundError, match="no scans in this directory or its subdirectories"):
                 flagstone.ray.segment(source, tmp_path / "out")
 
-    def test_scans_that_would_share_labels_are_refused(self, scan: Path) -> None:
+    def test_scans_with_the_same_label_file_are_rejected(self, scan: Path) -> None:
         flagstone.io.write(scan / "a.npy", np.zeros((5, 4), np.float32))
         with pytest.raises(ValueError, match=r"a\.bin and .*a\.npy would both write to a\.label"):
             flagstone.ray.segment(scan)
 
-    def test_a_scan_named_as_its_labels_is_refused(self, scan: Path) -> None:
+    def test_a_scan_with_the_name_of_its_label_file_is_rejected(self, scan: Path) -> None:
         (scan / "a.bin").rename(scan / "a.label")
-        with pytest.raises(ValueError, match=r"a\.label: has the name of its own label file"):
+        with pytest.raises(ValueError, match=r"a\.label: has the name of its label file"):
             flagstone.ray.segment(scan / "a.label")
 
-    def test_names_that_are_not_utf8_are_refused(self, scan: Path) -> None:
+    def test_names_that_are_not_utf8_are_rejected(self, scan: Path) -> None:
         Path(os.fsdecode(bytes(scan) + b"/\xe9.bin")).write_bytes(b"")
         with pytest.raises(ValueError, match=r"the file name '\\udce9\.bin' is not UTF-8"):
             flagstone.ray.segment(scan)
 
-    def test_a_destination_of_other_settings_is_refused(self, scan: Path) -> None:
+    def test_a_destination_with_other_settings_is_rejected(self, scan: Path) -> None:
         settings = json.loads(json.dumps(flagstone.Surface(sensor_height=2.5).settings))
         made_with = {"version": flagstone.__version__, "method": "surface", "settings": settings}
         writer = StatisticsWriter(Location(str(scan / "flagstone-statistics")), made_with)
@@ -325,14 +323,14 @@ class TestUsage:
         ):
             flagstone.ray.segment(scan)
 
-    def test_a_cluster_that_is_not_there_is_one_line(self, scan: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def test_a_missing_cluster_is_a_one_line_error(self, scan: Path, capsys: pytest.CaptureFixture[str]) -> None:
         assert command.main([str(scan), "--in-place", "--address", "127.0.0.1:1"]) == 2
         error = capsys.readouterr().err.splitlines()[-1]
         assert error.startswith("flagstone-ray: Ray at 127.0.0.1:1: cannot connect: ")
 
 
 @pytest.mark.parametrize(("scans", "workers"), [(1, 8), (17, 2), (2000, 2), (50_000, 3)])
-def test_batches_hold_every_scan_once_and_grow_smaller(scans: int, workers: int) -> None:
+def test_batches_contain_every_scan_once_and_get_smaller(scans: int, workers: int) -> None:
     todo = [(f"{i}.bin", 16) for i in range(scans)]
     batches = list(in_batches(todo, workers))
     assert [scan for batch in batches for scan in batch] == todo

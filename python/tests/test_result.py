@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""What `segment` returns: views that stay valid, patches, surface, counts."""
+"""Results of `segment`: views that stay valid, patches, surface, counts."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from conftest import Scan, made_up_scan
+from conftest import Scan, random_scan
 
 import flagstone
 from flagstone import Label, Verdict
@@ -27,7 +27,7 @@ def test_every_point_has_one_label_and_the_counts_add_up(scan: Scan) -> None:
     assert sum(result.counts.values()) == len(result) == len(scan)
 
 
-def test_arrays_are_read_only_views_of_one_memory(scan: Scan) -> None:
+def test_arrays_are_read_only_views_of_the_same_memory(scan: Scan) -> None:
     result = flagstone.Surface().segment(scan)
     for name in ("labels", "ground", "heights", "patches"):
         array = getattr(result, name)
@@ -35,7 +35,7 @@ def test_arrays_are_read_only_views_of_one_memory(scan: Scan) -> None:
         assert np.shares_memory(array, getattr(result, name)), name
 
 
-def test_arrays_outlive_result_and_segmenter_and_later_scans(scan: Scan) -> None:
+def test_arrays_outlive_the_result_the_segmenter_and_later_scans(scan: Scan) -> None:
     segmenter = flagstone.Surface()
     result = segmenter.segment(scan)
     held = [result.labels, result.ground, result.heights, result.patches, result.surface.grids[0].heights]
@@ -44,26 +44,26 @@ def test_arrays_outlive_result_and_segmenter_and_later_scans(scan: Scan) -> None
     height = surface.height(5, 5)
     del result
     for seed in range(5):
-        segmenter.segment(made_up_scan(30_000, seed))
+        segmenter.segment(random_scan(30_000, seed))
     del segmenter
     gc.collect()
     assert [array.tobytes() for array in held] == expected
     assert surface.height(5, 5) == height
 
 
-def test_memory_that_nobody_holds_serves_a_later_scan(scan: Scan) -> None:
+def test_a_later_scan_reuses_unreferenced_memory(scan: Scan) -> None:
     segmenter = flagstone.Surface()
     first = segmenter.segment(scan).labels.ctypes.data
     assert segmenter.segment(scan).labels.ctypes.data == first
 
 
-def test_codes_are_those_of_the_library() -> None:
+def test_codes_match_the_library() -> None:
     assert [label.name.lower() for label in Label] == flagstone._core.label_names()
     assert [verdict.name.lower() for verdict in Verdict] == flagstone._core.verdict_names()
     assert [int(label) for label in Label] == list(range(5))
 
 
-def test_patches_hold_planes_of_the_ground_found(scan: Scan) -> None:
+def test_patches_contain_the_planes_of_the_ground(scan: Scan) -> None:
     patches = flagstone.Patchwork().segment(scan).patches
     ground = patches[np.isin(patches["verdict"], [Verdict.GROUND, Verdict.GROUND_FLAT])]
     assert len(ground) > 100
@@ -80,7 +80,7 @@ def test_ground_counts_of_patchworks_patches_add_up_to_the_ground(scan: Scan) ->
     assert result.patches["ground_count"].sum() == result.counts["ground"]
 
 
-def test_patches_become_a_frame_with_a_row_a_patch(scan: Scan) -> None:
+def test_patches_convert_to_a_data_frame_with_one_row_per_patch(scan: Scan) -> None:
     result = flagstone.Patchwork().segment(scan)
     frame = result.to_pandas()
     assert len(frame) == len(result.patches)
@@ -91,7 +91,7 @@ def test_patches_become_a_frame_with_a_row_a_patch(scan: Scan) -> None:
     assert not np.shares_memory(frame["d"].to_numpy(), result.patches)
 
 
-def test_the_surface_answers_at_places_of_any_shape(scan: Scan) -> None:
+def test_the_surface_accepts_positions_of_any_shape(scan: Scan) -> None:
     surface = flagstone.Surface().segment(scan).surface
     assert surface and surface.extent > 50
     x, y = np.linspace(-8, 8, 5), np.linspace(-8, 8, 7)[:, None]
@@ -106,13 +106,13 @@ def test_the_surface_answers_at_places_of_any_shape(scan: Scan) -> None:
     assert set(np.unique(surface.resolution(x, y))) <= {grid.cell for grid in surface.grids}
 
 
-def test_outside_of_its_extent_the_surface_is_not_known(scan: Scan) -> None:
+def test_the_surface_is_unknown_outside_its_extent(scan: Scan) -> None:
     surface = flagstone.Surface().segment(scan).surface
     assert np.isnan(surface.height(1e4, 0)) and np.isnan(surface.height(np.nan, 0))
     assert np.isnan(surface.resolution(1e4, 0)) and surface.at(1e4, 0).confidence == 0
 
 
-def test_grids_hold_the_heights_in_the_middle_of_their_cells(scan: Scan) -> None:
+def test_grids_contain_the_heights_at_cell_centres(scan: Scan) -> None:
     surface = flagstone.Surface().segment(scan).surface
     cells = [grid.cell for grid in surface.grids]
     assert cells == sorted(cells, reverse=True)
@@ -131,14 +131,14 @@ def test_heights_of_points_are_above_the_surface(scan: Scan) -> None:
     assert np.allclose(result.heights[known], scan[known, 2] - below, atol=1e-4)
 
 
-def test_a_method_without_a_surface_knows_no_heights(scan: Scan) -> None:
+def test_a_method_without_a_surface_has_no_heights(scan: Scan) -> None:
     result = flagstone.Patchwork().segment(scan)
     assert not result.surface and result.surface.grids == () and result.surface.extent == 0
     assert result.heights.shape == (len(scan),) and np.isnan(result.heights).all()
     assert np.isnan(result.surface.height([0, 1], 0)).all()
 
 
-def test_a_result_says_what_is_in_it(scan: Scan) -> None:
+def test_repr_of_a_result_shows_its_counts(scan: Scan) -> None:
     result = flagstone.Patchwork().segment(scan)
     assert repr(result).startswith(f"Segmentation({len(scan)} points: ")
     assert f"{result.counts['ground']} ground" in repr(result)
@@ -150,7 +150,7 @@ def test_every_method_labels_every_point(method: str, scan: Scan) -> None:
     assert len(result.labels) == 4000 and result.counts["ground"] > 0
 
 
-def test_result_says_the_settings_it_was_made_with(scan: Scan) -> None:
+def test_a_result_contains_its_settings(scan: Scan) -> None:
     result = flagstone.Patchwork(distance_margin=0.25).segment(scan)
     assert result.settings["distance_margin"] == 0.25
     assert result.settings == flagstone.Patchwork(distance_margin=0.25).settings
@@ -183,7 +183,7 @@ def test_parts_of_a_result_can_be_pickled(scan: Scan) -> None:
     assert patches.tobytes() == result.patches.tobytes() and mount == result.mount
 
 
-def test_a_pickle_that_does_not_fit_is_refused(scan: Scan) -> None:
+def test_an_invalid_pickle_is_rejected(scan: Scan) -> None:
     labels, heights, patches, grids, mount = flagstone.Surface().segment(scan)._result.state()
     side = np.zeros((4, 6), np.float32)
     for state in (
@@ -200,7 +200,7 @@ def segment_here(points: Scan) -> flagstone.Segmentation:
     return flagstone.Surface().segment(points)
 
 
-def test_results_come_back_from_other_processes(scan: Scan) -> None:
+def test_results_can_be_returned_from_other_processes(scan: Scan) -> None:
     scans = [scan, scan[:5000]]
     expected = [segment_here(points).labels.tobytes() for points in scans]
     with multiprocessing.get_context("spawn").Pool(1) as pool:

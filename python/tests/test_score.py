@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""`flagstone.score`: labels of one scan against its classes."""
+"""`flagstone.score` compares the labels of one scan with its classes."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def test_without_ground_only_the_accuracy_is_defined() -> None:
     assert np.isnan(missed.precision) and (missed.recall, missed.f1, missed.iou) == (0, 0, 0)
 
 
-def test_protocols_differ_in_vegetation_and_in_what_is_scored() -> None:
+def test_protocols_differ_in_vegetation_and_scored_classes() -> None:
     points = np.array([[5, 0, -1.7], [5, 0, 1], [5, 0, 0]], np.float32)
     classes, labels = [VEGETATION, VEGETATION, OUTLIER], [1, 0, 0]
     assert flagstone.score(labels, classes, points) == flagstone.Score(1, 0, 0, 2)
@@ -40,7 +40,7 @@ def test_protocols_differ_in_vegetation_and_in_what_is_scored() -> None:
 
 
 @pytest.mark.parametrize("protocol", ["patchwork", "patchwork++", "simulation"])
-def test_it_is_what_evaluate_finds(simulated: Path, protocol: str) -> None:
+def test_scores_are_identical_to_evaluate(simulated: Path, protocol: str) -> None:
     pytest.importorskip("pandas")
     rows = flagstone.evaluate(simulated, methods=["surface"], protocol=protocol, sensor_height=0.6).scans
     for row in rows.itertuples():
@@ -53,9 +53,9 @@ def test_it_is_what_evaluate_finds(simulated: Path, protocol: str) -> None:
         assert score.f1 == pytest.approx(row.f1, abs=1e-6)
 
 
-def test_what_does_not_fit_is_one_line() -> None:
+def test_inputs_that_do_not_match_raise_one_line_errors() -> None:
     points = np.zeros((2, 3), np.float32)
-    with pytest.raises(ValueError, match="1 labels and 2 classes for 2 points"):
+    with pytest.raises(ValueError, match="1 labels and 2 classes do not match 2 points"):
         flagstone.score([1], [ROAD, ROAD], points)
     with pytest.raises(ValueError, match=r"labels: 5 is out of range \(expected integers from 0 to 4"):
         flagstone.score([0, 5], [ROAD, ROAD], points)
@@ -63,5 +63,5 @@ def test_what_does_not_fit_is_one_line() -> None:
         flagstone.score([0, 1], [-1, 40], points)
     with pytest.raises(TypeError, match="labels: dtype float64 is not supported"):
         flagstone.score([0.0, 1.0], [ROAD, ROAD], points)
-    with pytest.raises(ValueError, match=r'protocol = "kitti" is not known; there are patchwork'):
+    with pytest.raises(ValueError, match=r"protocol: no protocol is named 'kitti' \(expected patchwork"):
         flagstone.score([0, 1], [ROAD, ROAD], points, protocol="kitti")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""`segment`: any points people have, the same labels, no copy."""
+"""`segment` accepts any type of points, zero-copy if possible, and gives the same labels."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas
 import pytest
-from conftest import Scan, made_up_scan
+from conftest import Scan, random_scan
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -34,13 +34,13 @@ def structured(scan: Scan, dtype: npt.DTypeLike) -> npt.NDArray[np.void]:
 
 
 def inside(scan: Scan, dtype: npt.DTypeLike = np.float32) -> npt.NDArray[np.float32]:
-    """Columns 2 to 4 of a wider array."""
+    """A view of columns 2 to 4 of a wider array."""
     wide = np.full((len(scan), 7), np.nan, dtype)
     wide[:, 2:5] = scan[:, :3]
     return wide[:, 2:5]
 
 
-# float32 of any layout: read where it lies.
+# float32 in any layout is zero-copy.
 IN_PLACE: dict[str, Callable[[Scan], object]] = {
     "rows of four": lambda scan: scan,
     "rows of three": lambda scan: np.ascontiguousarray(scan[:, :3]),
@@ -75,14 +75,14 @@ def test_every_layout_gives_the_same_labels(layout: str, scan: Scan, expected: n
 
 
 @pytest.mark.parametrize("layout", IN_PLACE)
-def test_float32_is_read_where_it_lies(layout: str, scan: Scan) -> None:
+def test_float32_is_zero_copy(layout: str, scan: Scan) -> None:
     points = IN_PLACE[layout](scan)
     memory = points if isinstance(points, np.ndarray) else np.asarray(points)
     first_x = memory["x"] if memory.dtype.names else memory[:, 0]
     assert _core.address_of(*columns_of(points)) == first_x.__array_interface__["data"][0]
 
 
-def test_rows_are_looked_at_in_one_step(scan: Scan) -> None:
+def test_rows_of_float32_take_the_fast_path(scan: Scan) -> None:
     for layout in ("rows of four", "columns one after the other", "inside a wider array", "a memory view"):
         points = IN_PLACE[layout](scan)
         assert _core.address_of_rows(points) == np.asarray(points).__array_interface__["data"][0], layout
@@ -92,7 +92,7 @@ def test_rows_are_looked_at_in_one_step(scan: Scan) -> None:
         assert _core.address_of_rows(WRONG[what][0]) == 0, what
 
 
-def test_a_tensor_of_the_processor_is_read_where_it_lies(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
+def test_a_cpu_tensor_is_zero_copy(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
     torch = pytest.importorskip("torch")
     tensor = torch.from_numpy(scan)
     assert np.array_equal(SURFACE.segment(tensor).labels, expected)
@@ -100,7 +100,7 @@ def test_a_tensor_of_the_processor_is_read_where_it_lies(scan: Scan, expected: n
 
 
 class DLPackOnly:
-    """An array of some other library: it speaks DLPack, and nothing else."""
+    """An array of another library that supports only DLPack."""
 
     def __init__(self, scan: Scan, device: object = 1) -> None:
         self._scan, self._device = scan, device
@@ -112,20 +112,20 @@ class DLPackOnly:
         return self._device, 0
 
 
-def test_what_speaks_dlpack_is_read_where_it_lies(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
+def test_objects_with_dlpack_are_zero_copy(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
     points = DLPackOnly(scan)
     assert np.array_equal(SURFACE.segment(points).labels, expected)
     assert _core.address_of(*columns_of(points)) == scan.ctypes.data
 
 
 class DeviceType(enum.Enum):
-    """As Open3D has it: no int() of it."""
+    """Device types as in Open3D: an enum without int()."""
 
     CPU = 1
     CUDA = 2
 
 
-def test_devices_of_dlpack_may_be_enums(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
+def test_dlpack_devices_can_be_enums(scan: Scan, expected: npt.NDArray[np.uint8]) -> None:
     assert np.array_equal(SURFACE.segment(DLPackOnly(scan, DeviceType.CPU)).labels, expected)
     assert np.array_equal(SURFACE.segment(DLPackOnly(scan, object())).labels, expected)
     with pytest.raises(TypeError, match=r"DLPackOnly is in the memory of another device.*\.cpu\(\)"):
@@ -143,7 +143,7 @@ def test_a_table_of_pyarrow_is_read_by_its_columns(scan: Scan, expected: npt.NDA
     assert len(str(raised.value)) < 200
 
 
-def test_laspy_data_is_refused_with_what_to_do() -> None:
+def test_laspy_data_is_rejected_with_a_hint() -> None:
     laspy = pytest.importorskip("laspy")
     with pytest.raises(
         TypeError, match=r"LasData of laspy contains map coordinates.*flagstone\.io\.read\(FILE, origin="
@@ -162,7 +162,7 @@ def test_an_organized_cloud_has_labels_row_by_row(layout: str, scan: Scan, expec
         assert _core.address_of(*columns_of(organized)) == first_x.__array_interface__["data"][0]
 
 
-def test_a_scan_in_millimetres_is_warned_about_once(scan: Scan) -> None:
+def test_a_scan_in_millimetres_causes_one_warning(scan: Scan) -> None:
     segmenter = flagstone.Surface()
     with pytest.warns(UserWarning, match=r"20000 of 20000 points are out of range.*flagstone doctor") as warned:
         segmenter.segment(scan * 1000)
@@ -172,7 +172,7 @@ def test_a_scan_in_millimetres_is_warned_about_once(scan: Scan) -> None:
     assert np.mean(in_metres.labels == segmenter.segment(scan).labels) > 0.999
 
 
-def test_few_points_and_half_a_scan_out_of_range_are_no_reason_to_warn(scan: Scan) -> None:
+def test_small_clouds_and_scans_half_out_of_range_cause_no_warning(scan: Scan) -> None:
     far = scan.copy()
     far[::2, 0] += 1000
     with warnings.catch_warnings():
@@ -188,7 +188,7 @@ def test_few_points_and_half_a_scan_out_of_range_are_no_reason_to_warn(scan: Sca
     transposed=st.booleans(),
     seed=st.integers(0, 2**32 - 1),
 )
-def test_any_slice_is_segmented_as_its_copy(rows: slice, first: int, transposed: bool, seed: int) -> None:
+def test_any_slice_gets_the_labels_of_its_copy(rows: slice, first: int, transposed: bool, seed: int) -> None:
     whole = np.random.default_rng(seed).normal(0, 10, (300, 8)).astype(np.float32)
     whole = whole.copy(order="F") if transposed else whole
     view = whole[rows, first : first + 3]
@@ -201,16 +201,16 @@ WRONG: dict[str, tuple[object, type[Exception], str]] = {
     "three rows": (np.zeros((3, 5000), np.float32), ValueError, r"shape \(3, 5000\).*\(N, 3\).*pass points\.T"),
     "two columns": (np.zeros((9, 2), np.float32), ValueError, r"shape \(9, 2\).*\(N, 3\)"),
     "two coordinates of rows": (np.zeros((3, 2), np.float32), ValueError, r"shape \(3, 2\).*pass points\.T"),
-    "one row": (np.zeros(12, np.float32), ValueError, r"shape \(12,\).*\(N, 3\)"),
-    "a picture of two channels": (np.zeros((9, 9, 2), np.float32), ValueError, r"shape \(9, 9, 2\)"),
+    "one axis": (np.zeros(12, np.float32), ValueError, r"shape \(12,\).*\(N, 3\)"),
+    "an image of two channels": (np.zeros((9, 9, 2), np.float32), ValueError, r"shape \(9, 9, 2\)"),
     "channels before rows": (np.zeros((5, 64, 99), np.float32), ValueError, r"shape \(5, 64, 99\).*numpy\.moveaxis"),
     "four axes": (np.zeros((2, 9, 9, 3), np.float32), ValueError, r"shape \(2, 9, 9, 3\)"),
-    "whole numbers": (np.zeros((9, 3), np.int32), TypeError, r"int32.*astype\(numpy\.float32\)"),
+    "integers": (np.zeros((9, 3), np.int32), TypeError, r"int32.*astype\(numpy\.float32\)"),
     "half precision": (np.zeros((9, 3), np.float16), TypeError, r"float16.*astype"),
-    "truth values": (np.zeros((9, 3), bool), TypeError, r"bool.*float32 or float64"),
+    "booleans": (np.zeros((9, 3), bool), TypeError, r"bool.*float32 or float64"),
     "complex numbers": (np.zeros((9, 3), complex), TypeError, r"complex128.*float32 or float64"),
     "objects": (np.full((9, 3), None), TypeError, r"object.*float32 or float64"),
-    "nothing": (None, ValueError, r"NoneType of shape \(\)"),
+    "None": (None, ValueError, r"NoneType of shape \(\)"),
     "an empty list": ([], ValueError, r"list of shape \(0,\)"),
     "rows of different length": ([[1.0, 2, 3], [4.0]], TypeError, r"list is not an array"),
     "a path": ("scan.bin", TypeError, r"'scan\.bin' is a path.*segment\(flagstone\.io\.read\('scan\.bin'\)\)"),
@@ -225,12 +225,12 @@ WRONG: dict[str, tuple[object, type[Exception], str]] = {
     "records of vectors": (np.zeros(9, [("x", "3f4"), ("y", "f4"), ("z", "f4")]), ValueError, r"field x has shape"),
     "a frame without names": (pandas.DataFrame(np.zeros((9, 3))), ValueError, r"no field named x or y or z "),
     "a frame of integers": (pandas.DataFrame({"x": [1], "y": [2], "z": [3]}), TypeError, r"field x: .*int64"),
-    "a tensor of a GPU": (DLPackOnly(made_up_scan(9), device=2), TypeError, r"another device.*\.cpu\(\)"),
+    "a tensor on a GPU": (DLPackOnly(random_scan(9), device=2), TypeError, r"another device.*\.cpu\(\)"),
 }
 
 
 @pytest.mark.parametrize("what", WRONG)
-def test_wrong_points_are_refused_in_one_line(what: str) -> None:
+def test_invalid_points_raise_one_line_errors(what: str) -> None:
     points, error, message = WRONG[what]
     with pytest.raises(error, match=message) as raised:
         SURFACE.segment(points)
@@ -244,7 +244,7 @@ def test_an_empty_scan_has_an_empty_result(dtype: npt.DTypeLike) -> None:
     assert len(result.patches) == 0
 
 
-def test_points_that_are_not_finite_are_invalid_and_keep_their_place(scan: Scan) -> None:
+def test_points_that_are_not_finite_are_invalid_and_keep_their_index(scan: Scan) -> None:
     holed = scan.copy()
     holed[::7, 0] = np.nan
     holed[3::7, 2] = np.inf
@@ -255,7 +255,7 @@ def test_points_that_are_not_finite_are_invalid_and_keep_their_place(scan: Scan)
     assert np.isnan(result.heights[invalid]).all()
 
 
-def test_labels_are_those_of_the_command(simulated: Path, tmp_path: Path) -> None:
+def test_labels_are_identical_to_the_command(simulated: Path, tmp_path: Path) -> None:
     scans = simulated / "sequences" / "00" / "velodyne"
     for method in ("surface", "patchwork"):
         folder = tmp_path / method

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Making segmenters: settings, sensors, mounts, pickling, threads."""
+"""Segmenters: settings, sensors, mounting pose, pickling, threads."""
 
 from __future__ import annotations
 
@@ -15,59 +15,59 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import Scan, made_up_scan, run_command
+from conftest import Scan, random_scan, run_command
 
 import flagstone
 from flagstone import Patchwork, Surface, make_segmenter
 
 
-def test_settings_are_those_that_were_asked_for() -> None:
+def test_settings_have_the_requested_values() -> None:
     settings = Surface(sensor_height=1.5, point={"margin": 0.2}, max_range=60).settings
     assert settings["sensor_height"] == 1.5 and settings["point"]["margin"] == 0.2 and settings["max_range"] == 60
     assert settings["point"]["noise_depth"] == Surface().settings["point"]["noise_depth"]
 
 
-def test_settings_can_be_given_back() -> None:
+def test_settings_can_be_passed_to_a_new_segmenter() -> None:
     segmenter = Patchwork(sensor="vlp-16", uprightness={"angle": 45}, flatness={"thresholds": [0.1, 0.2]})
     settings = segmenter.settings
     settings.pop("mount")
     assert Patchwork(**settings).settings == segmenter.settings
 
 
-def test_a_file_of_settings_is_laid_under_those_by_name(tmp_path: Path) -> None:
+def test_settings_by_name_override_the_settings_file(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     file.write_text("distance_margin = 0.05\nseed_count = 7\n")
     settings = Patchwork(config=file, seed_count=9).settings
     assert settings["distance_margin"] == 0.05 and settings["seed_count"] == 9
 
 
-def test_python_m_flagstone_is_the_command() -> None:
+def test_python_m_flagstone_runs_the_command() -> None:
     environment = {**os.environ, "PYTHONPATH": str(Path(flagstone.__file__).parents[1])}
     command = [sys.executable, "-m", "flagstone", "sensors"]
     assert subprocess.run(command, env=environment, capture_output=True, text=True).stdout == run_command("sensors")
 
 
-def test_a_file_the_command_prints_makes_the_same_segmenter(tmp_path: Path) -> None:
+def test_settings_printed_by_the_command_give_the_same_segmenter(tmp_path: Path) -> None:
     file = tmp_path / "printed.toml"
     file.write_text(run_command("config", "--method", "patchwork", "--sensor", "os0-128"))
     assert Patchwork(config=file).settings == Patchwork(sensor="os0-128").settings
 
 
-def test_presets_are_of_patchwork() -> None:
+def test_only_patchwork_has_presets() -> None:
     assert Patchwork(preset="paper").settings["evaluate_final_set"] is True
     assert make_segmenter("czm+u", preset="reference").method == "czm+u"
     with pytest.raises(ValueError, match="preset paper: surface has no presets"):
         make_segmenter("surface", preset="paper")
 
 
-def test_a_sensor_of_ones_own_is_a_file(tmp_path: Path) -> None:
+def test_a_custom_sensor_is_read_from_a_file(tmp_path: Path) -> None:
     file = tmp_path / "robot.toml"
     file.write_text("beams = 16\nelevation_top = 15.0\nelevation_bottom = -15.0\nheight = 0.4\n")
     assert Patchwork(sensor=file).settings["sensor_height"] == 0.4
     assert Patchwork(sensor=file, sensor_height=0.5).settings["sensor_height"] == 0.5
 
 
-def test_known_sensors_are_those_of_the_command() -> None:
+def test_sensors_match_the_command() -> None:
     listed = run_command("sensors")
     for sensor in flagstone.sensors():
         assert sensor.name in listed and sensor.height > 0 and len(sensor.elevations) > 0
@@ -78,7 +78,7 @@ WRONG: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"colour": 1}, ValueError, "no setting 'colour'"),
     ({"point": {"margin": -1}}, ValueError, r"point\.margin = -1 is out of range \(expected 0 to 10 m"),
     ({"point": {"margin": "wide"}}, ValueError, r"point\.margin is a number, not a string"),
-    ({"point": {"margin": None}}, TypeError, r"point\.margin is a NoneType"),
+    ({"point": {"margin": None}}, TypeError, r"point\.margin: NoneType is not a type of settings"),
     ({"point": 3}, ValueError, "point is a table of settings, not a integer"),
     ({"sensor": "hdl-65e"}, ValueError, r"no sensor is named 'hdl-65e' \(expected .*; did you mean 'hdl-64e'"),
     ({"sensor_height": "guess"}, ValueError, "sensor_height: guess is no number of metres, estimate or track"),
@@ -98,7 +98,7 @@ WRONG: list[tuple[dict[str, Any], type[Exception], str]] = [
 
 
 @pytest.mark.parametrize(("arguments", "error", "message"), WRONG)
-def test_wrong_settings_are_refused_in_one_line(
+def test_invalid_settings_raise_one_line_errors(
     arguments: dict[str, Any], error: type[Exception], message: str
 ) -> None:
     with pytest.raises(error, match=message) as raised:
@@ -106,23 +106,23 @@ def test_wrong_settings_are_refused_in_one_line(
     assert "\n" not in str(raised.value)
 
 
-def test_an_unknown_method_is_refused_with_those_there_are() -> None:
+def test_an_unknown_method_is_rejected_with_the_known_names() -> None:
     with pytest.raises(ValueError, match=r"ransac.*patchwork"):
         make_segmenter("patchwerk")
     with pytest.raises(ValueError, match="threads = 2: method gpf supports only 1 thread"):
         make_segmenter("gpf", threads=2)
 
 
-def test_the_height_of_the_sensor_is_estimated_from_a_scan() -> None:
-    scan = made_up_scan()
-    scan[:, 2] += 0.83  # the ground is 0.9 m below now
+def test_the_sensor_height_is_estimated_from_a_scan() -> None:
+    scan = random_scan()
+    scan[:, 2] += 0.83  # the ground is now 0.9 m below the sensor
     result = Surface(sensor_height="estimate").segment(scan)
     assert result.mount.sensor_height == pytest.approx(0.9, abs=0.05)
     assert "0.90 m above the ground" in result.mount.decision
 
 
-def test_reset_forgets_what_scans_have_told() -> None:
-    low, high = made_up_scan(), made_up_scan(seed=2)
+def test_reset_discards_the_estimated_height() -> None:
+    low, high = random_scan(), random_scan(seed=2)
     low[:, 2] += 0.83
     segmenter = Surface(sensor_height="estimate")
     segmenter.segment(low)
@@ -131,7 +131,7 @@ def test_reset_forgets_what_scans_have_told() -> None:
     assert segmenter.segment(high).mount.sensor_height == pytest.approx(1.73, abs=0.05)
 
 
-def test_a_leaning_sensor_is_levelled(scan: Scan) -> None:
+def test_a_tilted_sensor_is_aligned_with_gravity(scan: Scan) -> None:
     angle = np.radians(25)
     turn = np.array([[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]])
     leaning = (scan[:, :3] @ turn.T).astype(np.float32)
@@ -156,7 +156,7 @@ def test_a_segmenter_can_be_pickled(segmenter: flagstone.Segmenter, scan: Scan) 
     assert np.array_equal(again.segment(scan).labels, segmenter.segment(scan).labels)
 
 
-def test_a_segmenter_is_printed_as_it_was_made() -> None:
+def test_repr_of_a_segmenter_is_the_call_that_creates_it() -> None:
     assert repr(Surface()) == "Surface()"
     assert (
         repr(Surface(sensor_height=1.5, point={"margin": 0.2})) == "Surface(sensor_height=1.5, point={'margin': 0.2})"
@@ -167,16 +167,16 @@ def test_a_segmenter_is_printed_as_it_was_made() -> None:
 
 FORKED = """
 import os, signal, threading, numpy as np, flagstone
-from conftest import made_up_scan
+from conftest import random_scan
 
-scan = made_up_scan(100_000)
+scan = random_scan(100_000)
 segmenter = flagstone.Surface(threads=2)
 expected = segmenter.segment(scan).labels.copy()
 {before}
 for _ in range(5):
     child = os.fork()
     if child == 0:
-        signal.alarm(20)  # a child that hangs dies
+        signal.alarm(20)  # ends a child that hangs
         os._exit(0 if np.array_equal(segmenter.segment(scan).labels, expected) else 1)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
 assert np.array_equal(segmenter.segment(scan).labels, expected)
@@ -189,7 +189,7 @@ for _ in range(2):
 
 
 @pytest.mark.parametrize("before", ["", OTHER_THREADS_SEGMENT], ids=["idle", "while other threads segment"])
-def test_after_a_fork_parent_and_child_may_use_a_segmenter(before: str) -> None:
+def test_parent_and_child_can_use_a_segmenter_after_a_fork(before: str) -> None:
     program = [sys.executable, "-W", "ignore", "-c", FORKED.format(before=before)]
     path = os.pathsep.join([str(Path(__file__).parent), str(Path(flagstone.__file__).parents[1])])
     done = subprocess.run(program, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=180)
@@ -197,14 +197,14 @@ def test_after_a_fork_parent_and_child_may_use_a_segmenter(before: str) -> None:
 
 
 @pytest.mark.parametrize("method", ["surface", "patchwork"])
-def test_threads_of_one_scan_change_nothing(method: str, scan: Scan) -> None:
+def test_the_number_of_threads_does_not_change_the_labels(method: str, scan: Scan) -> None:
     assert np.array_equal(
         make_segmenter(method, threads=3).segment(scan).labels, make_segmenter(method).segment(scan).labels
     )
 
 
-def test_threads_may_share_a_segmenter() -> None:
-    scans = [made_up_scan(5000 + 1000 * i, seed=i) for i in range(6)]
+def test_threads_can_share_a_segmenter() -> None:
+    scans = [random_scan(5000 + 1000 * i, seed=i) for i in range(6)]
     alone = [Surface().segment(scan).labels.copy() for scan in scans]
     shared = Surface()
 
@@ -215,13 +215,13 @@ def test_threads_may_share_a_segmenter() -> None:
         assert all(pool.map(labels_are_right, range(300)))
 
 
-def test_other_threads_of_python_go_on_while_a_scan_is_segmented() -> None:
-    scan = np.tile(made_up_scan(100_000), (20, 1))
+def test_segment_releases_the_gil() -> None:
+    scan = np.tile(random_scan(100_000), (20, 1))
     segmenter = Surface()
     thread = threading.Thread(target=segmenter.segment, args=(scan,))
     steps = 0
     thread.start()
     while thread.is_alive():
         steps += 1
-    # With the lock held the loop could not turn but before the scan begins and after it has ended.
+    # Without releasing the GIL, the loop could only run before and after the segmentation.
     assert steps > 1000

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""`flagstone.simulate`: sequences with exact ground truth, and the list of their files. NumPy alone is needed."""
+"""`flagstone.simulate` writes sequences with exact ground truth and returns their files. It needs only NumPy."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PARK: dict[str, Any] = {"scene": "park", "sensor": "vlp-16"}
 GROUND = (40, 44, 48, 49, 60, 72)
 
 
-def test_every_scan_says_where_its_files_are(tmp_path: Path) -> None:
+def test_every_scan_has_the_paths_of_its_files(tmp_path: Path) -> None:
     scans = flagstone.simulate(tmp_path, **PARK, frames=12, seed=2, sequence="07")
     assert [scan.frame for scan in scans] == list(range(12))
     assert [scan.drive for scan in scans] == [0] * 10 + [1] * 2
@@ -34,7 +34,7 @@ def test_every_scan_says_where_its_files_are(tmp_path: Path) -> None:
         assert (scan.x, scan.y, scan.z) == tuple(poses[scan.frame, :, 3])
 
 
-def test_they_make_a_data_frame(tmp_path: Path) -> None:
+def test_scans_convert_to_a_data_frame(tmp_path: Path) -> None:
     pandas = pytest.importorskip("pandas", reason="pandas is not installed: pip install 'flagstone[pandas]'")
     scans = flagstone.simulate(tmp_path, **PARK, frames=2)
     assert pandas.DataFrame(scans)["points"].tolist() == [scan.points for scan in scans]
@@ -45,13 +45,13 @@ def test_pandas_is_not_needed(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-c", program + "scene='park', sensor='vlp-16', frames=1)"], check=True)
 
 
-def test_a_list_of_paths_can_be_evaluated(tmp_path: Path) -> None:
+def test_simulated_scans_can_be_evaluated(tmp_path: Path) -> None:
     pytest.importorskip("pandas", reason="pandas is not installed: pip install 'flagstone[pandas]'")
     flagstone.simulate(tmp_path, **PARK, frames=2)
     assert flagstone.evaluate(tmp_path, methods=["patchwork"]).methods["scans"].item() == 2
 
 
-def test_more_frames_are_added_to_those_there_are(tmp_path: Path) -> None:
+def test_more_frames_extend_a_sequence(tmp_path: Path) -> None:
     first = flagstone.simulate(tmp_path, **PARK, frames=1)
     made = Path(first[0].scan).stat().st_mtime_ns
     more = flagstone.simulate(tmp_path, **PARK, frames=3)
@@ -94,26 +94,28 @@ def test_every_argument_reaches_the_simulator(tmp_path: Path) -> None:
         ({"keep_no_returns": True, "sequence": "7"}, "sequence: '7' is no name of a sequence"),
     ],
 )
-def test_a_wrong_argument_is_one_line_that_names_it(tmp_path: Path, arguments: dict[str, Any], message: str) -> None:
+def test_an_invalid_argument_raises_a_one_line_error_with_its_name(
+    tmp_path: Path, arguments: dict[str, Any], message: str
+) -> None:
     with pytest.raises(ValueError, match=message) as caught:
         flagstone.simulate(tmp_path / "out", **(PARK | {"frames": 1} | arguments))
     assert "\n" not in str(caught.value)
     assert not (tmp_path / "out").exists()
 
 
-def test_a_folder_of_something_else_is_refused(tmp_path: Path) -> None:
+def test_a_directory_with_another_simulation_is_rejected(tmp_path: Path) -> None:
     flagstone.simulate(tmp_path, **PARK, frames=1)
     with pytest.raises(ValueError, match=r"scene\.json: tells of another seed than asked for"):
         flagstone.simulate(tmp_path, **PARK, frames=1, seed=2)
 
 
-def test_a_folder_that_cannot_be_made_is_an_oserror(tmp_path: Path) -> None:
+def test_a_directory_that_cannot_be_created_raises_oserror(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(OSError, match="cannot be created: Not a directory"):
         flagstone.simulate(tmp_path / "file" / "out", **PARK, frames=1)
 
 
-def test_an_interrupt_ends_the_simulator_and_the_next_call_goes_on(tmp_path: Path) -> None:
+def test_an_interrupt_ends_the_simulator_and_the_next_call_resumes(tmp_path: Path) -> None:
     program = f"import flagstone; flagstone.simulate({str(tmp_path)!r}, scene='park', sensor='vlp-16', frames=40)"
     process = subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.PIPE, text=True)
     folder = tmp_path / "sequences" / "00" / "velodyne"
@@ -126,7 +128,7 @@ def test_an_interrupt_ends_the_simulator_and_the_next_call_goes_on(tmp_path: Pat
     made = sorted(folder.iterdir())
     assert 3 < len(made) < 40
     time.sleep(0.3)
-    assert sorted(folder.iterdir()) == made  # the simulator is gone as well
+    assert sorted(folder.iterdir()) == made  # the simulator has stopped too
     assert not list(tmp_path.rglob("*.tmp"))
     times = [file.stat().st_mtime_ns for file in made]
     assert len(flagstone.simulate(tmp_path, **PARK, frames=40)) == 40
@@ -146,16 +148,16 @@ def test_progress_is_shown_on_a_terminal(tmp_path: Path) -> None:
     try:
         while some := os.read(read_end, 1 << 16):
             drawn += some
-    except OSError:  # the other end is closed
+    except OSError:  # the terminal is closed
         pass
     os.close(read_end)
     assert process.wait() == 0
     lines = drawn.decode().split("\r\x1b[K")
     assert any("0 of 4 scans" in line for line in lines)
-    assert max(map(len, lines)) < 40  # a longer one would leave a line at every update
-    assert lines[-1] == ""  # and taken away
+    assert max(map(len, lines)) < 40  # a longer line would wrap and remain on the terminal
+    assert lines[-1] == ""  # cleared at the end
 
 
-def test_nothing_is_printed_elsewhere(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_nothing_is_printed_without_a_terminal(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     flagstone.simulate(tmp_path, **PARK, frames=2)
     assert capfd.readouterr() == ("", "")

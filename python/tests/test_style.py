@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The style of the Python sources, as pyproject.toml has it."""
+"""The Python sources follow the style in pyproject.toml."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The package's types: complete, true, and of use to those who check theirs."""
+"""The types of the package are complete and correct, and help users who check their code."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def run(*arguments: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
-    """Runs a module of Python, in a folder where nothing is that could be taken for an installed package."""
+    """Runs a Python module in a directory without packages, so that only the installed package is found."""
     environment = dict(os.environ)
     if "site-packages" not in PACKAGE.parts:
         environment["MYPYPATH"] = str(PACKAGE.parent)
@@ -71,36 +71,36 @@ def test_the_package_passes_mypy_strict(tmp_path: Path, cache: Path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_its_users_pass_mypy_strict(tmp_path: Path, cache: Path) -> None:
+def test_user_code_passes_mypy_strict(tmp_path: Path, cache: Path) -> None:
     (tmp_path / "user.py").write_text(USER)
     done = mypy(cache, "--config-file=", "user.py", folder=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_mistakes_are_found_before_the_program_runs(tmp_path: Path, cache: Path) -> None:
+def test_mypy_finds_mistakes_in_user_code(tmp_path: Path, cache: Path) -> None:
     (tmp_path / "mistaken.py").write_text(MISTAKEN)
     found = mypy(cache, "--config-file=", "mistaken.py", folder=tmp_path).stdout
     lines = {int(line.split(":")[1]) for line in found.splitlines() if "error:" in line}
     assert lines == {4, 5, 6, 7, 8}, found
 
 
-def test_the_stub_of_the_compiled_part_is_what_is_in_it(tmp_path: Path) -> None:
+def test_the_stub_of_the_compiled_module_is_up_to_date(tmp_path: Path) -> None:
     stubgen = pytest.importorskip("nanobind.stubgen")
     patterns = REPOSITORY / "python" / "src" / "stub_patterns.txt"
     stubgen.main(["-q", "-m", "flagstone._core", "-p", str(patterns), "-o", str(tmp_path / "_core.pyi")])
     assert (tmp_path / "_core.pyi").read_text() == (PACKAGE / "_core.pyi").read_text()
 
 
-def test_stubtest_finds_nothing_in_the_compiled_part_but_that_it_is_compiled(tmp_path: Path) -> None:
+def test_stubtest_finds_only_known_differences_of_nanobind(tmp_path: Path) -> None:
     options = ["--concise", "--mypy-config-file", "", "--ignore-disjoint-bases"]
     found = run("mypy.stubtest", *options, "flagstone._core", folder=tmp_path).stdout.splitlines()
-    # Functions and classes of nanobind have types of their own, and only segment() makes a Result.
+    # nanobind has its own types of functions and classes, and only segment() creates a Result.
     of_nanobind = ("is not a function", "metaclass differs", 'does not have *args parameter "args"')
     assert len(found) > 10
     assert [line for line in found if not line.endswith(of_nanobind)] == []
 
 
-def test_typed_settings_are_those_there_are() -> None:
+def test_typed_settings_are_up_to_date() -> None:
     script = REPOSITORY / "scripts" / "python-settings"
     printed = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True).stdout
     assert printed == (PACKAGE / "settings.py").read_text()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Recordings for the viewer: read back, they hold what the results say."""
+"""Recordings for the viewer contain the results."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import Scan, made_up_scan
+from conftest import Scan, random_scan
 
 import flagstone
 from flagstone import viewer
@@ -23,11 +23,11 @@ pytest.importorskip("rerun", reason="rerun-sdk writes recordings")
 chunks = pytest.importorskip("rerun.chunk", reason="rerun-sdk 0.41 and later reads recordings")
 
 Row = dict[str, Any]
-"""What an entity was given at one time, component by component."""
+"""The components of an entity at one time."""
 
 
 def rows_of(path: Path) -> dict[str, list[Row]]:
-    """By entity, what was logged, in the order of the time line."""
+    """Logged rows by entity, in the order of the timeline."""
     rows: dict[str, list[Row]] = {}
     for chunk in chunks.RrdReader(path).stream():
         for row in chunk.to_record_batch().to_pylist():
@@ -56,7 +56,7 @@ def recorded(
     return rows_of(path)
 
 
-def test_recording_holds_every_point_in_the_colour_of_its_label(
+def test_a_recording_contains_every_point_in_the_colour_of_its_label(
     scan: Scan, result: flagstone.Segmentation, recorded: dict[str, list[Row]]
 ) -> None:
     total = 0
@@ -69,9 +69,7 @@ def test_recording_holds_every_point_in_the_colour_of_its_label(
     assert total == len(scan)
 
 
-def test_recording_holds_the_height_of_every_point_if_it_is_known(
-    result: flagstone.Segmentation, recorded: dict[str, list[Row]]
-) -> None:
+def test_a_recording_contains_the_known_heights(result: flagstone.Segmentation, recorded: dict[str, list[Row]]) -> None:
     (row,) = recorded["/points/ground"]
     assert ("flagstone.Point:height_above_ground" in row) == bool(result.surface)
     if result.surface:
@@ -83,7 +81,7 @@ def quads_of(recorded: dict[str, list[Row]]) -> dict[str, Row]:
     return {path: rows[0] for path, rows in recorded.items() if path.startswith("/patches/")}
 
 
-def test_every_patch_with_a_plane_is_a_quad_in_the_colour_of_its_verdict(
+def test_every_patch_with_a_plane_is_a_quad_in_the_colour_of_its_status(
     result: flagstone.Segmentation, recorded: dict[str, list[Row]]
 ) -> None:
     patches = result.patches
@@ -116,7 +114,7 @@ def test_quads_fill_their_bins(scan: Scan) -> None:
             assert area == pytest.approx(np.pi * (outer**2 - inner**2) / 32, rel=0.15)
 
 
-def test_a_tip_over_a_patch_shows_its_numbers(recorded: dict[str, list[Row]]) -> None:
+def test_the_tooltip_of_a_patch_shows_its_values(recorded: dict[str, list[Row]]) -> None:
     for path, row in quads_of(recorded).items():
         components = [name for name in row if ":" in name]
         assert len(components) <= 3, f"{path}: a tip shows no values of an entity that has more"
@@ -139,7 +137,9 @@ def test_normals_carry_every_number_of_their_patch(
     assert row["flagstone.Patches:verdict"] == names
 
 
-def test_surface_is_a_mesh_on_the_surface(result: flagstone.Segmentation, recorded: dict[str, list[Row]]) -> None:
+def test_the_surface_mesh_has_the_heights_of_the_surface(
+    result: flagstone.Segmentation, recorded: dict[str, list[Row]]
+) -> None:
     (row,) = recorded["/surface"]
     corners = np.array(row["Mesh3D:vertex_positions"], np.float32).reshape(-1, 3)
     if not result.surface:
@@ -161,10 +161,10 @@ def test_surface_mesh_has_no_gaps_where_grids_meet(scan: Scan) -> None:
     assert (np.abs(rim).max(axis=1) > 30).all(), "no rim near the sensor, where cells of four sizes meet"
 
 
-def test_a_leaning_sensors_quads_and_surface_lie_among_its_points() -> None:
+def test_quads_and_surface_of_a_tilted_sensor_match_its_points() -> None:
     turn = np.radians(20)
     axes = np.array([[np.cos(turn), 0, -np.sin(turn)], [0, 1, 0], [np.sin(turn), 0, np.cos(turn)]])
-    level = made_up_scan()[:, :3]
+    level = random_scan()[:, :3]
     leaning = (level @ axes).astype(np.float32)
     result = flagstone.Surface(tilt=tuple(axes[2])).segment(leaning)
     from flagstone._geometry import patch_quads, surface_mesh
@@ -176,9 +176,9 @@ def test_a_leaning_sensors_quads_and_surface_lie_among_its_points() -> None:
         np.testing.assert_allclose(corners @ axes[2], -1.73, atol=0.1)
 
 
-def test_scans_become_a_time_line_without_patches_of_the_scan_before(tmp_path: Path) -> None:
+def test_each_scan_of_a_timeline_shows_only_its_own_patches(tmp_path: Path) -> None:
     segmenter = flagstone.Patchwork()
-    scans = [made_up_scan(seed=1), made_up_scan(seed=2)[:5000], np.empty((0, 4), np.float32)]
+    scans = [random_scan(seed=1), random_scan(seed=2)[:5000], np.empty((0, 4), np.float32)]
     flagstone.show(((scan, segmenter.segment(scan)) for scan in scans), save=tmp_path / "drive.rrd")
     recorded = rows_of(tmp_path / "drive.rrd")
     rows = recorded["/points/ground"]
@@ -189,7 +189,7 @@ def test_scans_become_a_time_line_without_patches_of_the_scan_before(tmp_path: P
     assert all(row["Clear:is_recursive"] == [True] for row in clears)
 
 
-def test_points_that_are_nowhere_are_left_out(tmp_path: Path) -> None:
+def test_points_without_a_position_are_omitted(tmp_path: Path) -> None:
     points = np.array([[5, 1, 0], [np.nan, 1, 0], [6, np.inf, 0], [0, 0, 0]], np.float32)
     flagstone.show(points, flagstone.Surface().segment(points), save=tmp_path / "scan.rrd")
     recorded = rows_of(tmp_path / "scan.rrd")
@@ -200,13 +200,13 @@ def test_points_that_are_nowhere_are_left_out(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("points", [np.empty((0, 3), np.float32), np.full((3, 3), np.nan, np.float32)])
-def test_scan_without_points_is_a_recording_without_points(points: Scan, tmp_path: Path) -> None:
+def test_a_scan_without_points_gives_a_recording_without_points(points: Scan, tmp_path: Path) -> None:
     flagstone.show(points, flagstone.Surface().segment(points), save=tmp_path / "scan.rrd")
     recorded = rows_of(tmp_path / "scan.rrd")
     assert all(not row["Points3D:positions"] for path, (row,) in recorded.items() if path.startswith("/points/"))
 
 
-def test_recording_opens_on_a_view_of_its_own(scan: Scan, tmp_path: Path) -> None:
+def test_a_recording_contains_its_initial_view(scan: Scan, tmp_path: Path) -> None:
     flagstone.show(scan, flagstone.Surface().segment(scan), save=tmp_path / "scan.rrd")
     reader = chunks.RrdReader(tmp_path / "scan.rrd")
     (blueprint,) = reader.blueprints()
@@ -219,9 +219,9 @@ def test_recording_opens_on_a_view_of_its_own(scan: Scan, tmp_path: Path) -> Non
     assert sorted(names) == [["Everything"], ["Patches"], ["Surface"]]
 
 
-def test_interrupted_save_leaves_what_was_there(scan: Scan, tmp_path: Path) -> None:
+def test_an_interrupted_save_keeps_the_existing_file(scan: Scan, tmp_path: Path) -> None:
     path = tmp_path / "drive.rrd"
-    path.write_bytes(b"from before")
+    path.write_bytes(b"existing")
 
     def interrupted() -> Any:
         yield scan, flagstone.Surface().segment(scan)
@@ -229,11 +229,11 @@ def test_interrupted_save_leaves_what_was_there(scan: Scan, tmp_path: Path) -> N
 
     with pytest.raises(KeyboardInterrupt):
         flagstone.show(interrupted(), save=path)
-    assert path.read_bytes() == b"from before"
+    assert path.read_bytes() == b"existing"
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_nothing_is_left_of_a_recording_that_cannot_be_written(scan: Scan, tmp_path: Path) -> None:
+def test_a_recording_in_a_missing_directory_is_an_error(scan: Scan, tmp_path: Path) -> None:
     result = flagstone.Surface().segment(scan)
     with pytest.raises(FileNotFoundError, match="nowhere: directory does not exist"):
         flagstone.show(scan, result, save=tmp_path / "nowhere" / "scan.rrd")
@@ -241,31 +241,31 @@ def test_nothing_is_left_of_a_recording_that_cannot_be_written(scan: Scan, tmp_p
 
 @pytest.fixture
 def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Where scans were shown, in place of showing them."""
+    """Names of the viewers that were opened. Nothing is shown."""
     places: list[str] = []
     monkeypatch.setattr(viewer, "_show_in_notebook", lambda recording, scans: places.append("notebook"))
     monkeypatch.setattr(viewer, "_show_in_browser", lambda recording, scans: places.append("browser"))
     return places
 
 
-def test_outside_a_notebook_the_browser_shows(scan: Scan, opened: list[str]) -> None:
+def test_the_browser_is_used_outside_a_notebook(scan: Scan, opened: list[str]) -> None:
     flagstone.show(scan, flagstone.Surface().segment(scan))
     assert opened == ["browser"]
 
 
 SHOWN = """
 import re, sys, urllib.request, flagstone
-from conftest import made_up_scan
+from conftest import random_scan
 
-scan = made_up_scan()
+scan = random_scan()
 flagstone.show(scan, flagstone.Surface().segment(scan))
-print("goes on")
+print("continues")
 address = re.search("http://localhost:[0-9]+/", open(sys.argv[1]).read())[0]
 print(urllib.request.urlopen(address).status)
 """
 
 
-def test_without_a_browser_the_address_is_printed_and_the_program_goes_on(tmp_path: Path) -> None:
+def test_without_a_browser_the_address_is_printed_and_the_program_continues(tmp_path: Path) -> None:
     log = tmp_path / "log"
     path = os.pathsep.join([str(Path(flagstone.__file__).parents[1]), str(Path(__file__).parent)])
     environment = {"PATH": "", "PYTHONPATH": path}
@@ -279,11 +279,11 @@ def test_without_a_browser_the_address_is_printed_and_the_program_goes_on(tmp_pa
             text=True,
             timeout=120,
         )
-    assert done.stdout == "goes on\n200\n", log.read_text()
+    assert done.stdout == "continues\n200\n", log.read_text()
     assert "no browser found; http://localhost:" in log.read_text()
 
 
-def test_in_a_notebook_the_notebook_shows(scan: Scan, opened: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_notebook_is_used_in_a_notebook(scan: Scan, opened: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
     kernel = type("ZMQInteractiveShell", (), {})()
     monkeypatch.setitem(sys.modules, "IPython", type("IPython", (), {"get_ipython": staticmethod(lambda: kernel)}))
     flagstone.show(scan, flagstone.Surface().segment(scan))
@@ -291,7 +291,7 @@ def test_in_a_notebook_the_notebook_shows(scan: Scan, opened: list[str], monkeyp
     assert opened == ["notebook", "browser"]
 
 
-def test_notebook_widget_is_given_the_recording(scan: Scan, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_notebook_widget_receives_the_recording(scan: Scan, monkeypatch: pytest.MonkeyPatch) -> None:
     widgets = pytest.importorskip("rerun_notebook", reason="rerun-notebook shows scans in notebooks")
     sent: list[bytes] = []
     monkeypatch.setattr(widgets.Viewer, "send_rrd", lambda self, data: sent.append(data))
@@ -309,14 +309,14 @@ def test_notebook_widget_is_given_the_recording(scan: Scan, monkeypatch: pytest.
         ({"where": "browser", "save": "scan.rrd"}, ValueError, "cannot be combined with save"),
     ],
 )
-def test_unknown_destinations_are_refused(
+def test_unknown_viewers_are_rejected(
     scan: Scan, arguments: dict[str, Any], error: type[Exception], message: str
 ) -> None:
     with pytest.raises(error, match=message):
         flagstone.show(scan, flagstone.Surface().segment(scan), **arguments)
 
 
-def test_results_of_other_points_are_refused(scan: Scan, tmp_path: Path) -> None:
+def test_results_of_other_points_are_rejected(scan: Scan, tmp_path: Path) -> None:
     result = flagstone.Surface().segment(scan)
     with pytest.raises(ValueError, match=f"result: {len(scan)} labels do not match 7 points"):
         flagstone.show(scan[:7], result, save=tmp_path / "scan.rrd")
@@ -325,7 +325,7 @@ def test_results_of_other_points_are_refused(scan: Scan, tmp_path: Path) -> None
     assert not list(tmp_path.iterdir())
 
 
-def test_without_rerun_the_extra_is_named(scan: Scan, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_rerun_the_error_names_the_extra(scan: Scan, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "rerun", None)
     with pytest.raises(ImportError, match=r"pip install 'flagstone\[viewer\]'"):
         flagstone.show(scan, flagstone.Surface().segment(scan))

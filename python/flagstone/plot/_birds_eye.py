@@ -55,7 +55,7 @@ def birds_eye(
         points: (N, >=3) in metres, as `Segmenter.segment` accepts them.
         result: Result of segmenting these points. Or the output of another program: (N,) codes of `Label`, or a mask
             that is true for ground.
-        axes: Axes to draw on; by default those of a new figure.
+        axes: Axes to draw on; by default the axes of a new figure.
         color: "labels" colours points by label, "heights" by height above the ground, "z" by z. The default is
             "labels", or "z" if there is no result. "heights" requires a method that computes heights, such as
             `surface`.
@@ -64,7 +64,7 @@ def birds_eye(
             Masked elements of a masked array (`numpy.ma`) are not scored and are grey.
         range: Half the side of the plot, metres. By default the distance within which 98 % of the points lie, rounded
             up to 10 m.
-        patches: Tint each patch by its verdict. Requires a method whose patches are squares (`surface`) or ring
+        patches: Tint each patch by its status (see `Verdict`). Requires a method whose patches are squares (`surface`) or ring
             sectors (`patchwork`).
 
     Returns:
@@ -152,7 +152,7 @@ def _marker_size(axes: Axes, count: int) -> float:
 
 
 def _draw(axes: Axes, x: _Floats, y: _Floats, color: Sequence[float], size: float) -> None:
-    # Identical markers are drawn much faster with plot() than with scatter().
+    # `plot` draws identical markers much faster than `scatter`.
     axes.plot(
         y,
         x,
@@ -200,7 +200,7 @@ def _draw_values(axes: Axes, x: _Floats, y: _Floats, values: _Floats, color: str
 
 
 def _tint(axes: Axes, bins: list[npt.NDArray[np.float64]], verdicts: npt.NDArray[np.uint16]) -> list[Artist]:
-    """Fills bins with the colours of their verdicts and returns the legend entries."""
+    """Fills bins with the colours of their status and returns the legend entries."""
     collections, patches = needs("matplotlib.collections", extra="plot"), needs("matplotlib.patches", extra="plot")
     entries: list[Artist] = []
     for verdict in Verdict:

@@ -29,7 +29,7 @@ def surface(result: Segmentation, *, axes: Axes | None = None, range: float | No
 
     Args:
         result: Result of a method that computes a surface.
-        axes: Axes to draw on; by default those of a new figure.
+        axes: Axes to draw on; by default the axes of a new figure.
         range: Half the side of the plot, metres. By default the plot contains 98 % of the ground.
 
     Returns:

@@ -85,7 +85,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Runs the command.
 
     Args:
-        arguments: Command-line arguments without the program name; those of the process by default.
+        arguments: Command-line arguments without the program name; by default the arguments of the process.
 
     Returns:
         Exit code: 0, success; 1, some scans failed; 2, usage error.

@@ -50,8 +50,8 @@ def segment(
     names. Each file is written atomically. Only one run at a time may write to a destination.
 
     Call it again with the same arguments to resume an interrupted run: finished scans are skipped, failed scans are
-    tried again. A scan is finished if the statistics contain its row and its label file has the correct size. A scan
-    is also finished if its labels were written but its row was lost when a run was killed.
+    tried again. Scans are finished if the statistics contain their row and their label file has the correct size. They
+    are also finished if their labels were written but their row was lost when a run was killed.
 
     An unreadable scan, a dead worker or a lost node does not stop the run. The summary and the statistics list the
     scans that failed, with the reasons.

@@ -47,7 +47,7 @@ def check_names(source: Location, scans: Scans, format: str) -> None:
             raise ValueError(f"{source}: the file name {name!r} is not UTF-8 (rename the file)") from None
         label = label_name(name, format)
         if label == name:
-            raise ValueError(f"{source.at(name)}: has the name of its own label file (rename the scan)")
+            raise ValueError(f"{source.at(name)}: has the name of its label file (rename the scan)")
         other = taken.setdefault(label, name)
         if other is not name:
             raise ValueError(
@@ -66,9 +66,9 @@ class Finished(NamedTuple):
 def finished_scans(scans: Scans, destination: Location, format: str, made_with: dict[str, Any]) -> Finished:
     """The finished scans. Also removes temporary files of killed runs.
 
-    A scan is finished if the statistics contain its row, without an error and with the current size of the scan, and
-    its label file has the size for its number of points. It is also finished if a killed run lost its row: then its
-    labels were written after the latest run started, and after the scan.
+    Scans are finished if the statistics contain their row, without an error and with their current size, and their
+    label file has the size for their number of points. They are also finished if a killed run lost their row: then
+    their labels were written after the latest run started, and after the scan.
 
     Raises:
         ValueError: The labels in the destination were written with other settings.

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 LabelMap = Literal["flagstone", "semantic-kitti"]
 Scan = tuple[str, int]  # path relative to the source, bytes
 
-# Remote filesystems have a high latency but also a high throughput, so many scans are read in parallel.
+# Remote filesystems have a high latency but also a high throughput. Reading many scans in parallel hides the latency.
 REMOTE_SCANS_AT_ONCE = 32
 # A single death of a worker may have another cause than the scan, for example a node that ran out of memory.
 DEATHS_ALLOWED = 1
@@ -172,8 +172,8 @@ def took(row: dict[str, Any], name: str) -> Iterator[None]:
 class InProgressLog:
     """Notes of the scans in progress, which a worker reads again after it is restarted on the same node.
 
-    If a worker dies, Ray sends its batch to the restarted worker, any number of times. A scan that needs too much
-    memory would crash the worker each time. The notes identify this scan.
+    If a worker dies, Ray sends its batch to the restarted worker, any number of times. If a scan needs too
+    much memory, it would crash the worker each time. The notes identify this scan.
     """
 
     def __init__(self, notes: Path) -> None:
