@@ -10,24 +10,24 @@
 
 namespace flagstone::sim {
 
-/// Where the beams of one scan point, in the sensor's frame and in the order of the scan's file.
+/// Directions of the beams of one scan, in the sensor frame and in the order of the scan file.
 ///
-/// Rings and grids: row by row, the highest first, each from azimuth_begin counter-clockwise; all
-/// around, the firings divide the turn; in a narrower field of view the first and the last point
-/// along its edges. A rosette: as they are fired, one row. Two prisms bend the beam by a quarter of
-/// the field of view each and turn at speeds of their own.
+/// Rings and grids are ordered row by row, the highest first, each row counter-clockwise from
+/// azimuth_begin. With a field of view of 360 degrees, the firings divide the full turn; otherwise
+/// the first and the last firing point along its edges. A rosette is one row in firing order: two
+/// prisms, which rotate at different speeds, each bend the beam by a quarter of the field of view.
 class Beams {
  public:
-  /// `number` counts the scans of a rosette: each begins where the one before ended. Rings and
-  /// grids are the same in every scan. `sensor` is valid, see Sensor::check().
+  /// `number` counts the scans of a rosette: each continues where the previous one ended. Rings and
+  /// grids are the same in every scan. `sensor` must be valid, see Sensor::check().
   explicit Beams(const Sensor& sensor, int number = 0);
 
   [[nodiscard]] std::size_t size() const noexcept { return directions_.size(); }
 
-  /// Beams of one row: fired one after the other.
+  /// Number of beams per row. The beams of a row are fired consecutively.
   [[nodiscard]] std::size_t row_length() const noexcept { return row_length_; }
 
-  /// Of length 1; x forward, y left, z up.
+  /// Direction of a beam, of length 1; x forward, y left, z up.
   [[nodiscard]] Vector3 operator[](std::size_t beam) const noexcept { return directions_[beam]; }
 
  private:

@@ -16,7 +16,7 @@ constexpr Surface tiles{.semantic = SemanticClass::building, .reflectivity = 0.3
 constexpr Surface pane{.semantic = SemanticClass::building, .reflectivity = 0.05F};
 constexpr Surface stone{.semantic = SemanticClass::building, .reflectivity = 0.35F};
 
-// The front wall as piers and panels around windows that lie back by the depth of the wall.
+// The front wall as piers and panels around windows that are recessed by the depth of the wall.
 void add_front(Mesh& mesh, const Frame& frame, const House& house, Surface plaster) {
   constexpr double wall = 0.2;
   constexpr double storey = 2.7;
@@ -94,7 +94,7 @@ constexpr Surface canvas{.semantic = SemanticClass::building, .reflectivity = 0.
 constexpr double town_buried = 2;
 constexpr double ground_floor = 3.7;
 constexpr double storey = 3;
-constexpr double wall = 0.22;  // how deep windows lie
+constexpr double wall = 0.22;  // depth of the windows, metres
 
 void add_shop(Mesh& mesh, const Frame& frame, double half, Surface plaster, Random& random) {
   const double plinth = random.uniform(0.25, 0.6);
@@ -117,7 +117,7 @@ void add_shop(Mesh& mesh, const Frame& frame, double half, Surface plaster, Rand
   }
 }
 
-// Bands between the rows of windows and piers between their columns, in front of one pane.
+// Bands between the rows of windows and piers between their columns, in front of a single pane.
 void add_windows(Mesh& mesh, const Frame& frame, double half, double bottom, int storeys,
                  Surface plaster, Random& random) {
   constexpr double sill = 0.8;
@@ -166,7 +166,7 @@ void add_terrace_house(Mesh& mesh, const Frame& frame, const TerraceHouse& house
     add_shop(mesh, frame, half, plaster, random);
     add_windows(mesh, frame, half, ground_floor, house.storeys, plaster, random);
   } else {
-    constexpr double raised = ground_floor - storey;  // the ground floor's level
+    constexpr double raised = ground_floor - storey;  // level of the ground floor
     add_box(mesh, frame, {.low = {-half, 0, -town_buried}, .high = {half, wall, raised}}, stone);
     add_windows(mesh, frame, half, raised, house.storeys + 1, plaster, random);
     const double door = random.uniform(-0.3, 0.3) * house.width;

@@ -16,7 +16,7 @@
 namespace flagstone::sim {
 
 Frame vehicle_pose(const Ground& ground, double x, double y, double yaw) {
-  constexpr double wheelbase = 2.7;  // of KITTI's car, metres
+  constexpr double wheelbase = 2.7;  // of the KITTI car, metres
   constexpr double track = 1.6;
   return frame_on_wheels(ground, x, y, yaw, wheelbase, track);
 }
@@ -55,7 +55,7 @@ Scene Drive::scene() const { return {landscape_.ground, landscape_.furnish(lands
 SimulatedScan Drive::scan(const Scene& scene, const Noise& noise, int frame,
                           bool keep_no_returns) const {
   const auto index = static_cast<std::size_t>(frame);
-  // Stream 0 of the seed has drawn the world.
+  // Stream 0 of the seed is used for the scene.
   const std::uint64_t noise_seed = Random::stream(seed_, index + 1).bits();
   std::optional<RayCaster> moving;
   if (landscape_.moving) moving.emplace(landscape_.moving(landscape_.ground, frame));
@@ -71,7 +71,7 @@ std::vector<float> Drive::ground_of(const SimulatedScan& scan, int frame) const 
 
 namespace {
 
-/// Where the sensor is in a street.
+/// Pose of the sensor in a street.
 Frame pose_in(const Scene& street, const Sensor& sensor) {
   constexpr double right_lane = -1.6;  // metres left of the centre line
   return sensor_pose(street.ground(), sensor, 0, right_lane, 0);

@@ -14,53 +14,55 @@
 
 namespace flagstone::sim {
 
-/// How a sensor sits on its vehicle.
+/// Mounting pose of a sensor on its vehicle.
 struct Mounting {
-  double height = 0;  ///< above the ground the vehicle stands on, metres
+  double height = 0;  ///< above the ground below the vehicle, metres
   double pitch = 0;   ///< degrees, positive: looks down ahead
-  double roll = 0;    ///< degrees, positive: its right side is the lower one; after the pitch
+  double roll = 0;    ///< degrees, positive: its right side is lower; applied after the pitch
 };
 
-/// Where a vehicle stands at (x, y) heading for `yaw` (radians), as a car on its wheels: origin on
-/// the ground, tilted with it.
+/// The frame of a vehicle at (x, y) with heading `yaw` (radians): origin on the ground, tilted with
+/// the ground below its wheels.
 Frame vehicle_pose(const Ground& ground, double x, double y, double yaw);
 
-/// Where its sensor is.
+/// The frame of the sensor on a vehicle.
 Frame sensor_pose(const Frame& vehicle, const Mounting& mounting);
 
-/// Where an upright sensor at its usual height is when its vehicle stands at (x, y) heading for
-/// `yaw` (radians).
+/// The frame of an upright sensor at its usual height, on a vehicle at (x, y) with heading `yaw`
+/// (radians).
 Frame sensor_pose(const Ground& ground, const Sensor& sensor, double x, double y, double yaw);
 
-/// Seed of the world of drive `index` of a sequence: every drive has a world of its own, which does
-/// not depend on how many there are.
+/// Seed of the scene of run `index` of a sequence. Every run has a different scene, which does not
+/// depend on the number of runs.
 std::uint64_t drive_seed(std::uint64_t sequence_seed, std::uint64_t index) noexcept;
 
-/// frames_per_drive stops of a sensor in one world. Poses are known at once; the world is built by
-/// scene().
+/// A run: frames_per_drive stops of a sensor in one scene. The constructor computes the poses;
+/// scene() builds the scene. Const functions are thread-safe.
 class Drive {
  public:
-  /// A sensor that is mounted upright at its usual height.
+  /// A run with a sensor that is mounted upright at its usual height.
   Drive(const SceneKind& kind, const Sensor& sensor, std::uint64_t seed)
       : Drive(kind, sensor, {.height = sensor.height}, seed) {}
 
   Drive(const SceneKind& kind, Sensor sensor, const Mounting& mounting, std::uint64_t seed);
 
-  /// The sensor in the world at each stop.
+  /// Pose of the sensor in the world frame at each stop.
   [[nodiscard]] const std::vector<Frame>& poses() const noexcept { return poses_; }
 
-  /// Steps of the ground that the scene lists; none in most.
+  /// The known steps of the ground; empty in most scenes.
   [[nodiscard]] const std::vector<GroundStep>& steps() const noexcept { return landscape_.steps; }
 
-  /// The world, ready for scan(): the same on every call, a good part of a second of work.
+  /// Builds the scene for scan(). The result is the same on every call, and takes a large part of a
+  /// second.
   [[nodiscard]] Scene scene() const;
 
-  /// What the sensor sees at a stop, 0 <= frame < frames_per_drive, of the scene and of what moves
-  /// in it. Several threads may ask.
+  /// The scan at a stop, 0 <= frame < frames_per_drive, of the scene and the moving objects in it.
+  /// Several threads may call it at the same time.
   [[nodiscard]] SimulatedScan scan(const Scene& scene, const Noise& noise, int frame,
                                    bool keep_no_returns = false) const;
 
-  /// Where the ground is at each point of that scan: true_ground() along the vehicle's z axis.
+  /// The true z of the ground at each point of that scan: true_ground() along the z axis of the
+  /// vehicle.
   [[nodiscard]] std::vector<float> ground_of(const SimulatedScan& scan, int frame) const;
 
  private:
@@ -71,12 +73,12 @@ class Drive {
   std::vector<Vector3> upward_;  // z axes of the vehicle
 };
 
-/// One scan of a random street as an HDL-64E on a car in the right-hand lane takes it, with the
-/// default noise: some 120,000 points. The same seed gives the same bytes.
+/// One scan of a random street from an HDL-64E on a car in the right-hand lane, with the default
+/// noise: about 120,000 points. Deterministic for each seed.
 SimulatedScan simulate_street(std::uint64_t seed, unsigned threads = 1);
 
-/// Where the ground of that street truly is at each point of its scan, see true_ground(): metres,
-/// sensor frame. `xyzi` are the scan's.
+/// The true z of the ground of that street at each point of its scan, metres, sensor frame; see
+/// true_ground(). `xyzi` must be the points of that scan.
 std::vector<float> street_ground(std::uint64_t seed, std::span<const float> xyzi);
 
 }  // namespace flagstone::sim

@@ -39,7 +39,7 @@ void add_delineator(Mesh& mesh, const Frame& frame) {
 }
 
 void add_fence(Mesh& mesh, const Ground& ground, const Fence& fence) {
-  constexpr double pitch = 0.15;  // of boards 0.1 m wide
+  constexpr double pitch = 0.15;  // metres; boards are 0.1 m wide
   const double along = std::hypot(fence.x1 - fence.x0, fence.y1 - fence.y0);
   const double yaw = std::atan2(fence.y1 - fence.y0, fence.x1 - fence.x0);
   const int boards = static_cast<int>(along / pitch);
@@ -140,7 +140,7 @@ namespace {
 constexpr Surface rail{.semantic = SemanticClass::fence, .reflectivity = 0.35F};
 constexpr Surface concrete{.semantic = SemanticClass::fence, .reflectivity = 0.38F};
 constexpr Surface panel{.semantic = SemanticClass::fence, .reflectivity = 0.3F};
-constexpr double piece = 4;  // straight, metres
+constexpr double piece = 4;  // length of a straight piece, metres
 constexpr double barrier_buried = 0.2;
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 namespace flagstone::sim {
 
-/// A point or a direction, metres, in double precision: the truth is computed finer than a scan
-/// stores it.
+/// A point or a direction, metres. Double precision, because ground truth is computed more
+/// precisely than scans are stored.
 struct Vector3 {
   double x = 0, y = 0, z = 0;
 
@@ -38,35 +38,35 @@ inline double length(Vector3 a) noexcept { return std::sqrt(dot(a, a)); }
 /// `a` scaled to length 1; `a` must not be zero.
 inline Vector3 normalized(Vector3 a) noexcept { return (1 / length(a)) * a; }
 
-/// From where to where something is drawn or stands.
+/// An interval of values.
 struct Interval {
   double low = 0, high = 0;
 };
 
-/// Where something stands and how it is turned: the pose of a sensor or of an object in the world.
-/// The axes are of unit length and at right angles: x forward, y left, z up.
+/// The pose of a sensor or an object in the world frame. The axes are orthonormal: x forward, y
+/// left, z up.
 struct Frame {
   Vector3 origin;
   Vector3 forward{1, 0, 0};
   Vector3 left{0, 1, 0};
   Vector3 up{0, 0, 1};
 
-  /// A direction of this frame in world coordinates.
+  /// Converts a direction from this frame to world coordinates.
   [[nodiscard]] Vector3 direction_to_world(Vector3 local) const noexcept {
     return local.x * forward + local.y * left + local.z * up;
   }
-  /// A point of this frame in world coordinates.
+  /// Converts a point from this frame to world coordinates.
   [[nodiscard]] Vector3 to_world(Vector3 local) const noexcept {
     return origin + direction_to_world(local);
   }
-  /// A world point in coordinates of this frame.
+  /// Converts a point from world coordinates to this frame.
   [[nodiscard]] Vector3 to_local(Vector3 world) const noexcept {
     const Vector3 from_origin = world - origin;
     return {dot(from_origin, forward), dot(from_origin, left), dot(from_origin, up)};
   }
 };
 
-/// Upright at this place: turned by `yaw` (radians, counter-clockwise from world x), z vertical.
+/// An upright frame at `origin`, turned by `yaw` (radians, counter-clockwise from the x axis).
 inline Frame upright_frame(Vector3 origin, double yaw) {
   return {.origin = origin,
           .forward = {std::cos(yaw), std::sin(yaw), 0},
@@ -74,7 +74,7 @@ inline Frame upright_frame(Vector3 origin, double yaw) {
           .up = {0, 0, 1}};
 }
 
-/// The same frame moved by `distance` metres along its own z axis.
+/// `frame` moved by `distance` metres along its z axis.
 constexpr Frame raised(Frame frame, double distance) noexcept {
   frame.origin = frame.origin + distance * frame.up;
   return frame;

@@ -26,7 +26,7 @@ constexpr Surface wire{.semantic = SemanticClass::fence, .reflectivity = 0.4F};
 void add_heap(Mesh& mesh, const Ground& ground, const Heap& heap, Random& random) {
   constexpr std::size_t sectors = 24;
   constexpr std::size_t rings = 6;
-  constexpr double buried = 0.2;  // of its rim, metres
+  constexpr double buried = 0.2;  // depth of its rim below the ground, metres
   const Surface loose = random_shade(SemanticClass::other_object, {0.22, 0.45}, random);
   const double steepness = std::tan(random.uniform(33, 38) * std::numbers::pi / 180);
   const double middle = ground.height(heap.x, heap.y);
@@ -45,7 +45,7 @@ void add_heap(Mesh& mesh, const Ground& ground, const Heap& heap, Random& random
     }
     shells.push_back(shell);
   }
-  const Vector3 peak{heap.x, heap.y, top - 0.06 * heap.radius};  // no heap ends in a point
+  const Vector3 peak{heap.x, heap.y, top - 0.06 * heap.radius};  // heaps have a blunt top
   for (std::size_t sector = 0; sector < sectors; ++sector) {
     const std::size_t next = (sector + 1) % sectors;
     mesh.add_triangle(peak, shells[0][sector], shells[0][next], loose);
@@ -90,7 +90,7 @@ void add_brick_pallet(Mesh& mesh, const Frame& frame, Random& random) {
 void add_board(Mesh& mesh, const Frame& frame, Random& random) {
   const double half_length = random.uniform(1, 2.5);
   const double half_width = random.uniform(0.1, 0.25);
-  constexpr double above = 0.01;  // of its lower side, metres
+  constexpr double above = 0.01;  // height of its lower side, metres
   add_box(
       mesh, frame,
       {.low = {-half_length, -half_width, above}, .high = {half_length, half_width, above + 0.04}},
@@ -174,7 +174,7 @@ void add_rack(Mesh& mesh, const Frame& frame, const Rack& rack, Random& random) 
         const double x = begin + (place + 0.5) * pitch;
         const double load = random.uniform(0.3, level_height - 0.4);
         if (level == 0) {
-          // Turned: its long side goes into the rack.
+          // Turned, so that its long side points into the rack.
           const Frame turned{.origin = frame.to_world({x, 0, 0}),
                              .forward = frame.left,
                              .left = -1 * frame.forward,

@@ -20,7 +20,7 @@ bool ascends(const std::vector<double>& lines) {
   return std::ranges::adjacent_find(lines, std::greater_equal<>{}) == lines.end();
 }
 
-// Index of the cell that holds `value`, the first or last one if it lies outside.
+// Index of the cell that contains `value`; the first or last cell if it is outside.
 std::size_t cell_of(const std::vector<double>& lines, double value) noexcept {
   const auto above = std::upper_bound(lines.begin() + 1, lines.end() - 1, value);
   return static_cast<std::size_t>(above - lines.begin()) - 1;
@@ -28,10 +28,10 @@ std::size_t cell_of(const std::vector<double>& lines, double value) noexcept {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// A quantity that changes evenly along a ray.
+// A quantity that changes linearly along a ray.
 struct Along {
   double begin = 0, rate = 0;
-  // The way at which it has come down to 0; never if it does not fall.
+  // The distance at which it reaches 0; never if it does not decrease.
   [[nodiscard]] double zero() const noexcept { return rate < 0 ? -begin / rate : never; }
 };
 Along operator+(double a, Along b) noexcept { return {a + b.begin, b.rate}; }
@@ -47,12 +47,14 @@ Ground::Ground(GroundGrid grid, std::vector<double> heights, std::vector<Surface
   const std::size_t rows = grid_.x.size();
   const std::size_t columns = grid_.t.size();
   if (rows < 2 || columns < 2 || !ascends(grid_.x) || !ascends(grid_.t)) {
-    throw std::invalid_argument("ground grid: x and t need at least 2 lines each, ascending");
+    throw std::invalid_argument("ground grid: x and t must have at least 2 ascending lines each");
   }
   if (grid_.offset.size() != rows || heights_.size() != rows * columns ||
       surfaces_.size() != (rows - 1) * (columns - 1)) {
     throw std::invalid_argument(
-        "ground grid: needs an offset per x line, a height per grid point and a surface per cell");
+        "ground grid: sizes do not match (expected one offset per x line, one height per grid "
+        "point "
+        "and one surface per cell)");
   }
 }
 
@@ -72,7 +74,7 @@ double Ground::height(double x, double y) const noexcept {
   const double h10 = grid_height(at.i + 1, at.j);
   const double h01 = grid_height(at.i, at.j + 1);
   const double h11 = grid_height(at.i + 1, at.j + 1);
-  // The two triangles of add_to(): below and above the cell's diagonal.
+  // The two triangles of add_to(), below and above the diagonal of the cell.
   return at.u >= at.v ? h00 + at.u * (h10 - h00) + at.v * (h11 - h10)
                       : h00 + at.v * (h01 - h00) + at.u * (h11 - h01);
 }
@@ -95,9 +97,9 @@ std::optional<double> Ground::first_crossing(Vector3 origin, Vector3 direction) 
   const Along y{origin.y, direction.y};
   const Along z{origin.z, direction.z};
   auto [i, j, u_begin, v_begin] = place(origin.x, origin.y);
-  bool is_lower = u_begin >= v_begin;  // of the cell's two triangles, as add_to() cuts it
+  bool is_lower = u_begin >= v_begin;  // in the lower triangle of the cell, see add_to()
   double way = 0;
-  // From triangle to triangle; within one, everything changes evenly.
+  // Walks from triangle to triangle. Within a triangle, every quantity is linear.
   while (true) {
     const double bend = grid_.offset[i + 1] - grid_.offset[i];
     const Along u = 1 / (grid_.x[i + 1] - grid_.x[i]) * (-grid_.x[i] + x);
@@ -115,7 +117,7 @@ std::optional<double> Ground::first_crossing(Vector3 origin, Vector3 direction) 
     const double over_u = (is_lower ? 1 + -u : u).zero();
     const double over_v = (is_lower ? v : 1 + -v).zero();
     const double leaves = std::min({over_diagonal, over_u, over_v});
-    if (meets < never && meets <= leaves) return std::max(meets, way);  // rounding looks not back
+    if (meets < never && meets <= leaves) return std::max(meets, way);  // max() undoes rounding
     if (leaves == never) return std::nullopt;
     way = std::max(way, leaves);
 

@@ -15,7 +15,7 @@ std::vector<StepPlace> places_on(const GroundStep& step, const Ground& ground, c
     const auto local = [&](double y) { return pose.to_local({x, y, ground.height(x, y)}); };
     const Vector3 begin = local(step.y_begin);
     const Vector3 end = local(step.y_end);
-    // Across the step on the level: the way up a steep face says little of it.
+    // The direction across the step is horizontal, because its face may be steep.
     const Vector3 level{0, step.y_end - step.y_begin, 0};
     const double forward = dot(level, pose.forward);
     const double left = dot(level, pose.left);
@@ -44,7 +44,7 @@ StepView view_step(const StepPlace& place, const HeightAt& height) {
 
   const int parts = static_cast<int>(std::ceil((end - begin) / spacing));
   double done_before = 0;
-  double tenth = begin;  // the last place with 10 % before the first with 90 %
+  double tenth = begin;  // the last position with 10 % before the first with 90 %
   for (int part = 0; part < parts; ++part) {
     const double from = begin + (end - begin) * part / parts;
     const double to = begin + (end - begin) * (part + 1) / parts;
@@ -65,7 +65,7 @@ StepView view_step(const StepPlace& place, const HeightAt& height) {
 
 HeightAt true_heights(const Ground& ground, const Frame& pose) {
   return [&ground, &pose](double x, double y) {
-    constexpr double high = 20;  // above the sensor, metres: over everything
+    constexpr double high = 20;  // metres above the sensor, which is above everything
     const std::optional<double> way =
         ground.first_crossing(pose.to_world({x, y, high}), -1 * pose.up);
     return way ? high - *way : std::numeric_limits<double>::quiet_NaN();

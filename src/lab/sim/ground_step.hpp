@@ -13,55 +13,55 @@
 
 namespace flagstone::sim {
 
-/// A straight, sharp change of the ground's height that runs along the x axis of the world, of the
-/// same shape from one end to the other. Metres.
+/// A straight, sharp change of the height of the ground along the x axis of the world frame, with
+/// the same shape along its length. Metres.
 struct GroundStep {
-  std::string_view kind;          ///< as tables call it
+  std::string_view kind;          ///< name in tables
   double x_begin = 0, x_end = 0;  ///< along the step
-  double y_begin = 0, y_end = 0;  ///< across it: from the edge nearer to the path to the other
-  double rise = 0;                ///< from y_begin to y_end, below 0 for a drop
+  double y_begin = 0, y_end = 0;  ///< across the step, from the edge closer to the path
+  double rise = 0;                ///< from y_begin to y_end; negative for a drop
 };
 
-/// Heights of a ground: z at x, y, metres, sensor frame; NaN where not known.
+/// Heights of a ground: z at (x, y), metres, sensor frame; NaN if unknown.
 using HeightAt = std::function<double(double x, double y)>;
 
-/// One place on a step, in the sensor frame.
+/// A position on a step, in the sensor frame.
 struct StepPlace {
-  double x = 0, y = 0;                ///< where the step begins, metres
-  double across_x = 0, across_y = 0;  ///< the direction in which it rises or falls, length 1
-  double width = 0;                   ///< from where it begins to where it ends, metres
+  double x = 0, y = 0;                ///< start of the step, metres
+  double across_x = 0, across_y = 0;  ///< direction across the step, length 1
+  double width = 0;                   ///< from the start to the end of the step, metres
 };
 
-/// How far before and behind a step heights are taken, metres.
+/// Distance before and behind a step at which heights are evaluated, metres.
 inline constexpr double beside_step = 0.5;
 
-/// What some ground makes of a step at one place.
+/// A step as represented in some heights, at one position.
 struct StepView {
-  /// Height behind it minus height before it, each beside_step away from it, metres; NaN where
-  /// either is not known.
+  /// Height behind the step minus height before it, each at a distance of beside_step, metres; NaN
+  /// if either is unknown.
   double rise = 0;
-  /// Metres across from where the height has done 10 % of that rise to where it has done 90 %;
-  /// nothing where it does not rise, or is not known all the way.
+  /// Horizontal distance between 10 % and 90 % of that rise, metres. Nothing if there is no rise or
+  /// if a height in between is unknown.
   std::optional<double> width;
 };
 
-/// Places on a step, a metre from one to the next.
+/// Positions on a step, 1 m apart.
 std::vector<StepPlace> places_on(const GroundStep& step, const Ground& ground, const Frame& pose);
 
-/// Looks at a step in some heights.
+/// Measures a step in some heights.
 StepView view_step(const StepPlace& place, const HeightAt& height);
 
-/// The heights of a ground as a sensor at `pose` has them: the first ground met on the way down its
-/// z axis. Both must outlive the function.
+/// The heights of a ground in the frame of a sensor at `pose`: the first ground downwards along its
+/// z axis. Both arguments must outlive the function.
 HeightAt true_heights(const Ground& ground, const Frame& pose);
 
-/// On which sides of a step the sensor has seen the ground.
+/// The sides of a step on which the sensor has seen the ground.
 struct SeenSides {
   bool before = false, behind = false;
 };
 
-/// On which sides is there a point of the ground within beside_step of the step, and as far along
-/// it to either side? `ground_points` holds x and y of the scan's ground points.
+/// The sides that have a ground point within beside_step of the step, and within beside_step along
+/// it. `ground_points` contains x and y of the ground points of the scan.
 SeenSides seen_sides(const StepPlace& place, std::span<const float> ground_points);
 
 }  // namespace flagstone::sim

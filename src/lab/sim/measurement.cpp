@@ -13,12 +13,12 @@ Air::Air(const Noise& noise, const Sensor& sensor, const Surroundings& surroundi
          const Frame& pose, std::uint64_t seed)
     : noise_(noise), sensor_(sensor), surroundings_(surroundings), origin_(pose.origin) {
   constexpr double spread = 25;  // metres from the sensor
-  constexpr double clear = 2;    // of the sensor: it does not stand in a cloud
+  constexpr double clear = 2;    // metres, so that the sensor is not in a cloud
   Random random(seed);
   for (int i = 0; i < noise.dust_clouds; ++i) {
     const double radius = random.uniform(1.5, 4);
     Vector3 from_sensor{random.uniform(-spread, spread), random.uniform(-spread, spread), 0};
-    if (i == 0) {  // what the own vehicle stirs up
+    if (i == 0) {  // dust raised by the ego vehicle
       const double behind = radius + clear + random.uniform(0, 4);
       from_sensor = -behind * pose.forward + random.uniform(-1, 1) * pose.left;
     }
@@ -70,11 +70,11 @@ Air::Stretch Air::within(const Cloud& cloud, Vector3 direction, double way) cons
           .radius = cloud.radius};
 }
 
-// The light that a drop sends back falls with the square of its range, and so does how often one
-// is seen.
+// The light returned by a drop decreases with the square of its range, and so does the probability
+// of its detection.
 std::optional<Echo> Air::drop(Vector3 direction, double way, Random& random) const {
   if (!random.chance(noise_.rain_rate)) return std::nullopt;
-  constexpr double nearest = 1;  // metres; nearer drops are out of the receiver's sight
+  constexpr double nearest = 1;  // metres; the receiver does not see closer drops
   constexpr double farthest = 20;
   const double begin = std::max(nearest, sensor_.min_range);
   const double end = std::min(farthest, sensor_.max_range);
@@ -114,13 +114,13 @@ std::optional<Echo> Air::dust(Vector3 direction, double way, Random& random) con
 
 namespace {
 
-// A whole number with this mean.
+// A random integer with this mean.
 std::size_t drawn_count(double mean, Random& random) {
   const auto whole = static_cast<std::size_t>(mean);
   return whole + (random.chance(mean - static_cast<double>(whole)) ? 1 : 0);
 }
 
-// Below `count`, which is not 0.
+// A random index below `count`, which must not be 0.
 std::size_t drawn_index(std::size_t count, Random& random) {
   return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
 }
@@ -136,7 +136,7 @@ Bursts::Bursts(const Noise& noise, const Sensor& sensor, const Beams& beams, std
   }
 }
 
-// A packet of the sensor: some firings of neighbouring rows.
+// A lost block is a packet of the sensor: some firings of adjacent rows.
 void Bursts::lose_blocks(double rate, const Beams& beams, Random random) {
   constexpr std::size_t blocks_a_row = 60;
   constexpr std::size_t blocks_a_column = 4;
@@ -156,15 +156,15 @@ void Bursts::lose_blocks(double rate, const Beams& beams, Random random) {
   }
 }
 
-// While the two sensors look at each other, the range that is made up drifts with the difference of
-// their clocks: a streak of points.
+// While two sensors face each other, the false range drifts with the difference of their clocks,
+// which forms a streak of points.
 void Bursts::add_crosstalk(double rate, const Sensor& sensor, const Beams& beams, Random random) {
   constexpr std::size_t shortest = 8;  // firings
   constexpr std::size_t longest = 40;
   constexpr double share_hit = 0.75;
   constexpr double mean_hits = share_hit * (shortest + longest) / 2;
   constexpr double farthest = 60;  // metres
-  constexpr double drift = 1;      // metres a firing
+  constexpr double drift = 1;      // metres per firing
   constexpr double jitter = 0.3;   // metres
   const double reach = std::min(sensor.max_range, sensor.min_range + farthest);
   crosstalk_.resize(beams.size());
@@ -179,7 +179,7 @@ void Bursts::add_crosstalk(double rate, const Sensor& sensor, const Beams& beams
     for (std::size_t beam = first; beam < end; ++beam, range += step) {
       const double made_up = range + random.uniform(-jitter, jitter);
       const bool hit = random.chance(share_hit);
-      // What drifts out of reach comes in again at the other end, as a clock does.
+      // A range that drifts out of reach wraps around, as a clock does.
       if (range < sensor.min_range) range = reach;
       if (range > reach) range = sensor.min_range;
       if (hit) crosstalk_[beam] = std::clamp(made_up, sensor.min_range, sensor.max_range);
@@ -193,7 +193,7 @@ Vector3 mirrored(Vector3 direction, Vector3 normal) {
   return direction - 2 * dot(direction, normal) * normal;
 }
 
-// Roads and pavements; soil and grass drink the water.
+// True for roads and pavements; soil and grass absorb the water.
 bool gets_wet(SemanticClass semantic) {
   return is_ground(semantic) && semantic != SemanticClass::terrain;
 }
@@ -215,7 +215,7 @@ Measurement::Measurement(const Surroundings& surroundings, const Sensor& sensor,
 
 std::optional<Echo> Measurement::operator()(std::size_t beam) const {
   if (bursts_.is_lost(beam)) return std::nullopt;
-  // Two streams, so that what weather and edges draw leaves range, loss and intensity as they are.
+  // A second stream for weather and edges, so that they do not change range, loss and intensity.
   Random extra = Random::stream(~seed_, beam);
   const Vector3 direction = pose_.direction_to_world(beams_[beam]);
   if (const auto range = bursts_.crosstalk(beam)) {
@@ -255,7 +255,7 @@ std::optional<Echo> Measurement::echo_of_surface(Vector3 direction, const Meetin
                   random);
 }
 
-// As of smooth surfaces: a tenth of a mirror's light at right angles, all of it at grazing
+// Smooth surfaces reflect a tenth of a mirror's light at right angles, and all of it at grazing
 // incidence. C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994.
 double Measurement::share_mirrored(const Meeting& met) const noexcept {
   double mirror = noise_.mirroring * double{met.surface->mirror};
@@ -267,9 +267,9 @@ double Measurement::share_mirrored(const Meeting& met) const noexcept {
   return mirror * (upright + (1 - upright) * squared * squared * grazing);
 }
 
-// The beam goes on the mirrored way, comes back by it, and the sensor, which knows of no mirror,
-// puts the point straight on. Where that is on the ground nothing is reported: it would be a ghost
-// that no truth can tell from ground. What the mirror lost sight of is lost as well.
+// The beam is reflected specularly and returns along the same path, but the sensor reports the
+// point straight ahead, behind the surface. No point is reported on the ground, where its
+// ground-truth label would be ambiguous. If the reflected beam hits nothing, there is no return.
 std::optional<Echo> Measurement::seen_in_mirror(Vector3 direction, const Meeting& mirror,
                                                 Random& random) const {
   constexpr double clear_of_mirror = 0.05;
@@ -291,7 +291,7 @@ std::optional<Echo> Measurement::seen_in_mirror(Vector3 direction, const Meeting
                   random);
 }
 
-// Rare on dry ground: what stands on it, mirrored in it, lies below it.
+// A ghost point on dry ground, which is rare: the specular reflection of an object on the ground.
 std::optional<Echo> Measurement::ghost_below(Vector3 direction, const Meeting& mirror,
                                              Random& random) const {
   if (!is_mirrored(noise_, mirror.range, random)) return std::nullopt;
@@ -306,12 +306,11 @@ std::optional<Echo> Measurement::ghost_below(Vector3 direction, const Meeting& m
                   SemanticClass::outlier, EchoKind::ghost, random);
 }
 
-// A beam is as wide as its light spreads. Where half of it meets something else, less than a
-// pulse's length nearer or farther, the two echoes are one for the sensor, and the range lies
-// between.
+// A beam has a width. If part of it hits another surface, closer or farther by less than the length
+// of a pulse, the sensor merges both returns and reports a range between them.
 std::optional<Echo> Measurement::mixed_at_edge(Vector3 direction, const Meeting& met,
                                                Random& random) const {
-  constexpr double least_gap = 0.3;  // metres; less is lost in the range noise
+  constexpr double least_gap = 0.3;  // metres; smaller gaps are within the range noise
   constexpr double pulse_length = 3;
   constexpr double straight_up = 0.9;
   const Vector3 axis = std::abs(dot(direction, pose_.up)) < straight_up ? pose_.up : pose_.forward;
@@ -323,7 +322,7 @@ std::optional<Echo> Measurement::mixed_at_edge(Vector3 direction, const Meeting&
   const auto other = surroundings_.cast(pose_.origin, beside, sensor_.min_range, sensor_.max_range);
   if (!other) return std::nullopt;
 
-  // Not an edge where the one lies on the plane of the other: that is one surface at grazing
+  // There is no edge if one hit is on the plane of the other: that is one surface at grazing
   // incidence.
   const auto on_plane = [](const Meeting& of, Vector3 along, Vector3 to) {
     return of.range * dot(of.normal, along) / dot(of.normal, to);
@@ -335,7 +334,7 @@ std::optional<Echo> Measurement::mixed_at_edge(Vector3 direction, const Meeting&
       !(off_other > least_gap)) {
     return std::nullopt;
   }
-  const double share = random.uniform(0.15, 0.85);  // beyond, it is one surface's echo
+  const double share = random.uniform(0.15, 0.85);  // outside, the return is of one surface
   const double range = met.range + share * gap;
   if (!surroundings_.is_clear_of_ground(pose_.origin + range * direction)) return std::nullopt;
   const double reflectivity =

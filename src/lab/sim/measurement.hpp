@@ -20,7 +20,7 @@
 
 namespace flagstone::sim {
 
-/// What the sensor reports for a beam.
+/// The return that the sensor reports for a beam.
 struct Echo {
   double range;      ///< metres
   double intensity;  ///< 0..1
@@ -28,22 +28,23 @@ struct Echo {
   EchoKind kind = EchoKind::surface;
 };
 
-/// What beams meet at one stop: a scene, and what moves in it as it is then. Refers to both.
+/// The objects that beams can hit at one stop: a scene, and the moving objects at that time. Keeps
+/// references to both.
 class Surroundings {
  public:
   struct Meeting {
     double range;            ///< metres along the beam
     double incidence;        ///< cosine of the angle between beam and surface normal, 0..1
     Vector3 normal;          ///< of length 1, on either side
-    const Surface* surface;  ///< of the scene or of what moves
+    const Surface* surface;  ///< of the scene or of a moving object
   };
 
-  /// `moving` may be null: nothing does.
+  /// `moving` may be null: nothing moves.
   Surroundings(const Scene& scene, const RayCaster* moving) : scene_(&scene), moving_(moving) {}
 
   [[nodiscard]] const Ground& ground() const noexcept { return scene_->ground(); }
 
-  /// What is nearest between `near` and `far` metres from `origin`; `direction` has length 1.
+  /// The nearest hit between `near` and `far` metres from `origin`; `direction` has length 1.
   [[nodiscard]] std::optional<Meeting> cast(Vector3 origin, Vector3 direction, double near,
                                             double far) const noexcept {
     std::optional<Meeting> nearest;
@@ -59,7 +60,7 @@ class Surroundings {
     return nearest;
   }
 
-  /// Is a point so far above or below the ground that range noise does not carry it there?
+  /// Whether a point is so far above or below the ground that range noise cannot move it there.
   [[nodiscard]] bool is_clear_of_ground(Vector3 point) const noexcept {
     return std::abs(point.z - ground().height(point.x, point.y)) > clearance;
   }
@@ -74,19 +75,20 @@ class Surroundings {
   const RayCaster* moving_;
 };
 
-/// What is in the air during one scan: rain, and clouds of dust that lie about the vehicle and
-/// behind it. Nothing in it comes within Surroundings' clearance of the ground.
+/// The air during one scan: rain, and dust clouds around and behind the vehicle. None of its
+/// returns is within the clearance of Surroundings from the ground.
 class Air {
  public:
-  /// Refers to what it is given.
+  /// Keeps references to its arguments.
   Air(const Noise& noise, const Sensor& sensor, const Surroundings& surroundings, const Frame& pose,
       std::uint64_t seed);
 
-  /// What the air sends back of a beam, if anything does, before it has gone `way` metres.
+  /// The return from the air within `way` metres, if there is one.
   [[nodiscard]] std::optional<Echo> echo(Vector3 direction, double way, Random& random) const;
 
-  /// Share of the light that comes through from `way` metres off: the way back from there, since
-  /// the way there is one that echo() let pass, and both ways through the rain.
+  /// Fraction of the light that is transmitted from `way` metres away. Through dust this counts
+  /// only the return path, because `echo()` already let the outward path pass; through rain, both
+  /// paths.
   [[nodiscard]] double transmission(Vector3 direction, double way) const;
 
  private:
@@ -94,16 +96,16 @@ class Air {
     Vector3 centre;
     double radius;
   };
-  // Of a beam in a cloud, metres along the beam.
+  // The part of a beam that is in a cloud, metres along the beam.
   struct Stretch {
     double begin, end;
     double middle;        // of the chord through the whole cloud
-    double half_squared;  // of that chord's length
+    double half_squared;  // square of half the length of the chord
     double radius;        // of the cloud
 
-    // Density at `range`, 0 to 1: 1 in the middle of a cloud, falling to 0 at its rim.
+    // Density at `range`: 1 in the middle of a cloud, decreasing to 0 at its rim.
     [[nodiscard]] double density(double range) const noexcept;
-    // Sum of the density over the stretch, metres.
+    // Integral of the density over this part, metres.
     [[nodiscard]] double depth() const noexcept;
   };
 
@@ -118,17 +120,17 @@ class Air {
   std::vector<Cloud> clouds_;
 };
 
-/// What befalls many beams of a scan together, drawn before they are cast.
+/// Effects on many beams of a scan together, drawn before the beams are cast.
 class Bursts {
  public:
   Bursts(const Noise& noise, const Sensor& sensor, const Beams& beams, std::uint64_t seed);
 
-  /// Is the beam in a block that was lost on the way from the sensor?
+  /// Whether the beam is in a lost block.
   [[nodiscard]] bool is_lost(std::size_t beam) const noexcept {
     return !lost_.empty() && lost_[beam];
   }
 
-  /// The range that the light of another sensor made up, metres, if it hit this beam.
+  /// The false range from the light of another sensor, metres, if it hit this beam.
   [[nodiscard]] std::optional<double> crosstalk(std::size_t beam) const noexcept {
     if (crosstalk_.empty() || crosstalk_[beam] == 0) return std::nullopt;
     return crosstalk_[beam];
@@ -138,18 +140,18 @@ class Bursts {
   void lose_blocks(double rate, const Beams& beams, Random random);
   void add_crosstalk(double rate, const Sensor& sensor, const Beams& beams, Random random);
 
-  std::vector<bool> lost_;         // one a beam, or empty: none is
-  std::vector<double> crosstalk_;  // one a beam, 0 where there is none, or empty
+  std::vector<bool> lost_;         // one per beam, or empty if none is lost
+  std::vector<double> crosstalk_;  // one per beam, 0 without crosstalk; or empty
 };
 
-/// Follows single beams of one scan. Everything random about a beam comes from streams of its own,
-/// so that several threads may ask for beams in any order. Refers to what it is given.
+/// Measures single beams of one scan. Each beam has separate random streams, so several threads can
+/// measure beams in any order with the same result. Keeps references to its arguments.
 class Measurement {
  public:
   Measurement(const Surroundings& surroundings, const Sensor& sensor, const Noise& noise,
               const Beams& beams, const Frame& pose, std::uint64_t seed);
 
-  /// What the sensor reports for a beam, if anything.
+  /// The return that the sensor reports for a beam, if there is one.
   [[nodiscard]] std::optional<Echo> operator()(std::size_t beam) const;
 
  private:

@@ -81,7 +81,7 @@ Vector3 random_direction(Random& random) {
   }
 }
 
-// Any direction at right angles to `axis`.
+// Some direction at right angles to `axis`.
 Vector3 perpendicular(Vector3 axis) {
   return normalized(cross(axis, std::abs(axis.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0}));
 }

@@ -15,10 +15,10 @@
 
 namespace flagstone::sim {
 
-/// What a surface is; the codes are SemanticKITTI's label ids. J. Behley et al., "SemanticKITTI: A
+/// Classes of surfaces, with the label ids of SemanticKITTI. J. Behley et al., "SemanticKITTI: A
 /// Dataset for Semantic Scene Understanding of LiDAR Sequences", ICCV 2019.
 enum class SemanticClass : std::uint8_t {
-  outlier = 1,  ///< no surface: ghosts, mixed pixels, rain, dust, crosstalk
+  outlier = 1,  ///< not a surface: ghost points, mixed pixels, rain, dust, crosstalk
   car = 10,
   bus = 13,
   truck = 18,
@@ -27,24 +27,24 @@ enum class SemanticClass : std::uint8_t {
   bicyclist = 31,  ///< with the bicycle
   road = 40,
   parking = 44,
-  sidewalk = 48,  ///< kerb faces too: annotators colour the whole kerb with the sidewalk
+  sidewalk = 48,  ///< including kerb faces, which annotators label as sidewalk
   other_ground = 49,
   building = 50,
-  fence = 51,            ///< crash barriers and low walls too
-  other_structure = 52,  ///< walls that hold land, tunnels, gantries, shelters, racks
+  fence = 51,            ///< including crash barriers and low walls
+  other_structure = 52,  ///< retaining walls, tunnels, gantries, shelters, racks
   lane_marking = 60,
   vegetation = 70,
   trunk = 71,
   terrain = 72,
   pole = 80,
   traffic_sign = 81,
-  other_object = 99,  ///< what stands about: benches, bins, pallets, heaps
+  other_object = 99,  ///< benches, bins, pallets, heaps and similar objects
 };
 
-/// SemanticKITTI's name, e.g. "lane-marking"; empty for a code that is none of these.
+/// The name in SemanticKITTI, for example "lane-marking"; empty for an unknown code.
 std::string_view name_of(SemanticClass semantic) noexcept;
 
-/// Is this a class of the ground surface (40, 44, 48, 49, 60, 72)?
+/// Whether this is a class of the ground (40, 44, 48, 49, 60, 72).
 constexpr bool is_ground(SemanticClass semantic) noexcept {
   switch (semantic) {
     case SemanticClass::road:
@@ -57,18 +57,17 @@ constexpr bool is_ground(SemanticClass semantic) noexcept {
   }
 }
 
-/// What a triangle is made of.
+/// The surface of a triangle.
 struct Surface {
   SemanticClass semantic = SemanticClass::other_ground;
-  float reflectivity = 0.3f;  ///< share of the light sent back at normal incidence, 0..1
-  float mirror = 0;  ///< how well it mirrors beams, 0..1: 0 dry, 1 window glass, still water
+  float reflectivity = 0.3f;  ///< fraction of the light returned at normal incidence, 0..1
+  float mirror = 0;  ///< specular reflection, 0..1: 0 dry surfaces; 1 window glass, still water
 };
 
-/// A surface whose reflectivity is drawn from an interval.
+/// A surface with a reflectivity drawn from an interval.
 Surface random_shade(SemanticClass semantic, Interval reflectivity, Random& random);
 
-/// Triangles in the world frame. Which way round a triangle runs does not matter: a beam hits both
-/// sides.
+/// Triangles in the world frame. Their orientation does not matter: a beam hits both sides.
 class Mesh {
  public:
   using Triangle = std::array<std::uint32_t, 3>;
@@ -79,10 +78,10 @@ class Mesh {
   /// `corners` are indices of vertices added before.
   void add_triangle(Triangle corners, Surface surface);
 
-  /// A triangle with vertices of its own.
+  /// Adds a triangle with new vertices.
   void add_triangle(Vector3 a, Vector3 b, Vector3 c, Surface surface);
 
-  /// The triangles abc and acd: a, b, c, d run round the quad's edge.
+  /// Adds the triangles abc and acd; a, b, c, d are in order around the quad.
   void add_quad(Vector3 a, Vector3 b, Vector3 c, Vector3 d, Surface surface);
 
   [[nodiscard]] const std::vector<Vector3>& vertices() const noexcept { return vertices_; }
@@ -107,13 +106,14 @@ struct Box {
 };
 void add_box(Mesh& mesh, const Frame& frame, const Box& box, Surface surface);
 
-/// A cross-section of a body at `x`: a trapezoid in the frame's y-z plane, symmetric about y = 0.
+/// A cross-section of a body at `x`: a trapezoid in the y-z plane of the frame, symmetric about y =
+/// 0.
 struct Section {
   double x = 0;
   double low = 0, high = 0;                        ///< heights of the lower and upper edge, metres
   double half_width_low = 0, half_width_high = 0;  ///< at those edges, metres
 };
-/// A closed body through the sections, which are ordered by x.
+/// Adds a closed body through the sections, which must be ordered by x.
 void add_loft(Mesh& mesh, const Frame& frame, std::span<const Section> sections, Surface surface);
 
 /// A closed truncated cone along the straight line from `from` to `to` in the frame; `sides` >= 3.
@@ -124,17 +124,17 @@ struct Cone {
 };
 void add_cone(Mesh& mesh, const Frame& frame, const Cone& cone, Surface surface);
 
-/// Leaves in an ellipsoid: squares of every direction, more of them towards its surface.
+/// Leaves in an ellipsoid: randomly oriented squares, denser towards its surface.
 struct Leaves {
   Vector3 centre;  ///< world frame
   Vector3 radii;   ///< half axes along x, y and z, metres
   int count = 0;
-  double size = 0.15;  ///< mean edge of a leaf, metres; single ones differ by a half
+  double size = 0.15;  ///< mean edge of a leaf, metres; leaves vary by 50 %
 };
 void add_leaves(Mesh& mesh, const Leaves& leaves, Surface surface, Random& random);
 
-/// Where a place in a road's own coordinates lies in the world: x along the road, t to the left of
-/// its centre line, z above a level that the road defines. Metres.
+/// Converts road coordinates to the world frame: x along the road, t to the left of its centre
+/// line, z above a level that the road defines. Metres.
 using RoadPlace = std::function<Vector3(double x, double t, double z)>;
 
 /// A point of an outline across a road.
@@ -142,9 +142,8 @@ struct OutlinePoint {
   double t, z;
 };
 
-/// Draws an outline along a road from x.low to x.high, in straight pieces of at most `step` metres:
-/// walls, rails, vaults. An outline that ends where it begins encloses a body, whose ends are
-/// closed; it has to be convex.
+/// Extrudes an outline along a road from x.low to x.high, in straight pieces of at most `step`
+/// metres: walls, rails, vaults. A closed outline makes a body with closed ends and must be convex.
 void add_extrusion(Mesh& mesh, std::span<const OutlinePoint> outline, Interval x, double step,
                    const RoadPlace& place, Surface surface);
 
@@ -152,7 +151,7 @@ void add_extrusion(Mesh& mesh, std::span<const OutlinePoint> outline, Interval x
 struct BeamSection {
   Interval t, z;
 };
-/// A body of rectangular section along a road: walls, beams, slabs.
+/// Adds a body of rectangular section along a road: walls, beams, slabs.
 void add_beam(Mesh& mesh, const BeamSection& section, Interval x, double step,
               const RoadPlace& place, Surface surface);
 

@@ -10,7 +10,7 @@ namespace flagstone::sim {
 bool is_detected(const Noise& noise, double range, double reflectivity, double incidence,
                  Random& random) {
   const double strength = reflectivity * incidence / (range * range);
-  // A smooth step on a logarithmic scale that needs no logarithm.
+  // A smooth step on a logarithmic scale, without computing a logarithm.
   const double detection =
       noise.half_detection == 0
           ? 1
@@ -25,7 +25,7 @@ double measured_range(const Noise& noise, const Sensor& sensor, double range, Ra
 
 double measured_intensity(const Noise& noise, double reflectivity, double incidence,
                           Random& random) {
-  constexpr double diffuse_share = 0.4;  // what a beam at grazing incidence loses
+  constexpr double diffuse_share = 0.4;  // fraction lost at grazing incidence
   const double returned = reflectivity * (1 - diffuse_share * (1 - incidence));
   return std::clamp(returned + noise.intensity_sigma * random.normal(), 0.0, 1.0);
 }
@@ -39,20 +39,21 @@ namespace {
 constexpr double wet_road = 0.4;
 
 constexpr std::array levels{
-    NoiseLevel{
-        .name = "clean", .summary = "exact ranges, nothing lost, no ghosts", .noise = no_noise()},
+    NoiseLevel{.name = "clean",
+               .summary = "exact ranges, no lost returns, no ghost points",
+               .noise = no_noise()},
     NoiseLevel{.name = "default",
-               .summary = "range noise, weak echoes lost, few ghosts, mirroring glass",
+               .summary = "range noise, lost weak returns, few ghost points, reflective glass",
                .noise = {}},
     NoiseLevel{.name = "harsh",
-               .summary = "also mixed pixels at edges, crosstalk bursts, blocks lost",
+               .summary = "also mixed pixels at edges, bursts of crosstalk, lost blocks",
                .noise = {.mixed_rate = 0.5, .crosstalk_rate = 0.002, .block_loss_rate = 0.02}},
 };
 
 constexpr std::array kinds{
     Weather{.name = "clear", .summary = "dry, no dust", .add_to = [](Noise&) {}},
     Weather{.name = "rain",
-            .summary = "drops in the air, weaker echoes, wet roads",
+            .summary = "raindrops, weaker returns, wet roads",
             .add_to =
                 [](Noise& noise) {
                   noise.rain_rate = 0.02;
@@ -60,14 +61,14 @@ constexpr std::array kinds{
                   noise.wetness = wet_road;
                 }},
     Weather{.name = "dust",
-            .summary = "clouds of dust about and behind the vehicle",
+            .summary = "dust clouds around and behind the vehicle",
             .add_to =
                 [](Noise& noise) {
                   noise.dust_clouds = 8;
                   noise.dust_extinction = 0.3;
                 }},
     Weather{.name = "wet",
-            .summary = "roads that mirror: dark, with ghosts below",
+            .summary = "wet roads: dark and reflective, with ghost points below",
             .add_to = [](Noise& noise) { noise.wetness = wet_road; }},
 };
 

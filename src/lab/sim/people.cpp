@@ -30,7 +30,7 @@ void add_person(Mesh& mesh, const Frame& frame, Random& random) {
               .sides = 8},
              cloth);
   }
-  // Lofts run along x: the trunk is thin from chest to back and broad from side to side.
+  // Lofts are along x: the trunk is thin from chest to back and wide from side to side.
   const auto trunk_at = [&](double x, double narrower) {
     return Section{.x = x,
                    .low = 0.95 * hip,
@@ -70,7 +70,7 @@ void add_cyclist(Mesh& mesh, const Frame& frame, Random& random) {
               .sides = sides},
              surface);
   };
-  constexpr double radius = 0.34;  // of the wheels: thin discs, spokes let few beams pass
+  constexpr double radius = 0.34;  // of the wheels, which are discs: few beams pass between spokes
   constexpr Vector3 saddle{-0.25, 0, 0.95};
   constexpr Vector3 handlebar{0.4, 0, 1.05};
   constexpr Vector3 pedals{-0.05, 0, 0.3};

@@ -8,11 +8,11 @@
 
 namespace flagstone::sim {
 
-/// A person in stride, 1.55 to 1.9 m tall; `frame` stands on the ground and looks forward.
+/// A walking person, 1.55 to 1.9 m tall. `frame` is on the ground, x forward.
 void add_person(Mesh& mesh, const Frame& frame, Random& random);
 
-/// Someone riding a bicycle 1.7 m long, both of the class bicyclist; `frame` stands on the ground
-/// between the wheels and looks forward.
+/// A person on a bicycle 1.7 m long, both of the class bicyclist. `frame` is on the ground between
+/// the wheels, x forward.
 void add_cyclist(Mesh& mesh, const Frame& frame, Random& random);
 
 }  // namespace flagstone::sim

@@ -87,7 +87,7 @@ void add_ground_cover(Mesh& mesh, const Ground& ground, double x, double y, Rand
     const double angle = random.uniform(0, 2 * std::numbers::pi);
     const Vector3 foot =
         on_ground(ground, x + from_middle * std::cos(angle), y + from_middle * std::sin(angle));
-    // Lower towards the edge of the patch.
+    // The patch is lower towards its edge.
     const double edge = 1 - 0.7 * from_middle / radius;
     const double turn = random.uniform(0, std::numbers::pi);
     const double half = random.uniform(0.03, 0.06);

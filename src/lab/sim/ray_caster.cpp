@@ -25,12 +25,12 @@ using EmbreeScene = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 void check_indices(const Mesh& mesh) {
   for (const Mesh::Triangle& triangle : mesh.triangles()) {
     if (*std::ranges::max_element(triangle) >= mesh.vertices().size()) {
-      throw std::invalid_argument("mesh: a triangle names a vertex that is not there");
+      throw std::invalid_argument("mesh: a triangle refers to a vertex that does not exist");
     }
   }
 }
 
-// Copies the mesh into buffers that Embree owns: it wants floats.
+// Copies the mesh into buffers owned by Embree, which requires floats.
 EmbreeScene build(RTCDevice device, const Mesh& mesh) {
   EmbreeScene scene(rtcNewScene(device));
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -72,8 +72,8 @@ RayCaster::RayCaster(Mesh mesh) : impl_(std::make_unique<Impl>()) {
   check_indices(mesh);
   impl_->mesh = std::move(mesh);
   if (impl_->mesh.triangles().empty()) return;
-  // One building thread: the tree, and with it the choice between triangles that share the edge a
-  // beam hits, is then the same on every run.
+  // One building thread makes the tree deterministic, and with it the choice between two triangles
+  // if a beam hits their common edge.
   impl_->device.reset(rtcNewDevice("threads=1"));
   if (!impl_->device) throw std::bad_alloc();
   impl_->scene = build(impl_->device.get(), impl_->mesh);
@@ -106,14 +106,14 @@ std::optional<RayCaster::Hit> RayCaster::cast(Vector3 origin, Vector3 direction,
   rtcIntersect1(impl_->scene.get(), &context, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
-  // Embree says which triangle; where on it is computed again in double precision, which is finer
-  // and does not depend on the instruction set Embree found.
+  // Embree determines the triangle. The position is computed again in double precision, which is
+  // more precise and does not depend on the instruction set that Embree uses.
   const std::uint32_t triangle = query.hit.primID;
   const Vector3 a = impl_->mesh.corner(triangle, 0);
   const Vector3 normal =
       normalized(cross(impl_->mesh.corner(triangle, 1) - a, impl_->mesh.corner(triangle, 2) - a));
   const double approach = dot(normal, direction);
-  constexpr double edge_on = 1e-6;  // no more digits in the division than Embree's floats have
+  constexpr double edge_on = 1e-6;  // a smaller divisor loses more digits than Embree's floats have
   const double range = std::abs(approach) < edge_on ? static_cast<double>(query.ray.tfar)
                                                     : dot(normal, a - origin) / approach;
   return Hit{

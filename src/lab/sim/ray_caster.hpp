@@ -11,7 +11,7 @@
 
 namespace flagstone::sim {
 
-/// Finds what a beam hits first. Several threads may cast at the same time.
+/// Finds the first triangle that a beam hits. cast() is thread-safe.
 class RayCaster {
  public:
   struct Hit {
@@ -21,8 +21,8 @@ class RayCaster {
     Vector3 normal{};        ///< of the triangle, of length 1, on either side
   };
 
-  /// Throws std::invalid_argument if a triangle names a vertex that is not there, std::bad_alloc if
-  /// the search structure cannot be built.
+  /// Throws std::invalid_argument if a triangle refers to a vertex that does not exist, and
+  /// std::bad_alloc if the search structure cannot be built.
   explicit RayCaster(Mesh mesh);
   ~RayCaster();
   RayCaster(RayCaster&&) noexcept;

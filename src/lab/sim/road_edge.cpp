@@ -38,7 +38,7 @@ double EdgeRow::height(double x, double out) const noexcept {
   const bool at_begin = from_begin < from_end;
   if ((at_begin && block == 0) || (!at_begin && block + 1 == blocks.size())) return own;
   const double next = blocks[at_begin ? block - 1 : block + 1].height(out);
-  // Half of both on the border between the two.
+  // Each has a weight of one half on their border.
   const double share = std::min(0.5 + std::min(from_begin, from_end) / (2 * blend), 1.0);
   return share * own + (1 - share) * next;
 }
@@ -92,7 +92,7 @@ std::vector<EdgeKind> dam_kinds(const DamMeasures& with) {
   const double berm = foot + 0.8;
   const double bottom = berm + 0.7 * with.ditch;
   const double up = bottom + with.bottom;
-  constexpr double face = 0.06;  // leans back, so that the ground stays a function of x and y
+  constexpr double face = 0.06;  // tilted back, so that the ground stays a function of x and y
   const double below_wall = with.dam - with.drop;
   return {
       {.corners = {{0, 0}, {foot, -with.dam}}, .slopes = {{"dam down", 0, 1}}, .surface = grass},

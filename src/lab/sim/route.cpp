@@ -48,7 +48,7 @@ RoadCurve::RoadCurve(double half_length, double curvature, double begin, double 
     stop.y += std::tan(stop.yaw);
     stop.yaw += curvature * share(stop.x + 0.5) / std::cos(stop.yaw);
   }
-  // Along x where the drive begins.
+  // Rotates the line so that it is straight along x at x = 0.
   const Stop middle = at(0);
   for (Stop& each : line_) each.y -= middle.y + (each.x - middle.x) * std::tan(middle.yaw);
   for (Stop& each : line_) each.yaw = std::atan(std::tan(each.yaw) - std::tan(middle.yaw));

@@ -15,39 +15,39 @@
 
 namespace flagstone::sim {
 
-/// What a point of a scan is an echo of; the codes are those of the files NNNNNN.return.npy.
+/// Kinds of returns, with the codes of the files NNNNNN.return.npy.
 enum class EchoKind : std::uint8_t {
-  surface,    ///< what the beam met first: the only kind that has a class other than outlier
-  ghost,      ///< something seen in a mirror, reported straight on, behind the mirror
-  mixed,      ///< two surfaces at once at an edge, reported between them
-  rain,       ///< a drop
-  dust,       ///< a cloud of dust
+  surface,    ///< the first surface on the beam: the only kind with a class other than outlier
+  ghost,      ///< ghost point: specular reflection of an object, reported behind the surface
+  mixed,      ///< mixed pixel: two surfaces at an edge, reported between them
+  rain,       ///< a raindrop
+  dust,       ///< a dust cloud
   crosstalk,  ///< the light of another sensor
-  none,       ///< nothing came back: a point at (0, 0, 0), only where these are kept
+  none,       ///< missing return: a point at (0, 0, 0), only if these are kept
 };
 inline constexpr std::array<std::string_view, 7> echo_kind_names{
     "surface", "ghost", "mixed", "rain", "dust", "crosstalk", "none"};
 
-/// One scan of the sensor: points in the order of its beams, see Beams.
+/// One scan, with its points in the order of Beams.
 struct SimulatedScan {
   std::vector<float>
-      xyzi;  ///< 4 floats a point: x, y, z in metres, sensor frame, and intensity 0..1
+      xyzi;  ///< 4 floats per point: x, y, z in metres, sensor frame, and intensity 0..1
   std::vector<std::uint32_t>
-      classes;  ///< SemanticKITTI id of each point, see SemanticClass; 0 without echo
-  std::vector<EchoKind> echoes;  ///< what each point is an echo of
+      classes;  ///< SemanticKITTI id of each point, see SemanticClass; 0 for missing returns
+  std::vector<EchoKind> echoes;  ///< kind of each return
 
   [[nodiscard]] std::size_t size() const noexcept { return classes.size(); }
 };
 
-/// Of one scan, what is neither world nor sensor.
+/// Options of one scan, in addition to scene and sensor.
 struct ScanOptions {
-  int number = 0;                     ///< which scan of a rosette, see Beams
-  const RayCaster* moving = nullptr;  ///< what moves, as it is now; null: nothing
-  bool keep_no_returns = false;       ///< beams without echo are points at (0, 0, 0), class 0
-  unsigned threads = 1;               ///< 0 counts as 1; the bytes do not depend on it
+  int number = 0;                     ///< number of the scan for a rosette, see Beams
+  const RayCaster* moving = nullptr;  ///< moving objects at this time; null: none
+  bool keep_no_returns = false;       ///< missing returns become points at (0, 0, 0), class 0
+  unsigned threads = 1;               ///< 0 counts as 1; the result does not depend on it
 };
 
-/// Casts every beam of one scan. The same arguments give the same bytes.
+/// Casts every beam of one scan. Deterministic.
 SimulatedScan simulate(const Scene& scene, const Sensor& sensor, const Noise& noise,
                        const Frame& pose, std::uint64_t seed, const ScanOptions& options = {});
 

@@ -17,23 +17,23 @@
 
 namespace flagstone::sim {
 
-/// A world before anything stands on it. Its ground is quick to make and enough to know every pose;
-/// what stands on it takes longer and is made where it is asked for.
+/// A scene before it is built. The ground is cheap to make and sufficient for the poses. The
+/// objects on it take longer and are made on demand.
 struct Landscape {
   Ground ground;
   std::vector<Stop> route;
   std::function<Mesh(const Ground&)> furnish;  ///< the same mesh on every call
-  std::vector<GroundStep> steps{};             ///< those that are known, of scenes that list them
+  std::vector<GroundStep> steps{};             ///< known steps; empty in most scenes
 
-  /// What moves: traffic and people as they are at the stop of this number, the same mesh on every
-  /// call. Empty where nothing moves.
+  /// Moving objects, traffic and people, at a stop: the same mesh on every call. Empty if nothing
+  /// moves.
   std::function<Mesh(const Ground&, int stop)> moving{};
 };
 
-/// A ground and what stands on it, ready to be cast against.
+/// A ground and the objects on it, ready for ray casting.
 class Scene {
  public:
-  /// `objects` is everything but the ground, whose triangles are added here.
+  /// `objects` are without the ground, whose triangles are added here.
   Scene(Ground ground, Mesh objects)
       : ground_(std::move(ground)), caster_(with_ground(ground_, std::move(objects))) {}
 
@@ -50,14 +50,14 @@ class Scene {
   RayCaster caster_;
 };
 
-/// A kind of surroundings by name, of which every seed draws another world.
+/// A named kind of scene. Every seed gives a different instance.
 struct SceneKind {
   std::string_view name;
-  std::string_view summary;  ///< a line for a list
+  std::string_view summary;  ///< one line for a list
   Landscape (*make)(std::uint64_t seed);
 };
 
-/// All kinds there are, in the order in which they are listed.
+/// All kinds, in the order of lists.
 std::span<const SceneKind> scene_kinds() noexcept;
 
 /// The kind of this name; null if there is none.

@@ -98,7 +98,8 @@ namespace {
 
 constexpr double half_turn = std::numbers::pi;
 
-// Puts things on the ground of one plan. "out" is the distance from the centre line on either side.
+// Adds objects to the ground of one plan. "out" is the distance from the centre line on either
+// side.
 class Furnisher {
  public:
   Furnisher(const StreetPlan& plan, const Ground& ground, Random& random)
@@ -122,7 +123,7 @@ class Furnisher {
   [[nodiscard]] double y_at(double x, Side side, double out) const {
     return shape_.centre_line(x) + sign(side) * out;
   }
-  // Upright on the ground, x axis along the street turned by `turn` radians.
+  // An upright frame on the ground, with its x axis along the street, turned by `turn` radians.
   [[nodiscard]] Frame upright_at(double x, Side side, double out, double turn) const {
     const double y = y_at(x, side, out);
     return upright_frame({x, y, ground_.height(x, y)}, shape_.heading(x) + turn);
@@ -136,7 +137,7 @@ class Furnisher {
   void build_house(const Plot& plot) {
     const double middle = (plot.x_begin + plot.x_end) / 2;
     const double out = shape_.land_begin(plot.side) + plot.setback;
-    // A house's y axis points into it, away from the street.
+    // The y axis of a house points into the house, away from the street.
     const double turn = plot.side == Side::left ? 0 : half_turn;
     add_house(mesh_, upright_at(middle, plot.side, out, turn), plot.house, random_);
   }
@@ -146,7 +147,7 @@ class Furnisher {
     const double depth = plot.built ? plot.setback : green_depth;
     const double area = depth * (plot.x_end - plot.x_begin);
     const double begin = shape_.land_begin(plot.side);
-    // A random place that is this far from sidewalk and house.
+    // A random position with this distance from the sidewalk and the house.
     const auto place = [&](double margin) {
       const double x = random_.uniform(plot.x_begin, plot.x_end);
       const double out = begin + random_.uniform(margin, std::max(margin, depth - margin));
@@ -224,7 +225,7 @@ class Furnisher {
     }
   }
 
-  // A lamp post, a sign, a street tree or nothing.
+  // Adds a lamp post, a sign, a street tree or nothing.
   void stand_at_kerb(double x, Side side) {
     const double out = shape_.sidewalk_begin(side) + 0.35;
     const double drawn = random_.uniform();
@@ -232,7 +233,7 @@ class Furnisher {
       const double to_street = side == Side::left ? -half_turn / 2 : half_turn / 2;
       add_lamp_post(mesh_, upright_at(x, side, out, to_street));
     } else if (drawn < 0.5) {
-      // Faces who comes: on the right who drives along +x.
+      // Signs face oncoming traffic, which drives along +x on the right.
       const double facing = side == Side::right ? half_turn : 0;
       add_traffic_sign(mesh_, upright_at(x, side, out, facing));
     } else if (drawn < 0.7) {
@@ -242,7 +243,7 @@ class Furnisher {
     }
   }
 
-  // Trees behind the houses, so that gaps do not open on nothing.
+  // Trees behind the houses fill the view through the gaps.
   void plant_behind(Side side) {
     constexpr double behind_houses = 20;
     double x = -shape_.half_length + 5;

@@ -11,16 +11,18 @@
 namespace flagstone::sim {
 namespace {
 
-constexpr double kerb_face_width = 0.02;  // a kerb leans back a little; keeps the height a function
-constexpr double gutter_fall = 0.02;      // of the parking strip, metres a metre outward
-constexpr double sidewalk_rise = 0.02;    // metres a metre outward
-constexpr double driveway_kerb_share = 0.2;  // of the kerb that stays at a driveway
-constexpr double driveway_ramp = 0.6;        // metres on either side of it
-constexpr double bank_begin = 0.5;           // metres behind the sidewalk
+constexpr double kerb_face_width =
+    0.02;                               // kerbs are tilted back, so that height is a function of t
+constexpr double gutter_fall = 0.02;    // of the parking strip outward, m/m
+constexpr double sidewalk_rise = 0.02;  // outward, m/m
+constexpr double driveway_kerb_share =
+    0.2;                               // fraction of the kerb height that remains at a driveway
+constexpr double driveway_ramp = 0.6;  // metres on each side of a driveway
+constexpr double bank_begin = 0.5;     // metres behind the sidewalk
 constexpr double bank_width = 4;
 constexpr double undulation_begin = 5;  // metres behind the sidewalk until it has its full height
 constexpr double dash_period = 6;       // of the centre marking, half of it painted
-constexpr double zebra_stripe = 0.5;    // metres across the street, and as much between
+constexpr double zebra_stripe = 0.5;    // metres across the street, with equal gaps
 
 constexpr Surface asphalt{.semantic = SemanticClass::road, .reflectivity = 0.24F};
 constexpr Surface paint{.semantic = SemanticClass::lane_marking, .reflectivity = 0.6F};
@@ -56,7 +58,7 @@ double crossing_share(const StreetShape& shape, double x) noexcept {
   return share;
 }
 
-// Height along the centre line, 0 at x = 0: a grade that turns smoothly into others.
+// Height along the centre line, 0 at x = 0, with smooth changes of grade.
 double longitudinal_height(const StreetShape& shape, double x) noexcept {
   double height = shape.grade * x;
   for (const GradeChange& curve : shape.grade_changes) {
@@ -87,7 +89,7 @@ double lateral_height(const StreetShape& shape, Side which, double x, double t) 
   double height = -shape.crown * on_road * on_road;
   height -= gutter_fall * std::clamp(out - shape.half_width, 0.0, side.parking_width);
 
-  // At a driveway or a crossing the kerb is low and the sidewalk makes up for it on the way out.
+  // At a driveway or a crossing the kerb is low, and the sidewalk rises by the difference.
   const double on_sidewalk =
       std::clamp(out - shape.sidewalk_begin(which), 0.0, side.sidewalk_width);
   const double low_kerb = std::max(driveway_share(side, x), crossing_share(shape, x));

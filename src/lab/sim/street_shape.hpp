@@ -12,13 +12,13 @@
 
 namespace flagstone::sim {
 
-/// The two sides of a street, seen by who drives along +x.
+/// The two sides of a street, in the direction +x.
 enum class Side : std::uint8_t { right = 0, left = 1 };
 
-/// +1 for left, where t grows, -1 for right.
+/// +1 for left (positive t), -1 for right.
 constexpr double sign(Side side) noexcept { return side == Side::left ? 1 : -1; }
 
-/// A place where the kerb is lowered and a paved way crosses to the houses.
+/// A lowered kerb with a paved way to the houses.
 struct Driveway {
   double x = 0;      ///< centre, metres along the street
   double width = 3;  ///< metres
@@ -29,48 +29,48 @@ struct StreetSide {
   double parking_width = 0;  ///< strip for parked cars between carriageway and kerb; 0 for none
   double kerb_height = 0.12;
   double sidewalk_width = 2;
-  double land_slope = 0;   ///< of the land behind the sidewalk, metres a metre outward
-  double bank_height = 0;  ///< an embankment that starts at the sidewalk; below 0 a slope down
+  double land_slope = 0;   ///< of the land behind the sidewalk, m/m outward
+  double bank_height = 0;  ///< of an embankment at the sidewalk; negative: a slope down
   std::vector<Driveway> driveways;
 };
 
 /// A gentle wave of the land behind the sidewalks.
 struct Undulation {
   double amplitude = 0;           ///< metres
-  double wave_x = 0, wave_y = 0;  ///< radians a metre
+  double wave_x = 0, wave_y = 0;  ///< rad/m
   double phase = 0;               ///< radians
 };
 
-/// A vertical curve: where the grade along the street turns into another.
+/// A vertical curve: a change of the grade along the street.
 struct GradeChange {
-  double change = 0;  ///< added to the grade beyond x, metres a metre
-  double x = 40;      ///< where half of the change is done, metres
-  double length = 8;  ///< how softly: half of it within about this length, metres
+  double change = 0;  ///< added to the grade beyond x, m/m
+  double x = 40;      ///< position of half of the change, metres
+  double length = 8;  ///< half of the change is within about this length, metres
 };
 
-/// How wide a zebra crossing is along the street, metres.
+/// Width of a zebra crossing along the street, metres.
 inline constexpr double crossing_width = 3.5;
 
-/// Everything that makes the ground of a street. The road runs along x and drives on the right; t
-/// is measured across from its centre line, to the left.
+/// All parameters of the ground of a street. The road is along x, with traffic on the right; t is
+/// measured to the left of its centre line.
 struct StreetShape {
   double half_length = 110;  ///< the ground covers x from -half_length to half_length
   double half_width = 3.2;   ///< of the carriageway
   double land_width = 40;    ///< behind each sidewalk
 
-  double grade = 0;                        ///< climb before all changes, metres a metre
+  double grade = 0;                        ///< before all changes, m/m
   std::vector<GradeChange> grade_changes;  ///< in any order
-  double bend_amplitude = 0;               ///< the centre line swings this far to the left
-  double bend_length = 150;                ///< and back, once in this length
+  double bend_amplitude = 0;               ///< swing of the centre line to the left and back
+  double bend_length = 150;                ///< wavelength of the swing
 
-  double crown = 0.06;    ///< how much higher the middle of the carriageway is than its edge
-  double cross_fall = 0;  ///< tilt of the whole street, metres a metre to the left
+  double crown = 0.06;    ///< height of the middle of the carriageway above its edge
+  double cross_fall = 0;  ///< tilt of the whole street to the left, m/m
   double marking_width = 0.12;
 
   std::array<StreetSide, 2> sides;  ///< indexed by Side
   std::vector<Undulation> undulations;
-  std::vector<double> crossings;  ///< middles of zebra crossings, where both kerbs are low, metres
-  bool paved_land = false;        ///< slabs behind the sidewalks, not lawn
+  std::vector<double> crossings;  ///< middles of zebra crossings, which have low kerbs, metres
+  bool paved_land = false;        ///< slabs instead of lawn behind the sidewalks
 
   [[nodiscard]] const StreetSide& side(Side which) const noexcept {
     return sides[static_cast<std::size_t>(which)];
@@ -99,11 +99,11 @@ struct StreetShape {
   /// Height of the ground at x, t metres left of the centre line.
   [[nodiscard]] double height(double x, double t) const noexcept;
 
-  /// What the ground is made of there.
+  /// Surface of the ground at x, t metres left of the centre line.
   [[nodiscard]] Surface surface(double x, double t) const noexcept;
 };
 
-/// The shape cut into a grid whose lines follow kerbs, markings and driveways.
+/// The shape as a grid whose lines follow kerbs, markings and driveways.
 Ground make_ground(const StreetShape& shape);
 
 }  // namespace flagstone::sim

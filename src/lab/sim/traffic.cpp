@@ -30,7 +30,7 @@ Footprint footprint(RoadUser kind) noexcept {
   return {};
 }
 
-// From a place to the nearest of what stands at a stop, metres.
+// Distance from a position to the nearest part of an object at a stop, metres.
 double distance_to(const Stop& stop, Footprint size, double x, double y) noexcept {
   const double dx = x - stop.x;
   const double dy = y - stop.y;
@@ -40,7 +40,7 @@ double distance_to(const Stop& stop, Footprint size, double x, double y) noexcep
                     std::max(std::abs(aside) - size.width / 2, 0.0));
 }
 
-// Are the two nearer than `gap` metres? Looks at points along one's middle line.
+// Whether the two are closer than `gap` metres. Tests points along the middle line of one.
 bool meet(const Stop& one, Footprint one_size, const Stop& other, Footprint other_size,
           double gap) noexcept {
   const double reach =
@@ -111,7 +111,8 @@ bool Traffic::join(Mover mover) {
   const Footprint size = footprint(mover.kind);
   const bool wide = mover.kind == RoadUser::truck || mover.kind == RoadUser::bus;
   const double from_sensor = wide ? 2.5 : 3;
-  constexpr Footprint own_size{.length = 10, .width = 2};  // with the distance to who drives ahead
+  constexpr Footprint own_size{.length = 10,
+                               .width = 2};  // including the distance to the car ahead
   const bool walks = mover.kind == RoadUser::person;
   for (int check = 0; check < checks; ++check) {
     const double seconds = check * checked_every;
@@ -145,7 +146,7 @@ void Traffic::fill(const Lane& lane, const std::function<RoadUser(Random&)>& dra
 }
 
 Mesh Traffic::at(const Ground& ground, int stop) const {
-  constexpr double margin = 8;  // of the longest
+  constexpr double margin = 8;  // about half the length of the longest vehicle, metres
   Mesh mesh;
   for (const Mover& mover : movers_) {
     const Stop now = mover.at(stop * stop_interval);

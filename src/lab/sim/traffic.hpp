@@ -14,53 +14,52 @@
 
 namespace flagstone::sim {
 
-/// How long the sensor takes from one stop to the next, seconds: its vehicle drives 8 m/s.
+/// Time between stops of the sensor, seconds: its vehicle drives at 8 m/s.
 inline constexpr double stop_interval = 1;
-inline constexpr double own_speed = frame_spacing / stop_interval;  ///< metres a second
+inline constexpr double own_speed = frame_spacing / stop_interval;  ///< m/s
 
 enum class RoadUser : std::uint8_t { car, truck, bus, cyclist, person, forklift };
 
-/// Someone who moves, or waits, while the sensor drives by.
+/// A road user that moves or waits while the sensor drives past.
 struct Mover {
   RoadUser kind = RoadUser::car;
-  std::function<Stop(double seconds)> at;  ///< where, since the sensor's first stop
-  std::uint64_t look = 0;                  ///< draws kind, paint and clothes
+  std::function<Stop(double seconds)> at;  ///< pose; time since the first stop of the sensor
+  std::uint64_t look = 0;                  ///< seed for model, paint and clothes
 };
 
-/// A line on the ground by x: where it is there, and its direction.
+/// A line on the ground: its position and direction at x.
 using Path = std::function<Stop(double x)>;
 
-/// The way of who follows a path `t` metres to its left: from x_begin on with `speed` metres a
-/// second, below 0 towards smaller x.
+/// Motion along a path, `t` metres to its left, from x_begin with `speed` m/s (negative: towards
+/// smaller x).
 std::function<Stop(double seconds)> along(Path path, double t, double x_begin, double speed);
 
-/// The way of who goes straight on from a place, at `speed` metres a second, and stands still after
-/// `way` metres.
+/// Straight motion from `begin` at `speed` m/s, which stops after `way` metres.
 std::function<Stop(double seconds)> straight(Stop begin, double speed, double way);
 
-/// All that moves in a drive. Nobody comes near the sensor or runs into another.
+/// All moving objects of a run. None comes near the sensor or collides with another.
 class Traffic {
  public:
   explicit Traffic(std::vector<Stop> route) : route_(std::move(route)) {}
 
-  /// Takes part if, from the first stop to the last, it stays 3 m from the sensor (2.5 m if it is a
-  /// truck or bus) and clear of all others; false if it does not. The sensor is taken to drive
-  /// straight from stop to stop.
+  /// Adds `mover` if, from the first stop to the last, it stays 3 m from the sensor (2.5 m for
+  /// trucks and buses) and clear of all others; otherwise returns false. The sensor is assumed to
+  /// drive straight from stop to stop.
   bool join(Mover mover);
 
-  /// A row of cars, or of what `draw` says, along a lane at one speed, `gap` metres from one's
-  /// end to the next one's front, so many that from x.low to x.high the lane is filled at every
-  /// stop. Those that cannot join are left out.
+  /// A row of vehicles along a lane at one speed, with `gap` metres between them. fill() adds as
+  /// many as needed to fill the lane from x.low to x.high at every stop; `draw` chooses their
+  /// kinds. Vehicles that join() does not accept are omitted.
   struct Lane {
     Path path;
     double t = 0;      ///< metres to the left of the path
-    double speed = 0;  ///< metres a second, below 0 towards smaller x
+    double speed = 0;  ///< m/s; negative: towards smaller x
     Interval x;
     Interval gap;
   };
   void fill(const Lane& lane, const std::function<RoadUser(Random&)>& draw, Random& random);
 
-  /// Everyone who is on the ground's grid, as they are at a stop.
+  /// All movers on the grid of the ground, at a stop.
   [[nodiscard]] Mesh at(const Ground& ground, int stop) const;
 
  private:
@@ -68,7 +67,7 @@ class Traffic {
   std::vector<Mover> movers_;
 };
 
-/// The traffic as what moves in a Landscape.
+/// The traffic as Landscape::moving.
 inline std::function<Mesh(const Ground&, int stop)> moving(Traffic traffic) {
   return
       [traffic = std::move(traffic)](const Ground& on, int stop) { return traffic.at(on, stop); };

@@ -15,7 +15,7 @@ namespace {
 Surface glass(SemanticClass semantic) { return {.semantic = semantic, .reflectivity = 0.06F}; }
 Surface rubber(SemanticClass semantic) { return {.semantic = semantic, .reflectivity = 0.08F}; }
 
-// The wheels of one axle, metres: their inner and outer faces to either side of the middle.
+// The wheels of one axle: distances of their inner and outer faces from the middle, metres.
 struct Wheels {
   double axle, inside, outside, radius;
   int sides = 14;
@@ -35,13 +35,13 @@ void add_wheels(Mesh& mesh, const Frame& frame, const Wheels& wheels, Surface su
 
 constexpr double car_clearance = 0.2;  // below the body, metres
 
-// Lengths in metres, places along the car as shares of its length from the rear (0) to the front
-// (1).
+// Lengths in metres; positions along the car as fractions of its length, from the rear (0) to the
+// front (1).
 struct CarKind {
   double length, width, height;
   double belt;                   // height of the lower edge of the windows
-  double rear_glass, roof_rear;  // where the rear window begins and ends
-  double roof_front, bonnet;     // where the windscreen begins and ends
+  double rear_glass, roof_rear;  // start and end of the rear window
+  double roof_front, bonnet;     // start and end of the windscreen
 };
 constexpr std::array<CarKind, 4> car_kinds{{
     {.length = 3.9,
@@ -97,8 +97,8 @@ void add_car_body(Mesh& mesh, const Frame& frame, const CarKind& kind, Surface p
 
 void add_car_cabin(Mesh& mesh, const Frame& frame, const CarKind& kind, Surface paint) {
   const double half = kind.width / 2 - 0.06;
-  constexpr double lean = 0.14;  // of the side windows
-  constexpr double roof = 0.06;  // its thickness
+  constexpr double lean = 0.14;  // inward tilt of the side windows, metres
+  constexpr double roof = 0.06;  // thickness
   const auto at = [&](double share, double low, double high) {
     return Section{.x = (share - 0.5) * kind.length,
                    .low = low,
@@ -258,7 +258,7 @@ void add_forklift(Mesh& mesh, const Frame& frame, Random& random) {
   constexpr Surface driver{.semantic = SemanticClass::person, .reflectivity = 0.3F};
   constexpr double rear = -forklift_length / 2;
   constexpr double half = forklift_width / 2;
-  constexpr double mast = 0.55;  // behind it stands the body, before it the fork
+  constexpr double mast = 0.55;  // x; the body is behind it, the fork in front
   const Surface paint = random_shade(SemanticClass::other_vehicle, {0.3, 0.6}, random);
   add_box(mesh, frame, {.low = {rear, -half + 0.05, 0.15}, .high = {mast - 0.1, half - 0.05, 0.7}},
           paint);
@@ -296,7 +296,7 @@ constexpr Surface machine_paint{.semantic = SemanticClass::other_vehicle, .refle
 constexpr Surface machine_glass{.semantic = SemanticClass::other_vehicle, .reflectivity = 0.06F};
 constexpr Surface machine_rubber{.semantic = SemanticClass::other_vehicle, .reflectivity = 0.07F};
 
-// A beam of square section between two points of the frame's x-z plane.
+// A beam of square section between two points in the x-z plane of the frame.
 void add_arm(Mesh& mesh, const Frame& frame, Vector3 from, Vector3 to, double width) {
   add_cone(mesh, frame,
            {.from = from, .to = to, .radius_from = width, .radius_to = 0.8 * width, .sides = 4},
@@ -315,7 +315,7 @@ void add_tractor(Mesh& mesh, const Frame& frame, int shares, Random& random) {
   add_box(mesh, frame, {.low = {-1.35, -0.7, 1.6}, .high = {0.25, 0.7, 2.65}}, machine_glass);
   add_box(mesh, frame, {.low = {-1.5, -0.8, 2.65}, .high = {0.4, 0.8, 2.8}}, body);
   if (shares == 0) return;
-  constexpr double pitch = 0.9;  // from share to share along the plough
+  constexpr double pitch = 0.9;  // between ploughshares, metres
   const double end = -1.8 - pitch * shares;
   add_arm(mesh, frame, {-1.4, 0, 0.8}, {end, -0.2 * shares, 0.9}, 0.1);
   for (int share = 0; share < shares; ++share) {

@@ -20,11 +20,11 @@ constexpr double half_width = 75;
 constexpr Surface grass{.semantic = SemanticClass::terrain, .reflectivity = 0.4F};
 constexpr Surface earth{.semantic = SemanticClass::other_ground, .reflectivity = 0.27F};
 
-// A step along the path: the land beyond is higher or lower.
+// A step along the path, beyond which the land is higher or lower.
 struct Bank {
-  double t;       // where it begins, metres from the path, signed
+  double t;       // start, metres from the path, signed
   double width;   // metres
-  double height;  // metres, below 0 for a drop
+  double height;  // metres; negative for a drop
   [[nodiscard]] double at(double pt) const noexcept {
     const double beyond = (t > 0 ? pt - t : t - pt) / width;
     const double step = std::clamp(beyond, 0.0, 1.0);
@@ -32,11 +32,11 @@ struct Bank {
   }
 };
 
-// The vehicle's path and the land around it; t is measured to the left of the path, along y.
+// The path of the vehicle and the land around it; t is measured to the left of the path, along y.
 struct Field {
   WindingPath path;
   std::vector<Wave> waves;
-  std::vector<Wave> soil;  // where their sum is high, earth is bare
+  std::vector<Wave> soil;  // the earth is bare where their sum is high
   std::vector<Mound> mounds;
   std::vector<Bank> banks;
 
@@ -51,12 +51,12 @@ struct Field {
   }
 };
 
-// Gentler where the vehicle has to pass.
+// Mounds are gentler on the path of the vehicle.
 Mound draw_mound(Random& random) {
   const double t = random.uniform(-35, 35);
   const double radius = random.uniform(2.5, 8);
   const double passable = std::min(1.0, 0.3 + std::abs(t) / 20);
-  const double steepness = passable * random.uniform(0.06, 0.24);  // 1.54 times that at most
+  const double steepness = passable * random.uniform(0.06, 0.24);  // maximum slope / 1.54
   const double up = random.chance(0.5) ? 1 : -1;
   return {
       .x = random.uniform(-90, 90), .t = t, .radius = radius, .height = up * steepness * radius};
@@ -82,7 +82,7 @@ Field draw_field(Random& random) {
   return field;
 }
 
-// Fine near the path, where bumps are seen one by one.
+// Lines are dense near the path, where single bumps are visible.
 std::vector<double> lines_across() {
   constexpr double fine_half_width = 20;
   constexpr double fine = 0.3;
@@ -120,7 +120,7 @@ Ground make_field(const Field& field) {
 using Plant = void(Mesh&, const Ground&, double x, double y, Random&);
 
 void put_up_fence(Mesh& mesh, const Field& field, const Ground& ground, Random& random) {
-  constexpr double piece = 6;  // straight, between bends of the path
+  constexpr double piece = 6;  // length of a straight piece of the fence, metres
   const double t = (random.chance(0.5) ? 1 : -1) * random.uniform(9, 20);
   const double begin = random.uniform(-80, -20);
   const double end = begin + random.uniform(40, 80);

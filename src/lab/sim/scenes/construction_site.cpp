@@ -32,15 +32,15 @@ constexpr Surface puddle{
     .semantic = SemanticClass::other_ground, .reflectivity = 0.05F, .mirror = 0.8F};
 constexpr Surface clay_pipe{.semantic = SemanticClass::other_object, .reflectivity = 0.3F};
 
-// t is measured to the left of the haul road's middle, along y.
+// t is measured to the left of the middle of the haul road, along y.
 struct Site {
   WindingPath path;
-  double pit_side = 1;  // +1: the pit lies to the left, the trench to the right
-  double fence = 30;    // how far from the path the site's fence stands, metres
+  double pit_side = 1;  // +1: the pit is to the left, the trench to the right
+  double fence = 30;    // distance of the fence from the path, metres
   Pit pit;
   Trench trench;
   std::vector<Wave> hills, churned, wet;
-  std::vector<Mound> mounds;  // low ones, which a vehicle passes
+  std::vector<Mound> mounds;  // low enough for a vehicle
 
   [[nodiscard]] bool on_site(double t) const noexcept { return std::abs(t) < fence; }
   [[nodiscard]] double dug(double x, double t) const noexcept {
@@ -59,7 +59,7 @@ struct Site {
     if (std::abs(t) < haul_road) return sum_at(wet, x, t) > 2 ? puddle : hardcore;
     return earth;
   }
-  // Neither in a hole nor within `clear` metres of one.
+  // Whether the position is more than `clear` metres from pit and trench.
   [[nodiscard]] bool is_free(double x, double t, double clear) const noexcept {
     const double to_pit = pit_side * t;
     const bool beside_pit = x > pit.x_begin - clear && x < pit.x_end + clear &&
@@ -140,7 +140,7 @@ Ground make_site(const Site& site) {
                      .surface = [&](double x, double t) { return site.surface(x, t); }});
 }
 
-// Panels all along both sides, but for gates.
+// Panels along both sides, except for gates.
 void fence_in(Mesh& mesh, const Site& site, const Ground& ground, Random& random) {
   constexpr double panel = 3.5;
   for (const double side : {-1.0, 1.0}) {
@@ -151,7 +151,7 @@ void fence_in(Mesh& mesh, const Site& site, const Ground& ground, Random& random
   }
 }
 
-// What was dug out of the trench lies along it; a pipe lies in it, boards lead across.
+// Excavated earth lies along the trench, a pipe lies in it, and boards lead across.
 void furnish_trench(Mesh& mesh, const Site& site, const Ground& ground, Random& random) {
   const Trench& trench = site.trench;
   const double middle = trench.t_near + trench.width / 2;
@@ -174,7 +174,8 @@ void furnish_trench(Mesh& mesh, const Site& site, const Ground& ground, Random& 
   }
 }
 
-// Places on the site that are free of holes, so far from the path and so wide; tried until found.
+// Draws positions on the site until one has the requested distance from the path and is clear of
+// holes.
 class FreePlaces {
  public:
   FreePlaces(const Site& site, Random& random) : site_(site), random_(random) {}
@@ -222,7 +223,7 @@ Mesh furnish_site(const Site& site, const Ground& ground, Random random) {
   put(16, {3.8, 16}, 2.6, [&](const Frame& frame) { add_board(mesh, frame, random); });
   put(3, {20, 25}, 3.5, [&](const Frame& frame) { add_container(mesh, frame); });
   put(5, {5, 18}, 0.6, [&](const Frame& frame) { add_person(mesh, frame, random); });
-  // Barriers at the edge of the haul road, on the pit's side.
+  // Barriers at the edge of the haul road, on the side of the pit.
   add_concrete_barrier(mesh, site.pit_side * (site.pit.t_near - 1.2),
                        {site.pit.x_begin, site.pit.x_begin + 16},
                        [&](double x, double t, double z) {
@@ -239,10 +240,10 @@ Mesh furnish_site(const Site& site, const Ground& ground, Random random) {
   return mesh;
 }
 
-// Stands where it digs, and swings.
+// An excavator, which stays in one position and swings.
 struct Digging {
   double x = 0, t = 0, yaw = 0;
-  double swing = 0, turn = 0.5;  // at stop 0, and from one stop to the next, radians
+  double swing = 0, turn = 0.5;  // at stop 0, and per stop, radians
 };
 
 Digging draw_digging(const Site& site, Random& random) {
@@ -256,7 +257,7 @@ Digging draw_digging(const Site& site, Random& random) {
           .turn = random.uniform(0.25, 0.6)};
 }
 
-// Between the haul road and the pit.
+// Workers walk between the haul road and the pit.
 Traffic draw_workers(const Site& site, std::vector<Stop> route, Random& random) {
   Traffic workers(std::move(route));
   for (int i = 0; i < 5; ++i) {

@@ -20,52 +20,52 @@
 namespace flagstone::sim {
 namespace {
 
-// Two crowned roads that cross at the origin, one along x and one along y. Lengths in metres; what
-// is said of one arm holds for its opposite too.
+// Two crowned roads that cross at the origin, one along x and one along y. Lengths in metres;
+// opposite arms are equal.
 struct CrossroadsShape {
   static constexpr double half_length = 105;  // of the road along x
-  static constexpr double half_width = 70;    // and of that along y
+  static constexpr double half_width = 70;    // of the road along y
   static constexpr double crossing_width = 3.5;
   static constexpr double island_half_width = 0.9;
 
   // One of the roads.
   struct Road {
     double half_width;
-    double crown;     // how much its middle is higher than its edge
-    double grade;     // metres a metre
-    double sag;       // change of the grade, a metre
-    Interval island;  // reach along it, from the middle of the junction; empty for none
+    double crown;     // height of its middle above its edge
+    double grade;     // m/m
+    double sag;       // change of the grade, 1/m
+    Interval island;  // along the road, from the middle of the junction; empty for none
   };
   Road own, side;  // along x, along y
-  double corner;   // radius of the kerb between the two
+  double corner;   // radius of the kerb between the roads
   double kerb_height;
   double sidewalk;  // width
   double island_height;
-  Interval bed_x, bed_y;              // reach of the flower beds at the corners
+  Interval bed_x, bed_y;              // extent of the flower beds at the corners
   std::array<double, 4> bed_heights;  // 0 for none; see quadrant()
-  std::array<bool, 4> lawn;           // behind the sidewalk, or slabs
+  std::array<bool, 4> lawn;           // lawn instead of slabs behind the sidewalk
 
-  // 0 where x and y are above 0, then counter-clockwise.
+  // 0 if x and y are positive, then counter-clockwise.
   static std::size_t quadrant(double x, double y) noexcept {
     return y > 0 ? (x > 0 ? 0U : 1U) : (x > 0 ? 3U : 2U);
   }
-  // Where the zebra crossings over a road begin, from the middle of the junction.
+  // Start of the zebra crossings over a road, from the middle of the junction.
   [[nodiscard]] double crossing_begin(const Road& other) const noexcept {
     return other.half_width + corner + 0.5;
   }
-  // To the kerb, above 0 behind it.
+  // Signed distance to the kerb, positive behind it.
   [[nodiscard]] double behind_kerb(double x, double y) const noexcept;
 
   [[nodiscard]] double height(double x, double y) const noexcept;
   [[nodiscard]] Surface surface(double x, double y) const noexcept;
 };
 
-constexpr double face = 0.02;     // of kerbs: they lean back
-constexpr double fine = 0.12;     // lines where kerbs are round
+constexpr double face = 0.02;     // of kerbs, which are tilted back
+constexpr double fine = 0.12;     // distance of grid lines at round kerbs
 constexpr double rim = 0.15;      // of islands and beds
-constexpr double ramp = 0.6;      // beside a lowered kerb
+constexpr double ramp = 0.6;      // next to a lowered kerb
 constexpr double stripe = 0.5;    // of a zebra crossing
-constexpr double low_kerb = 0.2;  // share of the kerb that stays at a crossing
+constexpr double low_kerb = 0.2;  // fraction of the kerb height that remains at a crossing
 
 constexpr Surface asphalt{.semantic = SemanticClass::road, .reflectivity = 0.22F};
 constexpr Surface paint{.semantic = SemanticClass::lane_marking, .reflectivity = 0.6F};
@@ -73,12 +73,12 @@ constexpr Surface slabs{.semantic = SemanticClass::sidewalk, .reflectivity = 0.3
 constexpr Surface grass{.semantic = SemanticClass::terrain, .reflectivity = 0.4F};
 constexpr Surface soil{.semantic = SemanticClass::terrain, .reflectivity = 0.25F};
 
-// How far within an interval, 0 at its ends and below 0 outside.
+// Distance to the ends of an interval, negative outside.
 double within(Interval interval, double value) noexcept {
   return std::min(value - interval.low, interval.high - value);
 }
 
-// To the edge of an island or bed, above 0 inside; the road runs along `ahead`.
+// Signed distance to the edge of an island or bed, positive inside. `ahead` is along the road.
 double within_island(const CrossroadsShape::Road& road, double ahead, double aside) noexcept {
   return std::min(within(road.island, std::abs(ahead)),
                   CrossroadsShape::island_half_width - std::abs(aside));
@@ -87,13 +87,13 @@ double within_bed(const CrossroadsShape& shape, double x, double y) noexcept {
   return std::min(within(shape.bed_x, std::abs(x)), within(shape.bed_y, std::abs(y)));
 }
 
-// 1 on the way of a zebra crossing over a road, 0 well beside.
+// 1 on a zebra crossing over a road, decreasing to 0 next to it.
 double on_crossing(double begin, double ahead) noexcept {
   const double inside = within({begin, begin + CrossroadsShape::crossing_width}, std::abs(ahead));
   return std::clamp(1 + inside / ramp, 0.0, 1.0);
 }
 
-// A parabola, 0 from the road's edge on.
+// Height of the crown: a parabola, 0 at the edge of the road and beyond.
 double crown_of(const CrossroadsShape::Road& road, double aside) noexcept {
   const double share = aside / road.half_width;
   return road.crown * std::max(0.0, 1 - share * share);
@@ -103,14 +103,14 @@ double along_grade(const CrossroadsShape::Road& road, double ahead) noexcept {
   return road.grade * ahead + road.sag * ahead * ahead / 2;
 }
 
-// Lines across one of the axes, of which `road` runs along the other one.
+// Grid lines across one of the axes; `road` is along the other axis.
 std::vector<double> lines(const CrossroadsShape& shape, const CrossroadsShape::Road& road,
                           const CrossroadsShape::Road& along, Interval bed, double half) {
   const double edge = road.half_width;
   std::vector<double> outward;
   add_lines(outward, 0, edge, 0.5);
   for (double at = 0; at < edge; at += stripe) outward.push_back(at);
-  outward.push_back(0.08);  // of the marking in the middle
+  outward.push_back(0.08);  // edge of the marking in the middle
   add_lines(outward, edge, edge + face, face);
   add_lines(outward, edge + face, edge + shape.corner, fine);
   add_lines(outward, edge + shape.corner, half, 1);
@@ -159,7 +159,7 @@ double CrossroadsShape::behind_kerb(double x, double y) const noexcept {
 double CrossroadsShape::height(double x, double y) const noexcept {
   const double one = crown_of(own, y);
   const double other = crown_of(side, x);
-  // The higher one in the middle of the junction, each of them on its own arms.
+  // Combines the crowns: the higher one in the middle of the junction, each one on its own arms.
   double height = along_grade(own, x) + along_grade(side, y) + one + other -
                   one * other / std::max(own.crown, side.crown);
   const double behind = behind_kerb(x, y);
@@ -181,7 +181,7 @@ Surface CrossroadsShape::surface(double x, double y) const noexcept {
   const double behind = behind_kerb(x, y);
   const double island = std::max(within_island(own, x, y), within_island(side, y, x));
   if (island > 0) return island > rim ? grass : slabs;
-  // A cell that a round kerb cuts is part of the kerb.
+  // A cell that is crossed by a round kerb is part of the kerb.
   const bool round = std::abs(x) > side.half_width && std::abs(y) > own.half_width;
   if (behind > (round ? -fine / 2 : 0)) {
     const std::size_t corner_index = quadrant(x, y);
@@ -240,13 +240,13 @@ Ground make_ground(const CrossroadsShape& shape) {
 
 constexpr double half_turn = std::numbers::pi;
 
-// The middle of the lane on either side of a road's middle.
+// Distance between the middle of a road and the middles of its lanes.
 double lane_of(const CrossroadsShape::Road& road) noexcept {
   const double begin = road.island.high > 0 ? CrossroadsShape::island_half_width : 0;
   return (begin + road.half_width) / 2;
 }
 
-// Puts things on a junction. Signs say in which quadrant: +1 or -1 along x and along y.
+// Adds objects to a junction. The quadrant is given by signs: +1 or -1 along x and along y.
 class Furnisher {
  public:
   Furnisher(const CrossroadsShape& shape, const Ground& ground, Random& random)
@@ -281,7 +281,7 @@ class Furnisher {
             .shop = random_.chance(0.6)};
   }
 
-  // Houses along both roads from the corner on; a house's y axis points into it.
+  // Houses along both roads, starting at the corner. The y axis of a house points into it.
   void build_rows(double sx, double sy) {
     const double behind = shape_.sidewalk + 0.3;
     const double front_y = shape_.own.half_width + behind;
@@ -344,7 +344,7 @@ class Furnisher {
   }
 
   void line_kerbs(double sx, double sy) {
-    // Bollards around the corner, where the kerb is round.
+    // Bollards along the round kerb of the corner.
     const double middle_x = shape_.side.half_width + shape_.corner;
     const double middle_y = shape_.own.half_width + shape_.corner;
     const double radius = shape_.corner - 0.5;
@@ -367,10 +367,10 @@ class Furnisher {
     }
   }
 
-  // Before the crossings, on the right of who comes along each road.
+  // Traffic lights are before the crossings, on the right in the direction of traffic.
   void put_up_lights(double sx, double sy) {
-    constexpr double before = 0.7;          // the crossing
-    const bool right_of_own = sx * sy > 0;  // who comes from x < 0 keeps to y < 0
+    constexpr double before = 0.7;          // metres before the crossing
+    const bool right_of_own = sx * sy > 0;  // traffic from x < 0 is at y < 0
     if (right_of_own) {
       const double x =
           shape_.crossing_begin(shape_.side) + CrossroadsShape::crossing_width + before;
@@ -397,7 +397,7 @@ RoadUser draw_vehicle(Random& random) {
   return drawn < 0.9 ? RoadUser::bus : RoadUser::cyclist;
 }
 
-// On the side road: waiting at the crossing, or on the way over the junction while that is free.
+// Vehicles on the side road wait at the crossing, or cross the junction while it is free.
 void send_crossing_traffic(Traffic& traffic, const CrossroadsShape& shape, Random& random) {
   for (const double from : {-1.0, 1.0}) {
     const double x = -from * lane_of(shape.side);
@@ -437,7 +437,7 @@ void send_pedestrians(Traffic& traffic, const CrossroadsShape& shape, Random& ra
     walk(on_crossing(shape.side), random.uniform(0, 1) * own, -sign * half_turn / 2,
          std::abs(own) + std::abs(own) * 0.9);
   }
-  // Along the sidewalks, as far as the crossing.
+  // Pedestrians walk along the sidewalks, up to the crossing.
   for (int person = 0; person < 50; ++person) {
     const double from = shape.crossing_begin(shape.side);
     const double x = from + random.uniform(0, 60);

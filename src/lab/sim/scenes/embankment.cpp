@@ -27,31 +27,31 @@ constexpr double half_width = 75;
 constexpr double block_length = 20;
 constexpr double blend = 2;
 constexpr std::size_t block_count = 12;
-constexpr double level_land = 20;  // from here outward the land waves, metres from the centre line
+constexpr double level_land = 20;  // metres from the centre line; beyond it the land has waves
 
 constexpr Surface asphalt{.semantic = SemanticClass::road, .reflectivity = 0.2F};
 constexpr Surface marking{.semantic = SemanticClass::lane_marking, .reflectivity = 0.6F};
 constexpr Surface gravel{.semantic = SemanticClass::other_ground, .reflectivity = 0.32F};
 constexpr Surface concrete{.semantic = SemanticClass::other_structure, .reflectivity = 0.4F};
 
-// What stands along a block of the dam's side.
+// Objects along a block on the side of the dam.
 enum class Furnished : std::uint8_t { open, railed, culvert };
 
 struct Block {
-  std::size_t kind;  // index into the side's kinds
+  std::size_t kind;  // index into the kinds of the side
   Furnished furnished;
 };
 
-// The road runs straight along x; t = y is measured to the left of its centre line.
+// The road is straight along x; t = y is measured to the left of its centre line.
 struct Road {
   double half_road = 4.4;  // of the asphalt, metres
   double shoulder = 1.5;
   double grade = 0, cross_fall = 0;
-  double dam_side = -1;  // +1: the dam's slope lies to the left, the cutting to the right
+  double dam_side = -1;  // +1: the slope of the dam is to the left, the cutting to the right
   DamMeasures measures;
   std::array<std::vector<EdgeKind>, 2> kinds;  // of the dam and of the cutting
   std::array<EdgeRow, 2> edges;
-  std::vector<Furnished> furnished;  // the dam's side, block by block
+  std::vector<Furnished> furnished;  // on the side of the dam, block by block
   std::vector<Wave> land;
 
   static constexpr double line = 0.15;  // width of a marking, metres
@@ -76,13 +76,13 @@ struct Road {
   }
 };
 
-// Blocks of the dam's side that follow each other; every kind stands beside every drive.
+// Consecutive blocks on the side of the dam. Every run passes every kind.
 std::vector<Block> dam_blocks() {
   return {{0, Furnished::open}, {1, Furnished::culvert}, {2, Furnished::railed},
           {1, Furnished::open}, {2, Furnished::open},    {0, Furnished::railed}};
 }
 
-// Kept where it does not move: the edges point to the kinds.
+// On the heap, so that it does not move: the edges point to the kinds.
 std::shared_ptr<const Road> draw_road(Random& random) {
   auto road = std::make_shared<Road>();
   road->half_road = random.uniform(4.2, 4.8);
@@ -140,7 +140,7 @@ Ground make_road(const Road& road) {
                      .surface = [&](double x, double t) { return road.surface(x, t); }});
 }
 
-// A pipe through the dam, with a head wall at its foot.
+// A pipe through the dam, with a head wall at the base of the dam.
 void add_culvert(Mesh& mesh, const Road& road, const Ground& ground, double x) {
   const double foot = road.edge() + road.measures.run * road.measures.dam;
   const double y = road.dam_side * (foot - 0.6);
@@ -192,7 +192,7 @@ Mesh furnish_embankment(const Road& road, const Ground& ground, Random random) {
   grow(0.012, {edge + 3.5, 40}, add_bush);
   grow(0.5, {edge + 0.1, 18}, add_tuft);
   grow(0.015, {edge + 1.6, 25}, add_ground_cover);
-  // High grass at the foot of the dam, along the ditch.
+  // High grass at the base of the dam, along the ditch.
   const double foot = edge + road.measures.run * road.measures.dam;
   for (double x = -50; x < 50; x += random.uniform(4, 12)) {
     add_high_grass(mesh, ground,
@@ -205,7 +205,7 @@ Mesh furnish_embankment(const Road& road, const Ground& ground, Random random) {
   return mesh;
 }
 
-// Cars that come towards the sensor.
+// Oncoming cars.
 Traffic draw_traffic(double lane, std::vector<Stop> route, Random& random) {
   Traffic traffic(std::move(route));
   constexpr double end_of_road = half_length - 5;

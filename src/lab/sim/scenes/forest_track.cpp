@@ -24,11 +24,11 @@ constexpr Surface puddle{
 
 constexpr double half_length = 112;  // of the ground, metres
 constexpr double half_width = 60;
-constexpr double rut = 0.78;  // middle of a wheel's rut, metres from that of the track
+constexpr double rut = 0.78;  // from the middle of the track to the middle of a rut, metres
 
-// A root that crosses the track, or ends on it: a ridge.
+// A root that crosses the track or ends on it, as a ridge.
 struct Root {
-  double x, slant;        // at the middle of the track, metres; metres along a metre across
+  double x, slant;        // at the middle of the track, metres; dx / dt, m/m
   double t_begin, t_end;  // metres
   double height;          // metres
   [[nodiscard]] double at(double px, double pt) const noexcept {
@@ -38,16 +38,16 @@ struct Root {
   }
 };
 
-// The track is cut into a hillside: a bank on the upper side, a shoulder on the lower one. t is
-// measured to the left of the track's middle, along y.
+// The track is cut into a hillside, with a bank on the upper side and a shoulder on the lower side.
+// t is measured to the left of the middle of the track, along y.
 struct Track {
   WindingPath path;
   double uphill = 1;                   // +1: the hill rises to the left
-  double side_slope = 0.05;            // of the hill, metres a metre
+  double side_slope = 0.05;            // of the hill, m/m
   double bank_height = 0.4;            // on the upper side
-  double half_width = 1.7;             // of what is level between bank and shoulder
+  double half_width = 1.7;             // of the level part between bank and shoulder
   std::array<double, 2> rut_depth{};   // right and left, metres
-  double rut_wave = 0, rut_phase = 0;  // how their depths change along the track
+  double rut_wave = 0, rut_phase = 0;  // of the depth of the ruts along the track
   std::vector<Wave> hills, tilts, bumps, litter;
   std::vector<Root> roots;
 
@@ -60,7 +60,7 @@ struct Track {
   [[nodiscard]] double height(double x, double t) const noexcept {
     const double up = uphill * t;
     double land = sum_at(hills, x, 0.3 * t) + sum_at(bumps, x, t);
-    // Across the track it tilts by what the seed draws, beyond it by the hill's slope.
+    // On the track the tilt is random; beyond it, it is the slope of the hill.
     land += sum_at(tilts, x, 0) * std::clamp(t, -half_width, half_width);
     if (up > half_width) {
       land += bank_height * smooth_step(half_width, half_width + 1.4, up) +
@@ -134,7 +134,7 @@ Mesh furnish_forest(const Track& track, const Ground& ground, Random random) {
   grow(0.006, {5.6, 22},
        [&](double x, double y) { add_fallen_log(mesh, ground, x, y, turned(), random); });
   grow(0.01, {2.6, 18}, [&](double x, double y) { add_stump(mesh, ground, x, y, random); });
-  // Boughs that reach over the track's edges.
+  // Boughs that reach over the edges of the track.
   for (double x = -60; x < 60; x += random.uniform(5, 14)) {
     const double side = random.chance(0.5) ? 1 : -1;
     const double y = track.path.y(x) + side * random.uniform(3.8, 4.6);
@@ -144,7 +144,7 @@ Mesh furnish_forest(const Track& track, const Ground& ground, Random random) {
   return mesh;
 }
 
-// Beside the track.
+// People walk next to the track.
 Traffic draw_walkers(const WindingPath& path, std::vector<Stop> route, Random& random) {
   Traffic walkers(std::move(route));
   for (int i = 0; i < 3; ++i) {

@@ -25,7 +25,7 @@ constexpr double half_width = 75;
 constexpr int lanes = 3;
 constexpr double lane_width = 3.75;
 constexpr double line_width = 0.2;  // of the markings
-constexpr double dash = 6;          // and twice as much between
+constexpr double dash = 6;          // length of a dash; gaps are twice as long
 constexpr double verge = 2;         // level, between shoulder and slope
 constexpr double ditch_width = 1.6;
 constexpr double ditch_depth = 0.35;
@@ -37,12 +37,12 @@ constexpr Surface grass{.semantic = SemanticClass::terrain, .reflectivity = 0.4F
 constexpr Surface steel{.semantic = SemanticClass::other_structure, .reflectivity = 0.3F};
 constexpr Surface sign_plate{.semantic = SemanticClass::traffic_sign, .reflectivity = 0.9F};
 
-// What lies beside a carriageway. Heights in metres above its edge: below 0 an embankment, above a
-// cutting.
+// The land next to a carriageway. Heights in metres above its edge: negative for an embankment,
+// positive for a cutting.
 struct Roadside {
-  double height, swell, phase;  // height and how much it changes along the road
-  double steepness;             // metres a metre
-  double noise_barrier;         // height, 0 for none
+  double height, swell, phase;  // mean height, and its variation along the road
+  double steepness;             // m/m
+  double noise_barrier;         // height; 0 for none
   Interval barrier_reach;       // x
   bool guard_rail;
   [[nodiscard]] double height_at(double x) const noexcept {
@@ -53,11 +53,11 @@ struct Roadside {
 struct Highway {
   RoadCurve curve;
   double half_median, inner_shoulder, outer_shoulder;
-  double grade, sag;              // the height along it: grade x + sag x^2 / 2
-  double cross_fall, bank;        // outward on the straight; in the curve, up to the left
-  bool concrete;                  // the barrier in the median
+  double grade, sag;              // height along the road: grade x + sag x^2 / 2
+  double cross_fall, bank;        // outward on the straight; upward to the left in the curve
+  bool concrete;                  // material of the barrier in the median
   std::array<Roadside, 2> sides;  // indexed by Side
-  int own_lane;                   // 0 beside the median
+  int own_lane;                   // 0 is next to the median
   double gantry;                  // x
 
   [[nodiscard]] double lanes_begin() const noexcept { return half_median + inner_shoulder; }
@@ -69,7 +69,7 @@ struct Highway {
   [[nodiscard]] const Roadside& side(double t) const noexcept { return sides[t > 0]; }
   [[nodiscard]] double height(double x, double t) const noexcept;
   [[nodiscard]] Surface surface(double x, double t) const noexcept;
-  // Standing on the ground.
+  // Road coordinates relative to the ground.
   [[nodiscard]] RoadPlace place(const Ground& ground) const {
     return [this, &ground](double x, double t, double z) {
       const double y = curve.at(x).y + t;
@@ -142,7 +142,7 @@ Ground make_highway(const Highway& highway) {
                   .offset = [&](double x) { return highway.curve.at(x).y; },
                   .height = [&](double x, double t) { return highway.height(x, t); },
                   .surface = [&](double x, double t) { return highway.surface(x, t); }};
-  add_lines(plan.x, -half_length, half_length, 2);  // divides the dashes
+  add_lines(plan.x, -half_length, half_length, 2);  // a divisor of the dash length
   std::vector<double> outward;
   add_lines(outward, 0, highway.half_median, 1);
   add_lines(outward, highway.half_median, highway.paved(), 1);
@@ -164,7 +164,7 @@ Ground make_highway(const Highway& highway) {
   return cut_ground(std::move(plan));
 }
 
-// A portal over one carriageway, between the median and the verge.
+// A gantry over one carriageway, between the median and the verge.
 void add_gantry(Mesh& mesh, const Highway& highway, double side, const RoadPlace& place,
                 Random& random) {
   const double x = highway.gantry;
@@ -190,7 +190,7 @@ void add_gantry(Mesh& mesh, const Highway& highway, double side, const RoadPlace
     if (!random.chance(0.75)) continue;
     const double t = side * highway.lane(lane);
     const double half = random.uniform(0.8, 1.6);
-    const double facing = side < 0 ? -0.35 : 0.35;  // towards who comes
+    const double facing = side < 0 ? -0.35 : 0.35;  // towards oncoming traffic
     add_box(mesh, frame,
             {.low = {facing - 0.04, t - half, -0.3}, .high = {facing + 0.04, t + half, 1.7}},
             sign_plate);
@@ -244,13 +244,13 @@ Traffic send_traffic(const Highway& highway, const std::vector<Stop>& route, Ran
   for (const double side : {-1.0, 1.0}) {
     for (int lane = 0; lane < lanes; ++lane) {
       const double trucks = lane == lanes - 1 ? 0.6 : lane == 1 ? 0.2 : 0;
-      // Slow beside the sensor, the faster the nearer to the median; free on the other side.
+      // Slow next to the sensor, faster towards the median, unrestricted on the other carriageway.
       double speed = side > 0 ? -random.uniform(20, 30) : own_speed;
       double t = side * highway.lane(lane);
       if (side < 0 && lane != highway.own_lane) {
         const int inward = highway.own_lane - lane;
         speed = inward > 0 ? own_speed + random.uniform(2, 10) : own_speed - random.uniform(0, 4);
-        if (std::abs(inward) == 1) t += 0.52 * inward;  // leaves room to the sensor's lane
+        if (std::abs(inward) == 1) t += 0.52 * inward;  // keeps clear of the lane of the sensor
       }
       traffic.fill(
           {.path = middle, .t = t, .speed = speed, .x = {-160, 180}, .gap = {10, 55}},

@@ -22,8 +22,8 @@ namespace {
 
 constexpr double half_turn = std::numbers::pi;
 constexpr double half_length = 55;  // to the end walls, metres
-constexpr double dock_drop = 1.1;   // from the floor to the yard before the dock
-constexpr double dock_face = 0.1;   // thickness of the wall that hides the drop's face
+constexpr double dock_drop = 1.1;   // from the floor to the yard in front of the dock
+constexpr double dock_face = 0.1;   // thickness of the wall that hides the face of the drop
 constexpr double yard_width = 20;
 constexpr double line_width = 0.12;
 constexpr double rack_gap = 3.2;  // between rows
@@ -36,16 +36,16 @@ constexpr Surface steel{.semantic = SemanticClass::other_structure, .reflectivit
 
 enum class Use { racks_along, racks_across, staging, dock };
 
-// A hall with an aisle along x in its middle, where the sensor drives.
+// A hall with an aisle along x in its middle, which is the path of the sensor.
 struct Hall {
   double half_aisle;
   double height;  // of the roof
   double column_pitch;
-  double fall_x, fall_y;        // slopes of the floor, metres a metre
-  double gloss;                 // how well the floor mirrors
+  double fall_x, fall_y;        // slopes of the floor, m/m
+  double gloss;                 // specular reflection of the floor, see Surface::mirror
   std::array<Use, 2> uses;      // of the right and the left half
-  std::array<double, 2> reach;  // from the aisle's middle to the walls
-  double dock;                  // from the aisle's middle to the edge of a dock
+  std::array<double, 2> reach;  // from the middle of the aisle to the walls
+  double dock;                  // from the middle of the aisle to the edge of a dock
 
   [[nodiscard]] bool drops(double y) const noexcept {
     return uses[y > 0] == Use::dock && std::abs(y) > dock;
@@ -91,7 +91,7 @@ Ground make_floor(const Hall& hall) {
                   .height = [&](double x, double y) { return hall.ground(x, y); },
                   .surface = [&](double, double y) { return hall.surface(y); }};
   constexpr double below_walls = 0.3;
-  constexpr double face = 0.02;  // over which the floor drops
+  constexpr double face = 0.02;  // width over which the floor drops, metres
   add_lines(plan.x, -half_length - below_walls, half_length + below_walls, 1);
   add_lines(plan.t, -hall.reach[0] - below_walls, hall.reach[1] + below_walls, 1);
   for (const double side : {-1.0, 1.0}) {
@@ -105,7 +105,7 @@ Ground make_floor(const Hall& hall) {
   return cut_ground(std::move(plan));
 }
 
-// Puts things into a hall. `side` is -1 for its right half, +1 for its left one.
+// Adds objects to a hall. `side` is -1 for its right half, +1 for its left half.
 class Furnisher {
  public:
   Furnisher(const Hall& hall, const Ground& ground, Random& random)
@@ -187,7 +187,7 @@ class Furnisher {
     }
   }
 
-  // Pallets in loose rows on the floor, as far out as `reach`.
+  // Pallets in irregular rows on the floor, up to `reach` from the middle.
   void stage(double side, double reach) {
     for (double x = -half_length + 4; x < half_length - 4; x += random_.uniform(1.4, 5)) {
       for (double out = hall_.half_aisle + 1.4; out < reach - 1; out += random_.uniform(1, 3.5)) {
@@ -201,7 +201,7 @@ class Furnisher {
   void build_dock(double side) {
     const double edge = side * hall_.dock;
     const double outer = side * (hall_.dock + dock_face);
-    // Around the drop's face, just below the floor.
+    // A wall around the face of the drop, just below the floor.
     constexpr double piece = 5;
     for (double x = -half_length; x < half_length; x += piece) {
       const double floor = std::min(hall_.ground(x, edge), hall_.ground(x + piece, edge));
@@ -212,13 +212,13 @@ class Furnisher {
     for (double x = -half_length + 6; x < half_length - 4; x += random_.uniform(4, 8)) {
       add_bollard(mesh_, upright(x + 2, edge - side * 0.3, 0));
       if (!random_.chance(0.45)) continue;
-      // Backed up to the dock.
+      // A truck backed up to the dock.
       const double y = side * (hall_.dock + dock_face + 0.15 + truck_length / 2);
       add_truck(mesh_, upright(x, y, side * half_turn / 2), random_);
     }
   }
 
-  // Low things beside the sensor's path.
+  // Low objects next to the path of the sensor.
   void leave_things(double side) {
     for (double x = -half_length + 8; x < half_length - 8; x += random_.uniform(5, 16)) {
       const double drawn = random_.uniform();
@@ -248,7 +248,7 @@ Traffic send_traffic(const Hall& hall, const std::vector<Stop>& route, Random& r
   traffic.join({.kind = RoadUser::forklift,
                 .at = along(middle, 0, -half_drive + random.uniform(11, 20), own_speed),
                 .look = random.bits()});
-  // Along the edges of the aisle, and across its end.
+  // Traffic along the edges of the aisle, and across its end.
   const auto either = [&] { return random.chance(0.5) ? 1.0 : -1.0; };
   for (int forklift = 0; forklift < 6; ++forklift) {
     traffic.join({.kind = RoadUser::forklift,

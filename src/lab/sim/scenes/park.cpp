@@ -27,7 +27,7 @@ constexpr Surface water{
 constexpr double half_length = 115;  // of the ground, metres
 constexpr double half_width = 75;
 
-// Water in a hollow with an even bank.
+// A pond in a hollow with an even bank.
 struct Pond {
   double x = 0, t = 0;           // middle, metres
   double along = 8, across = 5;  // half axes, metres
@@ -39,11 +39,11 @@ struct Pond {
   }
 };
 
-// t is measured to the left of the main path, along y; a foot path runs beside it.
+// t is measured to the left of the main path, along y. A footpath is next to the main path.
 struct Park {
   WindingPath path;
   double path_half_width = 2;
-  double foot_path = 9;  // its t; on the side away from the pond
+  double foot_path = 9;  // t, on the side away from the pond
   std::vector<Wave> hills, lawns, gravels;
   Pond pond;
 
@@ -111,7 +111,7 @@ Ground make_park(const Park& park) {
        .surface = [&](double x, double t) { return park.surface(x, t); }});
 }
 
-// Meadows that nobody mows: some patches of high grass that touch each other.
+// Unmown meadows: adjacent patches of high grass.
 void grow_meadows(Mesh& mesh, const Park& park, const Ground& ground, Random& random) {
   constexpr int meadows = 5;
   constexpr int patches = 5;
@@ -137,7 +137,7 @@ void grow_meadows(Mesh& mesh, const Park& park, const Ground& ground, Random& ra
 }
 
 void put_up_furniture(Mesh& mesh, const Park& park, const Ground& ground, Random& random) {
-  // Turned to the path, from beside it.
+  // A frame next to the path that faces it.
   const auto stand = [&](double x, double t) {
     const double y = park.path.y(x) + t;
     return upright_frame({x, y, ground.height(x, y)},
@@ -158,7 +158,7 @@ void put_up_furniture(Mesh& mesh, const Park& park, const Ground& ground, Random
 
 Mesh furnish_park(const Park& park, const Ground& ground, Random random) {
   Mesh mesh;
-  // On the lawns: neither in the water nor on a path.
+  // Plants on the lawns, neither in the water nor on a path.
   const auto grow = [&](double per_square_metre, Interval from_path, double clear, auto plant) {
     scatter(park.path, {.from_path = from_path}, per_square_metre, random, [&](double x, double y) {
       const double t = y - park.path.y(x);
@@ -175,7 +175,7 @@ Mesh furnish_park(const Park& park, const Ground& ground, Random random) {
   return mesh;
 }
 
-// On the foot path.
+// People on the footpath.
 Traffic draw_walkers(const Park& park, std::vector<Stop> route, Random& random) {
   Traffic walkers(std::move(route));
   const WindingPath path = park.path;

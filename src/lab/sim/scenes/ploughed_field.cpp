@@ -26,9 +26,9 @@ constexpr Surface water{
 
 constexpr double half_length = 110;  // of the ground, metres
 constexpr double half_width = 95;
-constexpr double furrows_end = 50;  // single furrows are cut into the grid up to here, metres of y
+constexpr double furrows_end = 50;  // grid lines follow single furrows up to this |y|, metres
 
-// From grass through a ditch to grass: corners at these distances behind the field's edge.
+// A ditch between grass: distances of its corners behind the edge of the field.
 struct Ditch {
   double begin = 2, slope = 1, bottom = 0.8, depth = 0.9;  // metres
   [[nodiscard]] std::array<double, 4> corners() const noexcept {
@@ -45,25 +45,25 @@ struct Ditch {
   }
 };
 
-// Furrows run along x; the vehicle crosses them at an angle. t is y.
+// Furrows are along x; the vehicle crosses them at an angle. t is y.
 struct Field {
   WindingPath path;
   std::vector<Wave> hills, swells;
-  double pitch = 0.6;    // from furrow to furrow, metres
+  double pitch = 0.6;    // between furrows, metres
   double depth = 0.2;    // from crest to bottom
-  double clods = 0.03;   // how far single places stand out, metres
-  double headland = 50;  // where furrows end at one end, metres of x; below 0 at the other
-  double edge_side = 1;  // +1: ditch and hedge lie to the left
-  double edge = 30;      // where the field ends on that side, metres of y
-  bool wet = false;      // is there water in the ditch?
+  double clods = 0.03;   // amplitude of the random roughness, metres
+  double headland = 50;  // x at which the furrows end, metres; negative at the other end
+  double edge_side = 1;  // +1: ditch and hedge are to the left
+  double edge = 30;      // distance of the edge of the field on that side, metres
+  bool wet = false;      // whether the ditch contains water
   Ditch ditch;
   double tramline = 5;     // y of one of the pairs of wheel tracks
-  std::uint64_t seed = 0;  // of the clods
+  std::uint64_t seed = 0;  // for the clods
 
   static constexpr double tramline_spacing = 18;
 
   [[nodiscard]] double beyond_edge(double t) const noexcept { return edge_side * t - edge; }
-  // 1 where it is ploughed, 0 on the headland and beyond the edge.
+  // 1 on the ploughed field, 0 on the headland and beyond the edge.
   [[nodiscard]] double ploughed(double x, double t) const noexcept {
     const double past_end = headland > 0 ? x - headland : headland - x;
     return (1 - smooth_step(-1.5, 0.5, past_end)) * (1 - smooth_step(-1.2, 0, beyond_edge(t)));
@@ -78,7 +78,7 @@ struct Field {
   }
   [[nodiscard]] double furrow(double t) const noexcept {
     const double at = t / pitch - std::floor(t / pitch);
-    // Up the turned slice, down its back.
+    // Profile of a turned slice: up its front, down its back.
     const double rise = std::clamp((at - 0.1) / 0.45, 0.0, 1.0);
     const double fall = std::clamp((at - 0.6) / 0.4, 0.0, 1.0);
     return depth * (rise - fall - 0.5);
@@ -126,7 +126,7 @@ Field draw_field(Random& random) {
   return field;
 }
 
-// Where furrows begin, rise, and have their crests; beyond 32 m only where they begin and rise to.
+// Grid lines at the start, on the slope and at the crest of each furrow; fewer beyond 32 m.
 std::vector<double> furrow_lines(const Field& field) {
   constexpr double fine = 32;
   std::vector<double> lines;
@@ -182,7 +182,7 @@ Mesh furnish_field(const Field& field, const Ground& ground, Random random) {
     add_tuft(mesh, ground, random.uniform(-60, 60), field.edge_side * (field.edge + beyond),
              random);
   }
-  // What the plough has left: weeds and straw.
+  // Weeds and straw left by the plough.
   scatter(field.path, {.x = {-60, 60}, .from_path = {0.4, 20}}, 0.12, random,
           [&](double x, double y) {
             if (field.beyond_edge(y) < 0) add_tuft(mesh, ground, x, y, random);
@@ -193,7 +193,7 @@ Mesh furnish_field(const Field& field, const Ground& ground, Random random) {
 // A tractor that ploughs along the furrows, away from the path.
 struct Ploughing {
   double x = 0, y = 0;  // at stop 0, metres
-  double speed = 0;     // along x, metres a second
+  double speed = 0;     // along x, m/s
   int shares = 4;
   std::uint64_t look = 0;
 };

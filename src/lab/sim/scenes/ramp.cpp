@@ -20,15 +20,15 @@ namespace {
 
 constexpr double half_turn = std::numbers::pi;
 constexpr double half_length = 58;  // to the end walls, metres
-constexpr double half_aisle = 3.3;  // from the sensor's path to the bays
+constexpr double half_aisle = 3.3;  // from the path of the sensor to the bays
 constexpr double bay_depth = 5.2;
 constexpr double bay_width = 2.5;
 constexpr double column_pitch = 3 * bay_width;
 constexpr double bay_end = half_aisle + bay_depth;
-constexpr double second_aisle = bay_end + bay_depth;  // where it begins on a wide side
+constexpr double second_aisle = bay_end + bay_depth;  // its start on a wide side
 constexpr double ramp_wall = 0.25;                    // thickness
 constexpr double line_width = 0.1;
-constexpr double transition = 3;  // at either end of the ramp, of half its grade
+constexpr double transition = 3;  // at each end of the ramp, with half its grade
 constexpr double wide = second_aisle + 2 * half_aisle + bay_depth;
 
 constexpr Surface lane{.semantic = SemanticClass::road, .reflectivity = 0.3F, .mirror = 0.05F};
@@ -37,22 +37,22 @@ constexpr Surface paint{.semantic = SemanticClass::lane_marking, .reflectivity =
 constexpr Surface concrete{.semantic = SemanticClass::building, .reflectivity = 0.35F};
 constexpr Surface pipe{.semantic = SemanticClass::building, .reflectivity = 0.5F};
 
-// A lower storey, a ramp straight on and an upper one. `u` runs up the ramp, along x or against
-// it; t to the left of x, from the middle of the aisle and the ramp.
+// A lower storey, a straight ramp and an upper storey. `u` points up the ramp, along x or -x; t is
+// measured to the left of x, from the middle of the aisle and the ramp.
 struct CarPark {
-  double up;                    // +1 where u runs along x, -1 where it runs against it
-  double clear, slab;           // below and through the ceiling
-  double grade;                 // of the ramp, metres a metre
-  double foot;                  // u at which it begins
-  double half_ramp;             // width between its walls
-  double drainage;              // slope of the floors away from the aisle, metres a metre
-  bool enclosed;                // walls beside the ramp up to the ceiling, or parapets and a void
-  bool parapets;                // around the storeys, or walls up to the ceiling
-  std::array<double, 2> reach;  // to the right and left walls
+  double up;           // +1 if u points along x, -1 if along -x
+  double clear, slab;  // height below the ceiling, and its thickness
+  double grade;        // of the ramp, m/m
+  double foot;         // u at which the ramp begins
+  double half_ramp;    // half of the width between its walls
+  double drainage;     // slope of the floors away from the aisle, m/m
+  bool enclosed;       // walls next to the ramp up to the ceiling; otherwise parapets and a void
+  bool parapets;       // parapets around the storeys; otherwise walls up to the ceiling
+  std::array<double, 2> reach;  // distances of the right and left walls
 
   [[nodiscard]] double storey() const noexcept { return clear + slab; }
   [[nodiscard]] double head() const noexcept { return foot + storey() / grade + transition; }
-  // Height of the ramp, 0 before it and storey() behind.
+  // Height of the ramp: 0 before it, storey() behind it.
   [[nodiscard]] double ramp_height(double u) const noexcept {
     const auto part = [&](double begin, double end) { return std::clamp(u, begin, end) - begin; };
     return grade * (part(foot, head()) -
@@ -60,7 +60,7 @@ struct CarPark {
   }
   [[nodiscard]] double height(double x, double t) const noexcept {
     const double u = up * x;
-    // Where the two storeys and the ramp meet, walls hide that the ground jumps.
+    // The ground is discontinuous between the storeys and the ramp; walls hide this.
     const bool on_ramp = std::abs(t) < half_ramp + ramp_wall / 2;
     const double floor = on_ramp ? ramp_height(u) : u < head() ? 0 : storey();
     return floor + drainage * std::max(0.0, std::abs(t) - half_aisle);
@@ -90,13 +90,13 @@ CarPark draw_car_park(Random& random) {
 }
 
 Ground make_car_park(const CarPark& park) {
-  constexpr double face = 0.02;  // over which the ground jumps, within walls
+  constexpr double face = 0.02;  // width of the jumps of the ground, inside walls
   GroundPlan plan{.x = {},
                   .t = {},
                   .offset = [](double) { return 0.0; },
                   .height = [&](double x, double t) { return park.height(x, t); },
                   .surface = [&](double x, double t) { return park.surface(x, t); }};
-  const double margin = 1;  // beyond the walls: a line that leans with the vehicle goes on there
+  const double margin = 1;  // beyond the walls, for lines that are tilted with the vehicle
   add_lines(plan.x, -half_length - margin, half_length + margin, 0.5);
   for (double line = -55; line <= 55; line += bay_width) {
     plan.x.push_back(line - line_width / 2);
@@ -121,7 +121,7 @@ Ground make_car_park(const CarPark& park) {
   return cut_ground(std::move(plan));
 }
 
-// Builds with u and t, on either storey.
+// Builds both storeys in coordinates u and t.
 class Builder {
  public:
   Builder(const CarPark& park, const Ground& ground, Random& random)
@@ -148,7 +148,7 @@ class Builder {
   }
   [[nodiscard]] double floor(bool upper) const { return upper ? park_.storey() : 0; }
   [[nodiscard]] double ceiling(bool upper) const { return floor(upper) + park_.clear; }
-  // Where a storey lies; the upper one begins over the foot of the ramp.
+  // Extent of a storey along u.
   [[nodiscard]] Interval reach(bool upper) const {
     return upper ? Interval{park_.head(), half_length} : Interval{-half_length, park_.head()};
   }
@@ -168,7 +168,7 @@ class Builder {
         block(reach(upper), wall, {floor(upper) - below, top});
       }
     }
-    // Over the lower storey's ceiling, where the ramp leaves it.
+    // A wall above the ceiling of the lower storey, at the start of the ramp.
     block({park_.foot - thick, park_.foot}, all, {park_.clear, ceiling(true)});
   }
 
@@ -181,7 +181,7 @@ class Builder {
       const double outer = side * (park_.half_ramp + ramp_wall);
       const Interval wall{std::min(inner, outer), std::max(inner, outer)};
       const double end = side * park_.reach[side > 0];
-      // Where the upper storey begins beside the ramp.
+      // A wall at the start of the upper storey next to the ramp.
       block({park_.head() - half, park_.head() + half},
             {std::min(inner, end), std::max(inner, end)}, {-0.3, top});
       if (park_.enclosed) {
@@ -195,7 +195,7 @@ class Builder {
     }
   }
 
-  // One storey's ceiling: a slab and beams from column to column.
+  // The ceiling of one storey: a slab and beams from column to column.
   void cover(bool upper, Interval u, Interval t) {
     constexpr double deep = 0.2;
     constexpr double half_beam = 0.18;
@@ -269,7 +269,7 @@ Traffic send_traffic(const CarPark& park, const std::vector<Stop>& route, Random
   traffic.join({.kind = RoadUser::car,
                 .at = along(middle, 0, -half_drive + random.uniform(12, 25), own_speed),
                 .look = random.bits()});
-  // Down the second aisle of a storey, as far as its wall.
+  // Traffic along the second aisle of a storey, up to its wall.
   for (const double side : {-1.0, 1.0}) {
     if (park.reach[side > 0] < wide) continue;
     const double t = side * (second_aisle + half_aisle);
@@ -289,7 +289,7 @@ Traffic send_traffic(const CarPark& park, const std::vector<Stop>& route, Random
                            ? random.uniform(second_aisle + 0.5, second_aisle + 2 * half_aisle - 0.5)
                            : random.uniform(half_aisle - 0.3, half_aisle + 0.1);
     const double x = random.uniform(-50, 50);
-    if (std::abs(park.up * x - park.head()) < 16) continue;  // not through the wall there
+    if (std::abs(park.up * x - park.head()) < 16) continue;  // would walk through a wall
     traffic.join({.kind = RoadUser::person,
                   .at = along(middle, side * out, x, random.uniform(-1.5, 1.5)),
                   .look = random.bits()});

@@ -10,8 +10,8 @@
 namespace flagstone::sim {
 namespace {
 
-// A grade of 10 to 25 %, then others, of which more than half go the other way, so that crests and
-// sags lie close enough to be seen.
+// A grade of 10 to 25 %, followed by others. More than half of the changes reverse the direction,
+// so that crests and sags are close enough to be seen.
 void draw_profile(StreetShape& shape, Random& random) {
   const auto steep = [&] { return random.uniform(0.1, 0.25); };
   double direction = random.chance(0.5) ? 1 : -1;
@@ -68,11 +68,11 @@ Landscape steep_street(std::uint64_t seed) {
   const Side uphill = random.chance(0.5) ? Side::left : Side::right;
   for (const Side which : {Side::right, Side::left}) {
     StreetSide& side = plan.shape.sides[static_cast<std::size_t>(which)];
-    // Even slopes begin at the sidewalk: a hillside that is cut by the street.
+    // The street is cut into a hillside, with even slopes that start at the sidewalk.
     side.land_slope = which == uphill ? random.uniform(0.08, 0.3) : random.uniform(-0.2, -0.05);
     side.bank_height = which == uphill ? random.uniform(0, 0.6) : random.uniform(-1, -0.2);
   }
-  // Walls reach down 25 % along and 20 % down the hill, over half of a house's width and its depth.
+  // Deep enough for a slope of 25 % over half the width of a house, and 20 % over its depth.
   for (Plot& plot : plan.plots) plot.house.buried = 6;
   return drive_street(std::move(plan), random);
 }
@@ -89,7 +89,7 @@ Landscape parked_cars(std::uint64_t seed) {
     const bool bays = random.chance(0.4);
     plan.furnishing.parking[side] = bays ? Parking::bays : Parking::along;
     plan.shape.sides[side].parking_width = bays ? 4.9 : 2.1;
-    // Driveways are gaps in the row: few of them.
+    // Driveways are gaps in the row, so keep only a few.
     std::erase_if(plan.shape.sides[side].driveways,
                   [&](const Driveway&) { return random.chance(0.7); });
   }

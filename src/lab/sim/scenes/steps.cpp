@@ -22,24 +22,24 @@ namespace {
 
 constexpr double half_length = 112.5;  // of the ground, metres
 constexpr double half_width = 45;
-constexpr double block_length = 15;  // along the road: one kind of edge on either side
-constexpr double blend = 1.5;        // at either end of a block it turns into the next
+constexpr double block_length = 15;  // along the road, with one kind of edge on each side
+constexpr double blend = 1.5;        // at each end of a block, for the transition to the next
 constexpr auto block_count = static_cast<std::size_t>(2 * half_length / block_length);
-constexpr double lane = -1.6;  // where the sensor drives, metres left of the centre line
+constexpr double lane = -1.6;  // path of the sensor, metres left of the centre line
 
 constexpr Surface asphalt{.semantic = SemanticClass::road, .reflectivity = 0.24F};
 constexpr Surface slabs{.semantic = SemanticClass::sidewalk, .reflectivity = 0.36F};
 constexpr Surface concrete{.semantic = SemanticClass::other_ground, .reflectivity = 0.38F};
 constexpr Surface grass{.semantic = SemanticClass::terrain, .reflectivity = 0.4F};
 
-// An edge, and whether it lies at the road or behind a strip of grass.
+// A kind of edge, either directly at the road or behind a strip of grass.
 struct PlacedKind {
   EdgeKind kind;
   bool at_road;
 };
 
 PlacedKind kerb(std::string_view name, double height) {
-  constexpr double face = 0.02;  // leans back, so that the ground stays a function of x and y
+  constexpr double face = 0.02;  // tilted back, so that the ground stays a function of x and y
   return {.kind = {.corners = {{0, 0}, {face, height}}, .slopes = {{name, 0, 1}}, .surface = slabs},
           .at_road = true};
 }
@@ -52,7 +52,7 @@ PlacedKind wall_down(std::string_view name, double depth) {
       {.corners = {{0, 0}, {face, -depth}}, .slopes = {{name, 0, 1}}, .surface = concrete});
 }
 
-// Both slopes as wide as `slope`, the bottom between them as `bottom`.
+// A ditch with two slopes of width `slope` and a bottom of width `bottom`.
 PlacedKind ditch(std::string_view down, std::string_view up_again, double depth, double slope,
                  double bottom) {
   return beside_road(
@@ -83,7 +83,7 @@ PlacedKind flight_of_stairs() {
           .at_road = false};
 }
 
-// Edges of all sorts.
+// Edges of all kinds.
 const std::vector<PlacedKind>& mixed_edges() {
   static const std::vector<PlacedKind> kinds{
       kerb("kerb, 5 cm up", 0.05),
@@ -99,7 +99,7 @@ const std::vector<PlacedKind>& mixed_edges() {
   return kinds;
 }
 
-// Edges that lead deep down.
+// Edges with deep drops.
 const std::vector<PlacedKind>& deep_edges() {
   static const std::vector<PlacedKind> kinds{
       wall_down("quay, 1.5 m down", 1.5),
@@ -112,7 +112,7 @@ const std::vector<PlacedKind>& deep_edges() {
   return kinds;
 }
 
-// The road runs straight along x, t = y is measured to the left of its centre line.
+// The road is straight along x; t = y is measured to the left of its centre line.
 struct Road {
   double half_road, grade, cross_fall;
   std::array<EdgeRow, 2> edges;  // right and left
@@ -133,7 +133,7 @@ struct Road {
   }
 };
 
-// All kinds in an order that the seed draws, again and again.
+// Repeats all kinds in random order.
 std::vector<Edge> draw_edges(const std::vector<PlacedKind>& kinds, double half_road,
                              Random& random) {
   std::vector<std::size_t> order;
@@ -194,7 +194,7 @@ Ground make_road(const Road& road) {
                      .surface = [&](double x, double t) { return road.surface(x, t); }});
 }
 
-// Little: what stands before a step hides it.
+// Few objects, because an object in front of a step hides it.
 Mesh furnish_road(double half_road, const Ground& ground, Random random) {
   constexpr double planted = 95;  // half of the length, metres
   Mesh mesh;

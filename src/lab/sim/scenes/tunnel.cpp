@@ -24,8 +24,8 @@ constexpr double half_width = 40;
 constexpr double face = 0.02;  // of kerbs and of the hidden jump behind walls
 constexpr double wall = 0.4;   // thickness
 constexpr double line_width = 0.15;
-constexpr double dash = 6;      // of the middle line, and as much between
-constexpr double cutting = 45;  // length over which the land climbs to the portal
+constexpr double dash = 6;      // of the middle line, with equal gaps
+constexpr double cutting = 45;  // length over which the land rises to the portal
 
 constexpr Surface asphalt{.semantic = SemanticClass::road, .reflectivity = 0.2F};
 constexpr Surface wet{.semantic = SemanticClass::road, .reflectivity = 0.07F, .mirror = 0.7F};
@@ -45,24 +45,24 @@ struct Patch {
   }
 };
 
-// A road along x that goes into a hill at `portal`. Heights in metres above the road's middle.
+// A road along x that enters a hill at `portal`. Heights in metres above the middle of the road.
 struct Tunnel {
   RoadCurve curve;
-  double inward;           // +1 where it runs into the hill along x, -1 where out of it
-  double portal;           // x
+  double inward;  // +1 if the road enters the hill in the direction of x, -1 if it leaves it
+  double portal;  // x
   double half_road, walk;  // widths
   double kerb;
-  double grade, sag;  // the height along it: grade x + sag x^2 / 2
-  double cross_fall;  // metres a metre to the left
+  double grade, sag;  // height along the road: grade x + sag x^2 / 2
+  double cross_fall;  // to the left, m/m
   bool arched;
-  double height;  // of the ceiling, an arch's in its middle
-  double hill;    // of the land over the portal
+  double height;  // of the ceiling, or of the middle of an arch
+  double hill;    // height of the land above the portal
   std::vector<Patch> puddles;
 
-  // From the road's middle to the walls.
+  // Distance from the middle of the road to the walls.
   [[nodiscard]] double half() const noexcept { return half_road + face + walk; }
   [[nodiscard]] double level(double x) const noexcept { return grade * x + sag * x * x / 2; }
-  // Of the land behind the walls, above the road.
+  // Height of the land behind the walls above the road.
   [[nodiscard]] double land(double x) const noexcept {
     const double near = std::clamp(1 + inward * (x - portal) / cutting, 0.0, 1.0);
     return kerb + (hill - kerb) * near * near * (3 - 2 * near);
@@ -84,9 +84,9 @@ struct Tunnel {
     const auto covers = [&](const Patch& puddle) { return puddle.covers(x, t); };
     return std::ranges::any_of(puddles, covers) ? wet : asphalt;
   }
-  // From wall to wall over the road.
+  // Outline of the ceiling from wall to wall.
   [[nodiscard]] std::vector<OutlinePoint> vault() const;
-  // Of the ceiling at t.
+  // Height of the ceiling at t.
   [[nodiscard]] double ceiling(double t) const noexcept {
     if (!arched) return height;
     const double share = t / half();
@@ -98,7 +98,7 @@ struct Tunnel {
     };
   }
 
-  static constexpr double spring = 2;  // where an arch leaves the wall
+  static constexpr double spring = 2;  // height at which the arch starts
 };
 
 std::vector<OutlinePoint> Tunnel::vault() const {
@@ -163,7 +163,7 @@ Ground make_tunnel(const Tunnel& tunnel) {
   return cut_ground(std::move(plan));
 }
 
-// From the tunnel's portal into it, or away from it, at most to the ends of the road.
+// Ranges of x inside and before the tunnel, up to the ends of the road.
 Interval inside(const Tunnel& tunnel) {
   return tunnel.inward > 0 ? Interval{tunnel.portal, half_length}
                            : Interval{-half_length, tunnel.portal};
@@ -178,7 +178,7 @@ void build_shell(Mesh& mesh, const Tunnel& tunnel) {
   const std::vector<OutlinePoint> vault = tunnel.vault();
   add_extrusion(mesh, vault, inside(tunnel), 2, place, lining);
 
-  // The portal: a wall around the vault's end, wider than it.
+  // The portal: a wall around the end of the vault.
   const double top = tunnel.hill + 1.2;
   const double x = tunnel.portal;
   for (std::size_t i = 1; i + 2 < vault.size(); ++i) {
@@ -255,7 +255,7 @@ void equip(Mesh& mesh, const Tunnel& tunnel, Random& random) {
   }
 }
 
-// The land beside the approach.
+// Plants on the land next to the approach.
 void plant_land(Mesh& mesh, const Tunnel& tunnel, const Ground& ground, Random& random) {
   const auto scatter = [&](int count, double from_wall, auto plant) {
     for (int i = 0; i < count; ++i) {

@@ -21,7 +21,7 @@ namespace flagstone::sim {
 namespace {
 
 constexpr double half_turn = std::numbers::pi;
-constexpr double built = 104;          // half of the length that has houses, metres
+constexpr double built = 104;          // half of the length with houses, metres
 constexpr double furniture_row = 0.6;  // metres from the kerb
 constexpr double walk_begin = 2.4;     // metres from the kerb, behind shelters and trees
 
@@ -68,13 +68,13 @@ struct Town {
   [[nodiscard]] double y_at(double x, Side side, double out) const {
     return shape.centre_line(x) + sign(side) * out;
   }
-  // Upright on the ground, `out` metres from the centre line.
+  // An upright frame on the ground, `out` metres from the centre line.
   [[nodiscard]] Frame upright(const Ground& ground, double x, Side side, double out,
                               double turn) const {
     const double y = y_at(x, side, out);
     return upright_frame({x, y, ground.height(x, y)}, shape.heading(x) + turn);
   }
-  // The same, looking to the carriageway.
+  // An upright frame that faces the carriageway.
   [[nodiscard]] Frame facing_road(const Ground& ground, double x, Side side, double out) const {
     return upright(ground, x, side, out, side == Side::left ? -half_turn / 2 : half_turn / 2);
   }
