@@ -37,8 +37,8 @@ struct BenchmarkWatch {
   std::function<bool()> stop;
 };
 
-/// Runs and times a method on all scans, together with the read-only baseline, the scalar build of
-/// the method and external tools. Each scan must have at least one point. In a round, each
+/// Measures how long a method takes on each scan, together with the read-only baseline, the scalar
+/// build of the method and external tools. Each scan must have at least one point. In a round, each
 /// candidate processes all scans before the next candidate starts, so a scan is not accessed for a
 /// whole rotation and is not in the cache. The order of candidates changes from round to round.
 /// External tools are slow and run in fewer rounds, so that they take about as long as all others

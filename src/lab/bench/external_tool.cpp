@@ -202,7 +202,8 @@ ExternalToolCommand python_tool(const ExternalToolPaths& places, const std::stri
       name, {places.python, worker, name, fmt::format("{}", sensor_height)}, ""};
   if (!is_file(worker)) {
     tool.missing = fmt::format(
-        "{}: no such file (pass bench/external_worker.py of flagstone's sources with --compare-worker)",
+        "{}: no such file (pass bench/external_worker.py of flagstone's sources with "
+        "--compare-worker)",
         io::printable(worker));
   }
   return tool;

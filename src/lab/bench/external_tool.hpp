@@ -19,8 +19,8 @@
 
 namespace flagstone::bench {
 
-/// An external tool is not available or failed. The message is one line, without the name of the
-/// tool.
+/// Thrown if an external tool is not available or fails. The message is one line, without the name
+/// of the tool.
 class ExternalToolError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -59,7 +59,7 @@ class ExternalProcess {
 /// Paths of external tools.
 struct ExternalToolPaths {
   std::string python = "python3";  ///< an interpreter with the packages installed
-  std::string worker = {};         ///< bench/external_worker.py; empty for the file of this build tree
+  std::string worker = {};  ///< bench/external_worker.py; empty for the file of this build tree
 };
 
 /// An external tool to compare with.
@@ -74,8 +74,8 @@ struct ExternalToolCommand {
 [[nodiscard]] std::vector<ExternalToolCommand> known_external_tools(const ExternalToolPaths& places,
                                                                     float sensor_height);
 
-/// An external tool that times itself on the scans it receives. bench/external_worker.py documents the
-/// protocol.
+/// An external tool that times itself on the scans it receives. bench/external_worker.py documents
+/// the protocol.
 class ExternalTool final : public Candidate {
  public:
   /// Starts its worker. Throws ExternalToolError.

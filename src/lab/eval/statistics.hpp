@@ -12,7 +12,7 @@ namespace flagstone::eval {
 /// Mean and standard deviation of a metric over the scans for which it is defined.
 struct Spread {
   std::size_t count = 0;                                   ///< number of scans
-  double mean = std::numeric_limits<double>::quiet_NaN();  ///< NaN of none
+  double mean = std::numeric_limits<double>::quiet_NaN();  ///< NaN without values
   std::optional<double> std;  ///< sample standard deviation (n - 1); unset for fewer than two scans
   /// Half-width of the 95 % confidence interval of the mean, t * std / sqrt(n), with Student's t
   /// distribution and n - 1 degrees of freedom; unset for fewer than two scans. Assumes that scans
