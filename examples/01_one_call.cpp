@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// One call: an array of floats goes in, one label per point comes out.
+// One call: from an array of floats to one label per point.
 
 #include <cmath>
 #include <cstdio>
@@ -10,8 +10,8 @@
 
 namespace {
 
-/// Flat ground 1.73 m below the sensor, as circles of points, and a wall 10 m ahead. Metres; x
-/// points forward, y to the left, z up.
+/// Flat ground 1.73 m below the sensor, as circles of points, and a wall 10 m ahead. In metres; x
+/// is forward, y left, z up.
 std::vector<float> make_scan() {
   std::vector<float> xyz;
   for (int ring = 0; ring < 144; ++ring) {
@@ -38,7 +38,7 @@ int main() {
   const std::size_t count = xyz.size() / 3;
 
   flagstone::SurfaceConfig config;
-  config.sensor_height = 1.73f;  // how high the sensor sits above the ground
+  config.sensor_height = 1.73f;  // height of the sensor above the ground, metres
   flagstone::Surface segmenter(config);
   flagstone::Segmentation scan;
   const flagstone::Status status = segmenter.segment(flagstone::CloudView(xyz.data(), count), scan);
@@ -47,7 +47,7 @@ int main() {
     return 1;
   }
 
-  // scan.labels()[i] belongs to point i. The last point is the top corner of the wall.
+  // scan.labels()[i] is the label of point i. The last point is a top corner of the wall.
   std::printf("ground: %zu of %zu points\n", scan.count(flagstone::Label::ground), count);
   std::printf("the first point is %s, the last one is %s\n", to_string(scan.labels().front()),
               to_string(scan.labels().back()));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// Scan after scan with the same two objects, and what Patchwork made of each patch of ground.
+// Reuse the same two objects for every scan, and print the status of each patch of ground.
 
 #include <cmath>
 #include <cstdio>
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Ground that climbs ahead of the sensor by `slope` metres a metre.
+/// Ground that rises ahead of the sensor with `slope`, m/m.
 std::vector<float> make_scan(float slope) {
   std::vector<float> xyz;
   for (int ring = 0; ring < 144; ++ring) {
@@ -27,8 +27,8 @@ std::vector<float> make_scan(float slope) {
 }  // namespace
 
 int main() {
-  // Both keep their memory: after the first scans nothing is allocated. Nothing else is kept, so a
-  // scan's labels never depend on the scans before it. Use one pair per thread.
+  // Both objects keep their memory, so nothing is allocated after the first scans. They keep
+  // nothing else: the labels of a scan never depend on previous scans. Use one pair per thread.
   flagstone::Patchwork patchwork(flagstone::PatchworkConfig::preset("default"));
   flagstone::Segmentation scan;
 
@@ -40,7 +40,7 @@ int main() {
                 scan.count(flagstone::Label::ground), count, scan.patches().size());
   }
 
-  // The last scan's patches: where, how many points, the plane normal . p + d = 0, and why.
+  // Patches of the last scan: position, number of points, plane normal . p + d = 0, and status.
   for (const flagstone::Patch& patch : scan.patches().first(5)) {
     std::printf("zone %d ring %d sector %2d: %3u points, normal (%.3f %.3f %.3f), d %.2f, %s\n",
                 patch.zone, patch.ring, patch.sector, patch.point_count, patch.normal[0],

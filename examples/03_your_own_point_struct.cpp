@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// Points as you already have them, read where they lie: your own struct, or bytes with a layout.
+// Read your own points without copying them: your own struct, or bytes with a layout.
 
 #include <cmath>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace {
 
-/// Any struct with float members x, y and z will do, wherever they are.
+/// Any struct with float members x, y and z works. The members can be at any offset.
 struct Return {
   double time;
   float z;
@@ -45,7 +45,7 @@ int main() {
   std::printf("structs, ground: %zu of %zu points\n", scan.count(flagstone::Label::ground),
               scan.labels().size());
 
-  // The same memory as a driver would hand it over: bytes, and the offsets that came in a message.
+  // The same memory as a driver would pass it: bytes, with the offsets from a message.
   const std::span<const std::byte> message = std::as_bytes(std::span(returns));
   const flagstone::CloudLayout layout{.stride = sizeof(Return),
                                       .x = offsetof(Return, x),

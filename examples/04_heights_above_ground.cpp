@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// How high each point stands above the ground, and the ground itself at any place.
+// The height of each point above the ground, and the ground itself at any position.
 
 #include <cmath>
 #include <cstdio>
@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Ground that climbs ahead of the sensor by 5 cm a metre, and a post 1.2 m high at x = 12, y = 3.
+/// Ground that rises ahead of the sensor by 5 cm per metre, and a post 1.2 m high at x = 12, y = 3.
 std::vector<float> make_scan() {
   std::vector<float> xyz;
   for (int ring = 0; ring < 144; ++ring) {
@@ -22,8 +22,8 @@ std::vector<float> make_scan() {
     }
   }
   for (int step = 0; step <= 24; ++step) {
-    const float foot = 0.05f * 12 - 1.73f;
-    xyz.insert(xyz.end(), {12.0f, 3.0f, foot + 0.05f * static_cast<float>(step)});
+    const float base = 0.05f * 12 - 1.73f;
+    xyz.insert(xyz.end(), {12.0f, 3.0f, base + 0.05f * static_cast<float>(step)});
   }
   return xyz;
 }
@@ -39,11 +39,11 @@ int main() {
   if (!segmenter.segment(flagstone::CloudView(xyz.data(), count), scan).ok()) return 1;
   std::printf("ground: %zu of %zu points\n", scan.count(flagstone::Label::ground), count);
 
-  // heights()[i] belongs to point i: metres above the ground below it, NaN where none is known. The
-  // last point is the top of the post.
+  // heights()[i] is the height of point i above the ground, in metres; NaN if the ground is
+  // unknown. The last point is the top of the post.
   std::printf("the post is %.2f m high\n", static_cast<double>(scan.heights().back()));
 
-  // The ground can be asked anywhere, whether a point lies there or not.
+  // You can query the ground at any position, with or without points there.
   const flagstone::GroundSurface& surface = scan.surface();
   for (const float x : {10.0f, 20.0f, 30.0f}) {
     const flagstone::GroundSample ground = surface.at(x, 0);
@@ -53,10 +53,10 @@ int main() {
                 static_cast<double>(surface.resolution(x, 0)));
   }
 
-  // height() alone takes less time. Below the sensor nothing was measured: what is there is filled
-  // in from around it.
+  // height() is faster than at(). Below the sensor nothing was measured: the surface is
+  // interpolated from the ground around it.
   std::printf("below the sensor: z %.2f m\n", static_cast<double>(surface.height(0, 0)));
 
-  // Far from all points nothing is known; such heights are NaN.
+  // Far from all points the ground is unknown, and its height is NaN.
   std::printf("%s 90 m to the left\n", std::isnan(surface.height(0, 90)) ? "unknown" : "known");
 }

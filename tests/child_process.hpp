@@ -7,8 +7,8 @@
 
 namespace flagstone::tests {
 
-/// Forks and returns the exit code of the child, which is what `work()` returns there; 124 if the
-/// child takes longer than 20 seconds.
+/// Runs `work()` in a child process and returns its exit code, which is the result of `work()`; 124
+/// if the child takes longer than 20 seconds.
 template <class Work>
 int exit_code_of_child(const Work& work) {
   const pid_t child = fork();

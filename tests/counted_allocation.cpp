@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// In a file of its own, where the compiler does not see through it into the tests.
+// In a separate file, so that the compiler cannot inline it into the tests.
 #include "counted_allocation.hpp"
 
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Counts `size` bytes; throws where they are not allowed.
+/// Counts `size` bytes; throws if they are not allowed.
 void take(std::size_t size) {
   using namespace flagstone::io;
   if (size > allowed || allocated > allowed - size) throw std::bad_alloc();

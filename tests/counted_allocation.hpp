@@ -8,10 +8,10 @@
 
 namespace flagstone::io {
 
-/// A program with counted_allocation.cpp in it counts what operator new hands out.
+/// A program with counted_allocation.cpp counts the memory that operator new allocates.
 inline constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-inline std::size_t allocated = 0;        ///< bytes since it was set to 0, freed again or not
-inline std::size_t allowed = unlimited;  ///< an allocation that would bring it beyond this fails
-inline std::atomic<std::ptrdiff_t> blocks = 0;  ///< handed out and not given back
+inline std::size_t allocated = 0;  ///< bytes allocated since it was set to 0, including freed ones
+inline std::size_t allowed = unlimited;  ///< allocations fail if `allocated` would exceed this
+inline std::atomic<std::ptrdiff_t> blocks = 0;  ///< blocks allocated and not freed
 
 }  // namespace flagstone::io

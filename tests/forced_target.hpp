@@ -8,7 +8,7 @@
 
 namespace flagstone::tests {
 
-/// Everything runs on one instruction set as long as this lives, on the best one afterwards.
+/// Selects an instruction set for the lifetime of the object, and the best one afterwards.
 class ForcedTarget {
  public:
   explicit ForcedTarget(std::string_view name) { use_simd_target(name); }

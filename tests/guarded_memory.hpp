@@ -7,8 +7,8 @@
 
 namespace flagstone::tests {
 
-/// Memory that ends, to the byte, where reading stops the program; so does reading before the page
-/// it begins in.
+/// Memory between two pages that cannot be read. Reading after its last byte, or before its first
+/// page, stops the program.
 class GuardedMemory {
  public:
   /// Throws std::bad_alloc.
@@ -22,7 +22,7 @@ class GuardedMemory {
     return {bytes_ + size_ - size, size};
   }
 
-  /// The first `size` bytes, right behind what cannot be read.
+  /// The first `size` bytes, right after the page that cannot be read.
   [[nodiscard]] std::span<std::byte> first(std::size_t size) const { return {bytes_, size}; }
 
  private:

@@ -13,10 +13,10 @@
 
 namespace flagstone::tests {
 
-/// Makes the segmenter for a sensor at this height, metres.
+/// Creates the segmenter for a sensor at this height, metres.
 using MakeSegmenter = std::function<std::unique_ptr<Segmenter>(float sensor_height)>;
 
-/// Mean F1 over the full-density scans, percent. Prints it under `name`, with the protocol and the
+/// Mean F1 over the scans with full density, percent. Prints it with `name`, the protocol and the
 /// number of scans.
 double mean_f1(const std::string& name, const MakeSegmenter& make,
                const std::vector<RealScan>& scans, const eval::Protocol& protocol);

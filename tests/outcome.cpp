@@ -13,14 +13,13 @@
 namespace flagstone::tests {
 namespace {
 
-// Every byte of a patch belongs to a field: there is no padding that could differ or hide a
-// difference.
+// Every byte of a patch belongs to a field. Padding could differ, or hide a difference.
 static_assert(sizeof(Patch) == 3 * sizeof(std::uint16_t) + sizeof(Verdict) +
                                    3 * sizeof(std::uint32_t) + 15 * sizeof(float));
 
 bool has_same_bytes(const Patch& a, const Patch& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-/// Index of the first number with other bits; the size if there is none.
+/// Index of the first number with different bits; the size if there is none.
 std::size_t first_difference(std::span<const float> a, std::span<const float> b) {
   const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
   return static_cast<std::size_t>(std::ranges::mismatch(a, b, {}, bits, bits).in1 - a.begin());

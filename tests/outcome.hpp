@@ -19,11 +19,11 @@ struct Outcome {
   std::vector<GroundSurface::Grid> grids;
 };
 
-/// The outcome of the cloud. Fails if the counts of labels are not those of the labels, or if there
-/// are heights, but not one per point.
+/// Segments the cloud. Fails if the counts of labels do not match the labels, or if there are
+/// heights but not one per point.
 Outcome segmented(Segmenter& segmenter, CloudView cloud);
 
-/// The outcome of a new segmenter.
+/// Segments the cloud with a new segmenter.
 inline Outcome segmented(const PatchworkConfig& config, CloudView cloud) {
   Patchwork patchwork(config);
   return segmented(patchwork, cloud);
@@ -33,8 +33,7 @@ inline Outcome segmented(const SurfaceConfig& config, CloudView cloud) {
   return segmented(surface, cloud);
 }
 
-/// Compares labels, patches, heights and grids byte by byte. A failure names the first that
-/// differs.
+/// Compares labels, patches, heights and grids byte by byte. A failure names the first difference.
 testing::AssertionResult is_same(const Outcome& expected, const Outcome& found);
 
 }  // namespace flagstone::tests

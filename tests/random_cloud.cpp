@@ -10,7 +10,7 @@
 namespace flagstone::tests {
 namespace {
 
-/// 0 <= value < 1; std::mt19937's numbers are the same everywhere, std::uniform_*'s are not.
+/// 0 <= value < 1. Unlike std::uniform_*, std::mt19937 gives the same numbers everywhere.
 float unit(std::mt19937& random) { return static_cast<float>(random() >> 8U) / 16777216.0f; }
 
 }  // namespace

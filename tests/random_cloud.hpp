@@ -10,14 +10,13 @@
 
 namespace flagstone::tests {
 
-/// A cloud for tests that need something like a scan: a tilted, slightly rough ground 1.73 m below
-/// the sensor, walls and boxes on it, in the order a spinning sensor would deliver them. The same
-/// seed gives the same points.
+/// A cloud that resembles a scan: tilted, slightly rough ground 1.73 m below the sensor, with walls
+/// and boxes, in the order of a spinning sensor. The same seed gives the same points.
 std::vector<Point> random_cloud(std::size_t points, std::uint32_t seed);
 
-/// The same with a share of its points replaced by what broken sensors and drivers send: NaN,
-/// infinities, zeros, negative zeros, denormals, huge numbers, repeated points, exact bin
-/// boundaries.
+/// A random cloud in which some points are replaced as by broken sensors and drivers: NaN,
+/// infinities, zeros, negative zeros, denormals, huge numbers, duplicate points, points exactly on
+/// bin boundaries.
 std::vector<Point> corrupted_cloud(std::size_t points, std::uint32_t seed);
 
 inline CloudView view_of(const std::vector<Point>& points) {

@@ -11,21 +11,21 @@
 
 namespace flagstone::tests {
 
-/// Height of made-up ground at (x, y), metres; NaN where it is not known.
+/// Height of the ground at (x, y), metres; NaN if it is unknown.
 using Ground = std::function<float(float, float)>;
 
-/// The size of a grid of a made-up surface.
+/// The size of a grid.
 struct GridSize {
   float cell;         ///< metres
-  std::size_t width;  ///< cells along a side
+  std::size_t width;  ///< number of cells along a side
 };
 
-/// Grids for 32 m around the sensor, finer within 8 m: small, with two to choose from.
+/// Two small grids: 32 m around the sensor, and a finer one for 8 m.
 inline const std::vector<GridSize> two_grids = {{.cell = 1, .width = 64},
                                                 {.cell = 0.25f, .width = 64}};
 
-/// The surface whose grids hold this ground at the centres of their cells, with confidence 1, or 0
-/// where it is not known.
+/// A surface with the height of this ground at the cell centres of its grids. The confidence is 1,
+/// or 0 if the height is unknown.
 GroundSurface random_surface(const Ground& ground, std::span<const GridSize> grids = two_grids);
 
 }  // namespace flagstone::tests

@@ -1,4 +1,4 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// A target needs a source to precompile headers for; the tests use what it precompiles.
+// The target that precompiles headers for the tests needs a source file.

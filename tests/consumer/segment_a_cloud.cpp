@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// What a project that uses flagstone does: flat ground with a post on it is segmented, and every
-// label is the one it has to be.
+// A project that uses flagstone: segments flat ground with a post on it and checks every label.
 
 #include <cmath>
 #include <cstdio>

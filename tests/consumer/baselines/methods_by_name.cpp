@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// What a project that compares methods does: every method by name on flat ground, which is ground.
+// A project that compares methods: runs every method by name on flat ground and checks the labels.
 
 #include <cmath>
 #include <cstdio>

@@ -68,7 +68,7 @@ TEST(Buffer, MovesItsContentsAndLeavesTheSourceEmpty) {
 
   EXPECT_EQ(to.data(), place);
   EXPECT_EQ(to.data()[9], 7);
-  EXPECT_EQ(from.data(), nullptr);  // NOLINT(bugprone-use-after-move): that is the claim
+  EXPECT_EQ(from.data(), nullptr);  // NOLINT(bugprone-use-after-move): this is tested
   from.reserve(5);
   EXPECT_NE(from.data(), nullptr);
 }
@@ -81,12 +81,12 @@ TEST(Buffer, MoveAssignmentTransfersTheContents) {
   to.reserve(3);
 
   to = std::move(from);
-  to.reserve(10);  // which it has room for
+  to.reserve(10);  // already has this capacity
 
   EXPECT_EQ(to.data()[9], 7);
 }
 
-// Sanitizers abort instead. GCC tells of them by a macro, clang by a question.
+// Sanitizers abort instead of throwing. GCC reports them with a macro, clang with __has_feature.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define MEMORY_IS_WATCHED
 #elif defined(__has_feature)

@@ -12,7 +12,7 @@ namespace flagstone {
 namespace {
 
 double relative_error(double x) {
-  // In extended precision, so that std::exp's own rounding is no part of it.
+  // In extended precision, to exclude the rounding of std::exp.
   const long double exact = std::exp(static_cast<long double>(x));
   return static_cast<double>(std::abs((static_cast<long double>(exponential(x)) - exact) / exact));
 }
@@ -32,7 +32,7 @@ TEST(Exponential, IsWithin1e15OfTheStandardLibraryFromMinus700To700) {
 }
 
 TEST(Exponential, IsWithin1e15OfTheStandardLibraryWhereTheExponentChanges) {
-  // (k + 1/2) ln 2 and the numbers beside it leave the largest rest for the series.
+  // (k + 1/2) ln 2 and its neighbours give the largest argument of the series.
   for (int k = -1009; k <= 1009; ++k) {
     const double middle = (k + 0.5) * 0.6931471805599453;
     for (const double x : {std::nextafter(middle, -1e3), middle, std::nextafter(middle, 1e3)}) {
@@ -64,7 +64,7 @@ TEST(Exponential, IsConstantBeyond700) {
 
 TEST(Exponential, IsMonotonic) {
   EXPECT_TRUE(rc::check([] {
-    // Steps of 1e-9 are a million roundings.
+    // A step of 1e-9 is about a million times the rounding error.
     const double x = *rc::gen::inRange(-700'000'000, 700'000'000) * 1e-6;
     RC_ASSERT(exponential(x + 1e-9) > exponential(x));
   }));

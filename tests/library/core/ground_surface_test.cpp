@@ -22,7 +22,7 @@ namespace {
 using tests::random_surface;
 using tests::two_grids;
 
-/// One grid of 1 m cells whose centres lie at x, y = -1.5, -0.5, 0.5, 1.5.
+/// One grid of 1 m cells with centres at x, y = -1.5, -0.5, 0.5, 1.5.
 GroundSurface of_sixteen(const tests::Ground& ground) {
   return random_surface(ground, std::vector<tests::GridSize>{{.cell = 1, .width = 4}});
 }
@@ -40,7 +40,7 @@ rc::Gen<float> any_share() {
                       [](int millionths) { return static_cast<float>(millionths) / 1e6f; });
 }
 
-/// Smooth ground, for what must hold for every ground.
+/// Smooth ground, for properties of every surface.
 float hills(float x, float y) { return 0.4f * std::sin(x / 3) - 0.3f * std::cos(y / 2 + x / 7); }
 
 TEST(GroundSurface, IsEmptyAndUnknownEverywhereUntilFilled) {
@@ -167,7 +167,7 @@ TEST(SurfaceWithAHole, IsKnownWhereTheUnknownCellHasNoWeight) {
 TEST(SurfaceWithAHole, HasNoNormalIfOneOfTheFourHeightsIsUnknown) {
   const GroundSurface surface =
       of_sixteen([](float x, float y) { return x == 0.5f && y == 0.5f ? nan : 1; });
-  const GroundSample ground = surface.at(-0.5f, 0.25f);  // on a line of centres, beside the hole
+  const GroundSample ground = surface.at(-0.5f, 0.25f);  // on a line of centres, next to the hole
 
   EXPECT_EQ(ground.height, 1);
   EXPECT_TRUE(std::isnan(ground.normal[2]));
@@ -223,7 +223,7 @@ RC_GTEST_PROP(SurfaceHeight, IsContinuousWithinAGrid, ()) {
   const float to_y = y + 1e-3f * *any_share();
   RC_PRE(surface.resolution(x, y) == surface.resolution(to_x, to_y));
 
-  // The ground is nowhere steeper than 0.25 m/m; the rest is rounding.
+  // The slope of the ground is at most 0.25 m/m; the rest is rounding.
   RC_ASSERT(std::abs(surface.height(x, y) - surface.height(to_x, to_y)) < 0.25f * 2e-3f + 1e-5f);
 }
 

@@ -96,7 +96,7 @@ TEST(Segmentation, HasNoHeightsAfterMoveAndCanBeFilledAgain) {
   const Segmentation taken = std::move(result);
 
   EXPECT_EQ(taken.heights().size(), 3u);
-  EXPECT_TRUE(result.heights().empty());  // NOLINT(bugprone-use-after-move): that is the subject
+  EXPECT_TRUE(result.heights().empty());  // NOLINT(bugprone-use-after-move): this is tested
   result.start(2);
   EXPECT_EQ(result.start_heights().size(), 2u);
   EXPECT_EQ(result.heights().size(), 2u);

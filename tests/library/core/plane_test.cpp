@@ -18,7 +18,7 @@
 namespace flagstone {
 namespace {
 
-/// -1 to 1, the same everywhere.
+/// -1 to 1; the same numbers everywhere.
 double any(std::mt19937& random) { return static_cast<double>(random()) / 2147483648.0 - 1; }
 
 using Shape = std::function<Vector3(std::mt19937&)>;
@@ -60,14 +60,14 @@ Vector3 on_ground_far_away(std::mt19937& random) {
 const std::vector<Shape> shapes = {on_rough_ground, on_a_wall, on_a_level_line, on_a_slanted_line,
                                    on_a_pole,       in_a_ball, in_one_place,    on_ground_far_away};
 
-/// Puts one set into place `i` of the sixteen.
+/// Stores one set at index `i` of the sixteen.
 void place(const Moments& moments, std::size_t i, MomentsBatch& batch) {
   batch.count[i] = moments.count;
   for (std::size_t k = 0; k < 3; ++k) batch.sum[k][i] = moments.sum[k];
   for (std::size_t k = 0; k < 6; ++k) batch.squares[k][i] = moments.squares[k];
 }
 
-/// All numbers of a plane, as bits.
+/// The bits of all numbers of a plane.
 std::vector<std::uint64_t> bits_of(const Plane& p) {
   std::vector<std::uint64_t> bits;
   for (const double number :
@@ -84,14 +84,14 @@ Moments any_moments() {
   return moments_of(shapes[shape], *rc::gen::inRange(3, 300), *rc::gen::arbitrary<std::uint32_t>());
 }
 
-/// Is plane 0 doubtful? The other fifteen are of rough ground.
+/// True if plane 0 is ill-conditioned. The other fifteen are rough ground.
 bool is_doubtful(const Moments& moments) {
   MomentsBatch batch{};
   for (std::size_t i = 0; i < batch_size; ++i) place(moments_of(on_rough_ground, 50), i, batch);
   place(moments, 0, batch);
   PlaneBatch planes;
   const std::uint32_t doubtful = fit_planes(batch, planes);
-  EXPECT_EQ(doubtful & ~1U, 0U) << "ground is not doubtful";
+  EXPECT_EQ(doubtful & ~1U, 0U) << "ground is well-conditioned";
   return doubtful != 0;
 }
 
@@ -161,7 +161,7 @@ TEST(FitPlanes, KeepsTheNumberOfPointsAndNeedsThree) {
   const std::uint32_t doubtful = fit_planes(batch, planes);
 
   for (std::size_t i = 0; i < batch_size; ++i) EXPECT_EQ(planes[i].exists(), i >= 3) << i;
-  EXPECT_EQ(doubtful & 7U, 0U) << "what does not exist is not in doubt";
+  EXPECT_EQ(doubtful & 7U, 0U) << "planes that do not exist are not reported";
 }
 
 TEST(FitPlanes, ReportsGroundAsWellConditioned) {

@@ -20,7 +20,7 @@ Eigen::Matrix3d matrix(const Symmetric3& c) {
   return m;
 }
 
-/// A covariance with three given variances along random directions.
+/// A covariance with three given variances along random orthogonal directions.
 Symmetric3 any_covariance(double v1, double v2, double v3) {
   Eigen::Vector4d q;
   for (int i = 0; i < 4; ++i) q[i] = *rc::gen::inRange(-1000, 1001) + 0.5;
@@ -79,7 +79,7 @@ TEST(PrincipalAxes, OfAVerticalLineHaveAHorizontalNormal) {
 }
 
 TEST(PrincipalAxes, OfThreePointsWithTwoEqualAreThePlaneOfTheLine) {
-  // Determinant and minors are nothing but rounding errors.
+  // Determinant and minors consist only of rounding errors.
   const Vector3 a = {-1.8951, 0.0392, 0.14172};
   Moments moments;
   moments.add(0, 0, 0);
@@ -101,7 +101,7 @@ TEST(PrincipalAxes, OfOverflowedCovariancesAreStillAPlane) {
 
 TEST(PrincipalAxes, OfAVerticalPlaneFaceTheSameWayDespiteRounding) {
   const Symmetric3 wall = {4, -4, 0, 4, 0, 2};  // along (1, -1, 0) and z
-  const double tilt = 1e-8;                     // what rounding may make of it
+  const double tilt = 1e-8;                     // possible effect of rounding
   for (const double sign : {-1.0, 0.0, 1.0}) {
     Symmetric3 covariance = wall;
     covariance[2] = covariance[4] = sign * tilt;

@@ -12,7 +12,7 @@ namespace {
 TEST(Random, IsSplitMix64) {
   Random random(1234567);
 
-  // The generator's reference output for this seed.
+  // Reference output of the generator for this seed.
   EXPECT_EQ(random.bits(), 6457827717110365317U);
   EXPECT_EQ(random.bits(), 3203168211198807973U);
 }

@@ -24,7 +24,7 @@ namespace {
 
 using testing::Each;
 
-/// How often each job was done.
+/// Number of times that each job was run.
 std::vector<int> times_done(ThreadPool& pool, std::size_t jobs) {
   std::vector<std::atomic<int>> done(jobs);
   pool.run(jobs, [&](std::size_t, std::size_t job) { ++done[job]; });
@@ -48,7 +48,7 @@ TEST_P(ThreadPoolOf, DoesEveryJobOnce) {
 }
 
 TEST_P(ThreadPoolOf, DoesNothingWithoutJobs) {
-  pool.run(0, [](std::size_t, std::size_t) { ADD_FAILURE() << "there was no job"; });
+  pool.run(0, [](std::size_t, std::size_t) { ADD_FAILURE() << "ran a job"; });
 }
 
 TEST_P(ThreadPoolOf, RunsAThousandRoundsWithoutLosingOrRepeatingAJob) {
@@ -66,7 +66,7 @@ TEST_P(ThreadPoolOf, RunsAThousandRoundsWithoutLosingOrRepeatingAJob) {
 }
 
 TEST_P(ThreadPoolOf, HasFinishedAllJobsWhenRunReturns) {
-  // Plain numbers: what the others wrote must be seen without any synchronisation of ours.
+  // Not atomic: values written by other threads must be visible without further synchronisation.
   std::vector<std::size_t> squares(2000);
   for (std::size_t factor = 1; factor <= 50; ++factor) {
     pool.run(squares.size(),
@@ -117,7 +117,7 @@ TEST_P(ThreadPoolOf, CanBeDestroyedRightAfterAJob) {
 }
 
 TEST_P(ThreadPoolOf, CanRunFromAJobOfAnotherPool) {
-  // Each outer worker has a pool of its own, as segmenters of a parallel program have.
+  // Each outer worker has a separate pool, like the segmenters of a parallel program.
   std::deque<ThreadPool> inner;
   for (std::size_t i = 0; i < pool.size(); ++i) inner.emplace_back(GetParam());
   std::atomic<std::size_t> done = 0;
@@ -138,13 +138,13 @@ TEST_P(ThreadPoolOf, StartsItsOwnWorkersAfterAFork) {
         if (times != 1) return 1;
       }
     }
-    // A child of the child, too.
+    // Also in a child of the child.
     return tests::exit_code_of_child(
         [&] { return times_done(pool, 3) == std::vector{1, 1, 1} ? 0 : 2; });
   });
 
   EXPECT_EQ(exit_code, 0);
-  EXPECT_THAT(times_done(pool, 100), Each(1)) << "the parent's workers stay";
+  EXPECT_THAT(times_done(pool, 100), Each(1)) << "the workers of the parent still exist";
 }
 
 TEST_P(ThreadPoolOf, CanBeDestroyedInAChildProcessThatDidNotUseIt) {

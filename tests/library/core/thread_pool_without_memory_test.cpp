@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Has allocations fail; hence a program of its own.
+// A separate program, because it makes allocations fail.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ TEST(ThreadPoolWithoutMemory, IsSmallerOrFailsAndNeverLosesAJob) {
       EXPECT_TRUE(std::ranges::all_of(done, [](int times) { return times == 1; })) << bytes;
     } catch (const std::bad_alloc&) {
       io::allowed = io::unlimited;
-      EXPECT_LT(bytes, 7 * sizeof(void*)) << "there was room for a pool of one";
+      EXPECT_LT(bytes, 7 * sizeof(void*)) << "there was memory for a pool of one";
     }
   }
 }

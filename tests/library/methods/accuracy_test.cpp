@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Accuracy on real scans, per set and protocol; the definitions are in lab/eval/protocol.hpp and,
-// for sets with their own classes, in their classes.json.
+// Accuracy on real scans, per set and protocol. The protocols are defined in lab/eval/protocol.hpp,
+// and the classes of sets with other classes in their classes.json.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -20,7 +20,7 @@ namespace {
 using eval::patchwork_plusplus_protocol;
 using eval::patchwork_protocol;
 
-/// Mean F1 with these settings, but each scan's own sensor height, percent.
+/// Mean F1 with these settings and the sensor height of each scan, percent.
 template <class Method, class Config>
 double mean_f1(const std::string& name, Config config, const std::vector<tests::RealScan>& scans,
                const eval::Protocol& protocol) {

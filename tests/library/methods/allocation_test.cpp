@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Counts what operator new hands out; hence a program of its own. The clauses for every method:
-// tests/lab/baselines.
+// Counts the memory that operator new allocates, in a separate program. The tests for all methods
+// are in tests/lab/baselines.
 #include <algorithm>
 #include <cstddef>
 
@@ -42,7 +42,7 @@ TYPED_TEST(AllocationOf, TheFirstScanAllocates) {
 }
 
 TYPED_TEST(AllocationOf, OneScanAllocatesEnoughForScansUpToItsSizeInAnyOrder) {
-  // In order runs are sorted, in no order points: room for both is made at once.
+  // Runs are sorted for ordered clouds, points for unordered ones. Memory is reserved for both.
   const std::vector<Point> in_order = random_cloud(60000, 1);
   const std::vector<Point> in_no_order = shuffled(in_order, 1);
   const std::vector<Point> corrupted = tests::corrupted_cloud(60000, 2);
@@ -120,11 +120,11 @@ TYPED_TEST(AllocationOf, OneThreadTakesAtMost64BytesPerPoint) {
   TypeParam segmenter;
   const std::size_t before = io::allocated;
 
-  const std::size_t held = before + this->allocated_by(segmenter, cloud);  // nothing is given back
+  const std::size_t held = before + this->allocated_by(segmenter, cloud);  // nothing is freed
 
   this->RecordProperty("bytes_per_point", static_cast<int>(held / points));
   EXPECT_LE(held, 64 * points);
-  EXPECT_GE(held, 12 * points) << "the coordinates at least are counted";
+  EXPECT_GE(held, 12 * points) << "at least the coordinates are counted";
 }
 
 TYPED_TEST(AllocationOf, AllMemoryIsFreedInTheEnd) {

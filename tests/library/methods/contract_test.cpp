@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Clauses of the data contract on threads, moves and large clouds, which only the library's own
-// methods have; the clauses for every method: tests/lab/baselines.
+// Guarantees on threads, moves and large clouds, which only the methods of the library give. The
+// guarantees of all methods are tested in tests/lab/baselines.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Clouds in every memory layout: the outcome is that of packed points, and nothing outside of the
-// points is read.
+// Clouds in every memory layout: the result is the same as for packed points, and no memory outside
+// the points is read.
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -18,7 +18,7 @@ namespace {
 using tests::corrupted_cloud;
 using tests::view_of;
 
-/// Writes the points so that `CloudView(first, points.size(), layout)` sees them.
+/// Writes the points so that `CloudView(first, points.size(), layout)` contains them.
 void write(const std::vector<Point>& points, std::byte* first, const CloudLayout& layout) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::byte* const record = first + static_cast<std::ptrdiff_t>(i) * layout.stride;
@@ -28,10 +28,10 @@ void write(const std::vector<Point>& points, std::byte* first, const CloudLayout
   }
 }
 
-/// Sizes make whole vectors, rests, and more than one chunk.
+/// The sizes give full vectors, partial vectors, and more than one chunk.
 class Layouts : public testing::TestWithParam<tests::MethodOnTarget> {
  protected:
-  /// Writes the points from `first` on; expects the outcome of the packed points.
+  /// Writes the points, starting at `first`, and expects the result of the packed points.
   void expect_same_as_packed(const std::vector<Point>& points, std::byte* first,
                              const CloudLayout& layout) {
     write(points, first, layout);
@@ -41,14 +41,14 @@ class Layouts : public testing::TestWithParam<tests::MethodOnTarget> {
         << points.size() << " points, stride " << layout.stride << ", x at " << layout.x;
   }
 
-  /// Point 0 begins at `first` of `bytes` bytes; all bytes but the coordinates are 0xA5.
+  /// Point 0 begins at `first` of `bytes` bytes. All bytes except the coordinates are 0xA5.
   void expect_same_as_packed(std::size_t bytes, std::size_t first, const CloudLayout& layout,
                              const std::vector<Point>& points) {
     std::vector<std::byte> memory(bytes, std::byte{0xA5});
     expect_same_as_packed(points, memory.data() + first, layout);
   }
 
-  /// The layout, at several sizes, in records one after another.
+  /// Tests the layout at several sizes, in consecutive records.
   void expect_same_as_packed(const CloudLayout& layout, std::size_t first = 0) {
     for (const std::size_t size : {1U, 15U, 16U, 17U, 33U, 1000U, 8192U, 8193U, 20000U}) {
       expect_same_as_packed(first + size * static_cast<std::size_t>(layout.stride) + 16, first,
@@ -138,7 +138,7 @@ TEST_P(Layouts, NothingIsReadAfterTheLastCoordinate) {
                                     CloudLayout{.stride = 16, .x = 4, .y = 8, .z = 12},
                                     CloudLayout{.stride = 20, .x = 0, .y = 4, .z = 8}}) {
     const auto expect_same_at_the_end = [&](std::size_t size) {
-      // Ends with the last z, though the record of 16 or 20 bytes would go on.
+      // The memory ends after the last z, although the record has 16 or 20 bytes.
       const std::size_t bytes = (size - 1) * static_cast<std::size_t>(layout.stride) +
                                 static_cast<std::size_t>(layout.z) + sizeof(float);
       expect_same_as_packed({points.begin(), points.begin() + static_cast<std::ptrdiff_t>(size)},
@@ -154,7 +154,7 @@ TEST_P(Layouts, NothingIsReadBeforeTheFirstCoordinate) {
   const tests::GuardedMemory memory(std::size_t{20} * 100);
   for (const std::ptrdiff_t stride : {12, 16, 20}) {
     for (std::size_t size = 1; size <= 80; ++size) {
-      // Point 0 is the last in memory, and x the first number of its record.
+      // Point 0 is the last in memory, and x is the first number of its record.
       std::byte* const first =
           memory.first(1).data() + (size - 1) * static_cast<std::size_t>(stride);
       expect_same_as_packed(corrupted_cloud(size, 6), first,

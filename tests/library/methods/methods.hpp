@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// The methods of the library, for the tests that hold for each of them.
+// The methods of the library, for tests that apply to all of them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 
 namespace flagstone::tests {
 
-/// For tests that are typed by the method.
+/// Types for tests with the method as parameter.
 using LibraryMethods = testing::Types<Patchwork, Surface>;
 
 /// A method with its default settings, and an instruction set.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// The promise that results do not depend on the machine: the same bytes on every instruction set
-// and for every number of threads.
+// Results do not depend on the machine: they are bit-identical on every instruction set and for
+// every number of threads.
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -30,7 +30,7 @@ using tests::random_cloud;
 using tests::shuffled;
 using tests::view_of;
 
-/// Settings of one of the methods, and their name.
+/// Settings of one of the methods, with a name.
 struct Setting {
   std::string name;
   std::variant<PatchworkConfig, SurfaceConfig> config;
@@ -47,14 +47,14 @@ struct Setting {
   }
 };
 
-/// Ring radii of `count` equal rings and the sectors of each, as one zone.
+/// One zone with `count` equal rings.
 PatchworkConfig one_zone(int count, int sectors) {
   PatchworkConfig config;
   config.zones = {{.ring_radii = equal_rings(config.min_range, 80, count), .sectors = sectors}};
   return config;
 }
 
-/// The same for a sensor that sees only the area behind it.
+/// One zone for a sensor that sees only the area behind it.
 PatchworkConfig rear_view(PatchworkConfig config) {
   config.field_of_view = {.begin = 110, .width = 140};
   return config;
@@ -68,7 +68,8 @@ std::vector<Setting> patchwork_presets() {
   return settings;
 }
 
-/// Layouts that take other paths than the presets'. Up to 16 rings are looked up in registers.
+/// Zones that take different code paths than the presets. Up to 16 rings are looked up in
+/// registers.
 std::vector<Setting> unusual_patchwork() {
   return {{"one ring, one sector", one_zone(1, 1)},
           {"16 rings", one_zone(16, 32)},
@@ -88,7 +89,7 @@ Setting changed(const std::string& name, const Change& change) {
   return {name, config};
 }
 
-/// Settings that take other paths than the default ones.
+/// Settings that take different code paths than the defaults.
 std::vector<Setting> unusual_surface() {
   std::vector<Setting> settings;
   for (const int levels : {0, 1, 3}) {
@@ -116,8 +117,8 @@ std::vector<Setting> unusual_surface() {
 
 class SameBits : public testing::TestWithParam<tests::MethodOnTarget> {
  protected:
-  /// The best instruction set in one thread and the parameter's one in 1, 2 and 7 have the same
-  /// outcome.
+  /// Expects the same result from the best instruction set in one thread and from the instruction
+  /// set of the parameter in 1, 2 and 7 threads.
   static void expect_same(const Setting& setting, CloudView cloud, const std::string& what) {
     const Outcome expected = tests::segmented(*setting.make(1), cloud);
     const tests::ForcedTarget forced(std::get<1>(GetParam()));
@@ -212,11 +213,11 @@ TEST_P(SameBits, OnPointsOnALine) {
 
 TEST_P(SameBits, OnCloudsOf0To70Points) {
   std::vector<Setting> settings = presets;
-  settings.push_back(unusual.front());  // of Patchwork: all points in one bin
+  settings.push_back(unusual.front());  // Patchwork with all points in one bin
   expect_same(settings, {}, "no points");
   for (std::size_t size = 1; size <= 70; ++size) {
     const std::string what = std::to_string(size) + " points";
-    // The first degrees of a beam: points that share bins and patches, so that some are fitted.
+    // The first degrees of each beam: points in common bins and patches, so that some are fitted.
     for (const std::size_t whole : {4480U, 44800U}) {
       std::vector<Point> cloud = random_cloud(whole, static_cast<std::uint32_t>(size));
       cloud.resize(size);
@@ -251,7 +252,7 @@ TEST_P(SameBits, WithDenormalCoordinates) {
   expect_same({by_default}, cloud, "denormal");
 }
 
-/// With settings that Patchwork does not have.
+/// Tests of settings that Patchwork does not have.
 class SurfaceSameBits : public SameBits {};
 
 INSTANTIATE_TEST_SUITE_P(On, SurfaceSameBits,

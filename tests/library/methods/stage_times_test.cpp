@@ -11,7 +11,7 @@
 namespace flagstone {
 namespace {
 
-/// The stages in which the caller of a method always has a part.
+/// The stages in which the calling thread always does some of the work.
 template <class Method>
 std::vector<Stage> stages_of_the_caller() {
   if constexpr (std::is_same_v<Method, Surface>) {
@@ -21,7 +21,7 @@ std::vector<Stage> stages_of_the_caller() {
   }
 }
 
-/// A method in one thread, and in several.
+/// A method with one thread and with several threads.
 template <class Method>
 class StageTimesOf : public testing::Test {
  protected:

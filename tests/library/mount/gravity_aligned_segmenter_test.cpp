@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Allocations are counted too: io/counted_allocation.cpp replaces operator new.
+// Also counts allocations: counted_allocation.cpp replaces operator new.
 #include "flagstone/gravity_aligned_segmenter.hpp"
 
 #include <gmock/gmock.h>
@@ -36,8 +36,8 @@ using tests::view_of;
 using tests::Yard;
 using tests::YardScan;
 
-/// Any sensor at all: leaning, in millimetres, off the frame's origin, higher than the method has
-/// it.
+/// A general mounting pose: tilted, in millimetres, away from the origin of the frame, higher than
+/// configured in the method.
 MountSettings odd_mount() {
   MountSettings settings{.tilt = TiltSource::fixed};
   settings.mount = {.sensor_height = 2.5f,
@@ -47,7 +47,7 @@ MountSettings odd_mount() {
   return settings;
 }
 
-/// The truth in double precision: where a point lies in the level frame.
+/// The expected position of a point in the level frame, in double precision.
 std::array<double, 3> level_place(const Point& p, const Mount& mount) {
   const std::array<double, 3> q = {double{mount.scale} * p.x - mount.origin[0],
                                    double{mount.scale} * p.y - mount.origin[1],
@@ -55,7 +55,7 @@ std::array<double, 3> level_place(const Point& p, const Mount& mount) {
   const auto& u = mount.up;
   const double length = std::sqrt(double{u[0]} * u[0] + double{u[1]} * u[1] + double{u[2]} * u[2]);
   const std::array<double, 3> up = {u[0] / length, u[1] / length, u[2] / length};
-  // Rodrigues: about up x z by the angle between them.
+  // Rodrigues' formula: rotation about up x z by the angle between them.
   const std::array<double, 2> axis = {up[1], -up[0]};
   const double dot = axis[0] * q[0] + axis[1] * q[1];
   const double k = dot / (1 + up[2]);
@@ -67,7 +67,7 @@ std::vector<Label> labels_of(const Segmentation& result) {
   return {result.labels().begin(), result.labels().end()};
 }
 
-TEST(GravityAlignedSegmenter, PassesTheCloudItselfIfTheMountIsLevel) {
+TEST(GravityAlignedSegmenter, PassesTheCloudItselfIfNoTransformIsNeeded) {
   RecordingMethod::Seen seen;
   GravityAlignedSegmenter levelled(std::make_unique<RecordingMethod>(seen), 1.73f, {});
   const std::vector<Point> cloud = corrupted_cloud(500, 1);
@@ -79,7 +79,7 @@ TEST(GravityAlignedSegmenter, PassesTheCloudItselfIfTheMountIsLevel) {
   EXPECT_EQ(levelled.decision().verdict, MountVerdict::fixed);
 }
 
-TEST(GravityAlignedSegmenter, ReturnsTheResultOfTheMethodIfTheMountIsLevel) {
+TEST(GravityAlignedSegmenter, ReturnsTheResultOfTheMethodIfNoTransformIsNeeded) {
   Surface method;
   GravityAlignedSegmenter levelled(std::make_unique<Surface>(), 1.73f, {});
   const std::vector<Point> cloud = corrupted_cloud(20000, 2);
@@ -122,7 +122,7 @@ TEST(GravityAlignedSegmenter, PassesTheSamePointsForEveryLayout) {
       memory[floats * i + 1] = cloud[i].y;
       memory[floats * i + 2] = cloud[i].z;
     }
-    std::vector<std::byte> odd(memory.size() * sizeof(float) + 1);  // no float begins where it may
+    std::vector<std::byte> odd(memory.size() * sizeof(float) + 1);  // misaligns every float
     std::memcpy(odd.data() + 1, memory.data(), memory.size() * sizeof(float));
     const auto stride = static_cast<std::ptrdiff_t>(floats * sizeof(float));
     RecordingMethod::Seen aligned;
@@ -151,7 +151,7 @@ TEST(GravityAlignedSegmenter, KeepsZeroAndNonFinitePointsAndCreatesNoOthers) {
                              {1, inf, 1},
                              {1, 1, -inf},
                              {3e38f, -3e38f, 3e38f},
-                             {1500, -500, 250}});  // the very place of the sensor
+                             {1500, -500, 250}});  // the position of the sensor
   RecordingMethod::Seen seen;
   GravityAlignedSegmenter levelled(std::make_unique<RecordingMethod>(seen), 2.5f, settings);
   Segmentation result;
@@ -172,7 +172,7 @@ TEST(GravityAlignedSegmenter, KeepsZeroAndNonFinitePointsAndCreatesNoOthers) {
   }
 }
 
-TEST(GravityAlignedSegmenter, LabelsInvalidPointsInvalidForEveryMount) {
+TEST(GravityAlignedSegmenter, LabelsInvalidPointsInvalidForEveryMountingPose) {
   std::vector<Point> cloud = random_cloud(5000, 6);
   cloud[10] = {0, 0, 0};
   cloud[20] = {1, nan, 0};
@@ -188,8 +188,7 @@ TEST(GravityAlignedSegmenter, LabelsInvalidPointsInvalidForEveryMount) {
   EXPECT_EQ(result.count(Label::invalid), 2U);
 }
 
-/// Labels of the same yard, seen by a level sensor and by one that leans by 20 degrees, agree where
-/// both see the same; the beams differ, so it is the share of ground that is compared.
+/// Compares the labels and heights of a tilted sensor with the ground truth of the yard.
 TEST(GravityAlignedSegmenter, ATiltedSensorFindsTheGroundOfALevelSensor) {
   const std::vector<sim::Box> boxes = {{.low = {-20, 5, -1}, .high = {20, 6, 6}},
                                        {.low = {6, -4, 0}, .high = {10, -2, 2}}};
@@ -237,7 +236,7 @@ TEST(GravityAlignedSegmenter, PatchesAreInTheFrameAndUnitsOfTheCloud) {
     const auto& n = patch.normal;
     const auto& m = patch.mean;
     ASSERT_NEAR(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-4);
-    // The mean lies in the plane, and both in the ground, 2.2 m below the sensor: in millimetres.
+    // The mean is in the plane, and both are on the ground, 2.2 m below the sensor, in millimetres.
     ASSERT_NEAR(n[0] * m[0] + n[1] * m[1] + n[2] * m[2] + patch.d, 0, 5);
     const auto place = level_place({m[0], m[1], m[2]}, settings.mount);
     ASSERT_NEAR(place[2], -2.2, 0.1);

@@ -12,7 +12,7 @@
 namespace flagstone::mount {
 namespace {
 
-/// Points of weight 1 on a square of 8 m around the sensor, `count` along a side.
+/// Adds points of weight 1 in a square of 8 m around the sensor, `count` along each side.
 void add_level(std::vector<NearPoint>& points, float height, int count) {
   for (int row = 0; row < count; ++row) {
     for (int column = 0; column < count; ++column) {
@@ -37,7 +37,7 @@ TEST(PlaneSearch, FindsALevel) {
 }
 
 TEST(PlaneSearch, PrefersTheLowerOfTwoLevelsUnlessItHasLessThanAThirdOfTheUpperPoints) {
-  std::vector<NearPoint> points;  // below a level, a point costs as much as two in it
+  std::vector<NearPoint> points;  // a point below a level cancels two points in it
   add_level(points, 1, 31);       // 961 points
   std::vector<NearPoint> few = points;
   add_level(points, 2, 20);  // 1 / 2.4
@@ -48,13 +48,13 @@ TEST(PlaneSearch, PrefersTheLowerOfTwoLevelsUnlessItHasLessThanAThirdOfTheUpperP
 }
 
 TEST(PlaneSearch, FindsTiltedGroundBelowALevelHedge) {
-  // So many points are in the hedge, 0.4 m above, that a first look at directions 10 degrees apart
-  // leads astray; 5 degrees do not.
+  // The hedge, 0.4 m above the ground, has so many points that a first test of directions 10
+  // degrees apart would select it. Directions 5 degrees apart do not.
   std::vector<NearPoint> points;
   add_level(points, 1.7f, 40);
   for (NearPoint& p : points) p.z -= 2 * 0.0875f * (p.x + p.y);
   add_level(points, 1.3f, 40);
-  for (NearPoint& p : points) {  // up to 8 m away
+  for (NearPoint& p : points) {  // up to 8 m from the sensor
     p.x *= 2;
     p.y *= 2;
   }
@@ -69,7 +69,7 @@ TEST(PlaneSearch, FindsTiltedGroundBelowALevelHedge) {
   EXPECT_NEAR(plane->height, 1.7f * shorter, 0.01f);
 }
 
-/// A decision that nothing speaks against.
+/// A decision whose values are all good.
 MountDecision sure() {
   return {.cells = 25, .free = 0.5f, .below = 0.2f, .spread = 0.12f, .directions = 9, .seen = 15};
 }

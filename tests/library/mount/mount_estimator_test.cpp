@@ -27,7 +27,8 @@ MountDecision estimated(const YardScan& scan, TiltSource tilt = TiltSource::off)
   return MountEstimator({.tilt = tilt}).estimate(scan.view());
 }
 
-/// The mount is told, within these bounds (metres, degrees), whether or not the tilt is asked for.
+/// Expects an accepted estimate within these errors (metres, degrees), with and without estimating
+/// the tilt.
 void expect_told(const Yard& yard, float height_error, float tilt_error) {
   const YardScan scan = scan_of(yard);
 
@@ -110,7 +111,7 @@ TEST(MountEstimator, ANarrowFieldOfViewIsEnough) {
 }
 
 TEST(MountEstimator, FindsGroundThatBeginsFarAheadNextToParkedCars) {
-  Yard yard{.sensor = "at128", .mounting = {.height = 2.6}};  // sees none nearer than 11.4 m
+  Yard yard{.sensor = "at128", .mounting = {.height = 2.6}};  // sees no ground nearer than 11.4 m
   for (int i = 0; i < 7; ++i) {
     yard.boxes.push_back({.low = {5.2 * i, 3.4, 0.25}, .high = {5.2 * i + 4.3, 5.2, 1.45}});
   }
@@ -123,7 +124,7 @@ TEST(MountEstimator, IgnoresSparseGhostPointsOfACeilingReflectedInTheFloor) {
   for (float x = -10; x < 10; x += 0.1f) {
     for (float y = -10; y < 10; y += 0.1f) scan.points.push_back({x, y, -0.9f});
   }
-  for (float x = -10; x < 10; x += 0.5f) {  // one for every 25 points of the floor
+  for (float x = -10; x < 10; x += 0.5f) {  // one per 25 points of the floor
     for (float y = -10; y < 10; y += 0.5f) scan.points.push_back({x, y, -3.1f});
   }
 
@@ -221,7 +222,8 @@ TEST(MountEstimator, ToleratesZerosNansAndGhostPointsFarBelow) {
 TEST(MountEstimator, AppliesScaleAndOrigin) {
   YardScan scan = scan_of({});
   for (Point& p : scan.points) {
-    p = {1000 * (p.x + 1.2f), 1000 * p.y, 1000 * (p.z + 1.73f)};  // millimetres, on the ground
+    p = {1000 * (p.x + 1.2f), 1000 * p.y,
+         1000 * (p.z + 1.73f)};  // in millimetres, origin on the ground
   }
   MountSettings settings;
   settings.mount.scale = 0.001f;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What is no ground is refused, with the reason.
+// Estimates from clouds without ground are rejected with the reason.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ MountDecision decided(const std::vector<Point>& points, const MountSettings& set
   return MountEstimator(settings).estimate(CloudView(std::span<const Point>(points)));
 }
 
-/// Four walls around the sensor, from so far below it to so far above.
+/// Four walls around the sensor, from z = `low` to z = `high`.
 std::vector<Point> walls(float low, float high) {
   std::vector<Point> points;
   for (float along = -6; along < 6; along += 0.1f) {
@@ -38,7 +38,7 @@ TEST(MountRejection, OfAnEmptyCloud) {
 
   EXPECT_EQ(decision.verdict, MountVerdict::too_few_points);
   EXPECT_EQ(decision.confidence, 0);
-  EXPECT_EQ(decision.mount.sensor_height, 1.73f);  // what is given
+  EXPECT_EQ(decision.mount.sensor_height, 1.73f);  // the configured height
 }
 
 TEST(MountRejection, OfANullCloudWithPoints) {
@@ -78,7 +78,7 @@ TEST(MountRejection, OfATableNextToALowerFloor) {
   for (float x = -4; x < 4; x += 0.1f) {
     for (float y = -4; y < 4; y += 0.1f) points.push_back({x, y, -0.5f});
   }
-  for (float x = -12; x < 12; x += 0.3f) {  // half a kilometre of floor at every depth
+  for (float x = -12; x < 12; x += 0.3f) {  // floor that drops to 10 m below
     for (float y = 4; y < 12; y += 0.3f) points.push_back({x, y, -3 - 0.9f * (y - 4)});
   }
 

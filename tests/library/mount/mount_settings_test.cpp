@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What is said of the settings; empty if they are allowed.
+/// The error message of check(); empty if the settings are valid.
 std::string complaint(const MountSettings& settings) {
   try {
     settings.check();

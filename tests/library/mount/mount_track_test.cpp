@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What is kept from scan to scan.
+// The state that is kept between scans.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -17,13 +17,13 @@ namespace {
 using tests::level_ground;
 using tests::RecordingMethod;
 
-/// A levelled method, asked scan by scan.
+/// A gravity-aligned method that gets one scan after another.
 class Asked {
  public:
   explicit Asked(const MountSettings& settings)
       : levelled_(std::make_unique<RecordingMethod>(seen_), 1.73f, settings) {}
 
-  /// The verdict about level ground so far below the sensor; 0 for an empty scan.
+  /// The status of a scan of level ground `height` metres below the sensor; 0 for an empty scan.
   MountVerdict about(float height) {
     const std::vector<Point> points = height > 0 ? level_ground(height) : std::vector<Point>();
     Segmentation result;
@@ -31,7 +31,7 @@ class Asked {
     return levelled_.decision().verdict;
   }
   [[nodiscard]] float height() const { return levelled_.mount().sensor_height; }
-  /// Where the method got the ground of the last scan, z.
+  /// z of the ground in the last scan, as the method received it.
   [[nodiscard]] float ground() const { return seen_.points.front().z; }
   void reset() { levelled_.reset(); }
 
@@ -40,19 +40,19 @@ class Asked {
   GravityAlignedSegmenter levelled_;
 };
 
-TEST(EstimatedMount, IsTheFirstAcceptedEstimate) {
+TEST(EstimatedPose, IsTheFirstAcceptedEstimate) {
   Asked asked({.height = HeightSource::estimate});
 
   EXPECT_EQ(asked.about(0), MountVerdict::too_few_points);
   EXPECT_EQ(asked.height(), 1.73f);
   EXPECT_EQ(asked.about(1.2f), MountVerdict::accepted);
   EXPECT_NEAR(asked.height(), 1.2f, 0.001f);
-  EXPECT_NEAR(asked.ground(), -1.73f, 0.001f);  // that very scan is already levelled
+  EXPECT_NEAR(asked.ground(), -1.73f, 0.001f);  // this scan is already transformed
   EXPECT_EQ(asked.about(2.0f), MountVerdict::fixed);
   EXPECT_NEAR(asked.height(), 1.2f, 0.001f);
 }
 
-TEST(EstimatedMount, KeepsTheHeightIfOnlyTheTiltIsEstimated) {
+TEST(EstimatedPose, KeepsTheHeightIfOnlyTheTiltIsEstimated) {
   MountSettings settings{.tilt = TiltSource::estimate};
   settings.mount.sensor_height = 1.9f;
   Asked asked(settings);
@@ -62,7 +62,7 @@ TEST(EstimatedMount, KeepsTheHeightIfOnlyTheTiltIsEstimated) {
   EXPECT_EQ(asked.height(), 1.9f);
 }
 
-TEST(EstimatedMount, IsClearedByReset) {
+TEST(EstimatedPose, IsClearedByReset) {
   Asked asked({.height = HeightSource::estimate});
   asked.about(1.2f);
 
@@ -73,7 +73,7 @@ TEST(EstimatedMount, IsClearedByReset) {
   EXPECT_NEAR(asked.height(), 2.0f, 0.001f);
 }
 
-TEST(TrackedMount, IsTheMeanOfTheFirstEstimates) {
+TEST(TrackedPose, IsTheMeanOfTheFirstEstimates) {
   Asked asked({.height = HeightSource::track});
 
   for (const float height : {1.70f, 1.76f, 1.73f, 1.77f}) asked.about(height);
@@ -81,17 +81,17 @@ TEST(TrackedMount, IsTheMeanOfTheFirstEstimates) {
   EXPECT_NEAR(asked.height(), 1.74f, 0.002f);
 }
 
-TEST(TrackedMount, FollowsASlowChange) {
+TEST(TrackedPose, FollowsASlowChange) {
   Asked asked({.height = HeightSource::track, .tracking = {.window = 5}});
 
   for (int i = 0; i <= 60; ++i) {
     EXPECT_EQ(asked.about(1.5f + 0.01f * static_cast<float>(i)), MountVerdict::accepted) << i;
   }
 
-  EXPECT_NEAR(asked.height(), 2.1f, 0.06f);  // some scans behind
+  EXPECT_NEAR(asked.height(), 2.1f, 0.06f);  // the mean lags by some scans
 }
 
-TEST(TrackedMount, RejectsAnOutlier) {
+TEST(TrackedPose, RejectsAnOutlier) {
   Asked asked({.height = HeightSource::track});
   for (int i = 0; i < 5; ++i) asked.about(1.7f);
 
@@ -102,7 +102,7 @@ TEST(TrackedMount, RejectsAnOutlier) {
   EXPECT_EQ(asked.about(1.7f), MountVerdict::accepted);
 }
 
-TEST(TrackedMount, AcceptsManyConsecutiveOutliersThatAgree) {
+TEST(TrackedPose, AcceptsManyConsecutiveOutliersThatAgree) {
   Asked asked({.height = HeightSource::track, .tracking = {.patience = 4}});
   for (int i = 0; i < 5; ++i) asked.about(1.7f);
 
@@ -112,7 +112,7 @@ TEST(TrackedMount, AcceptsManyConsecutiveOutliersThatAgree) {
   EXPECT_NEAR(asked.height(), 2.3f, 0.001f);
 }
 
-TEST(TrackedMount, NeverAcceptsOutliersThatDisagree) {
+TEST(TrackedPose, NeverAcceptsOutliersThatDisagree) {
   Asked asked({.height = HeightSource::track, .tracking = {.patience = 3}});
   for (int i = 0; i < 5; ++i) asked.about(1.7f);
 
@@ -123,7 +123,7 @@ TEST(TrackedMount, NeverAcceptsOutliersThatDisagree) {
   EXPECT_NEAR(asked.height(), 1.7f, 0.001f);
 }
 
-TEST(TrackedMount, KeepsItsStateOnScansWithoutAnEstimate) {
+TEST(TrackedPose, KeepsItsStateOnScansWithoutAnEstimate) {
   Asked asked({.height = HeightSource::track});
   asked.about(2.0f);
 
@@ -132,7 +132,7 @@ TEST(TrackedMount, KeepsItsStateOnScansWithoutAnEstimate) {
   EXPECT_NEAR(asked.height(), 2.0f, 0.001f);
 }
 
-TEST(TrackedMount, IsClearedByReset) {
+TEST(TrackedPose, IsClearedByReset) {
   Asked asked({.height = HeightSource::track});
   asked.about(2.0f);
 

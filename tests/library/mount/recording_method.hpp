@@ -8,7 +8,7 @@
 
 namespace flagstone::tests {
 
-/// A method that does nothing but remember the cloud it was given.
+/// A method that only records the cloud it received.
 class RecordingMethod final : public Segmenter {
  public:
   struct Seen {

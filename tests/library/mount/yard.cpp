@@ -14,7 +14,7 @@
 namespace flagstone::tests {
 namespace {
 
-constexpr int half_width = 40;  // of the ground, metres
+constexpr int half_width = 40;  // half the side of the ground, metres
 
 sim::Ground ground_of(const Yard& yard) {
   sim::GroundGrid lines;

@@ -15,16 +15,16 @@
 
 namespace flagstone::tests {
 
-/// A world around a vehicle that stands at its origin, heading along x.
+/// A scene around a vehicle at its origin, heading along x.
 struct Yard {
   /// Height of the ground, metres; sampled every metre.
   std::function<double(double x, double y)> ground = [](double, double) { return 0.0; };
-  std::vector<sim::Box> boxes{};  ///< what stands in it, in the world's frame
+  std::vector<sim::Box> boxes{};  ///< objects in it, in the frame of the scene
   std::string sensor = "hdl-64e";
   sim::Mounting mounting{.height = 1.73};
 };
 
-/// A scan of it and the truth about the sensor.
+/// A scan of a yard and the true mounting pose of the sensor.
 struct YardScan {
   std::vector<Point> points;
   Mount mount;
@@ -32,13 +32,13 @@ struct YardScan {
   [[nodiscard]] CloudView view() const { return CloudView(std::span<const Point>(points)); }
 };
 
-/// What the sensor sees, with the noise that the simulator gives it, ghosts below the ground too.
+/// Simulates a scan, with noise and ghost points below the ground.
 YardScan scan_of(const Yard& yard);
 
 /// Degrees between two directions.
 float degrees_between(const std::array<float, 3>& a, const std::array<float, 3>& b);
 
-/// Level ground so far below the sensor, from 3 m to 12 m around it: 5,000 points.
+/// Level ground `height` metres below the sensor, 3 m to 12 m away from it: 5,000 points.
 std::vector<Point> level_ground(float height);
 
 }  // namespace flagstone::tests

@@ -24,10 +24,10 @@ std::uint32_t locate(const ConcentricZones& zones, Point p) {
   return bin;
 }
 
-/// Zone, ring, sector and distance to the nearest bin boundary, computed as eq. (3) reads.
+/// Zone, ring, sector and distance to the nearest bin boundary, computed directly from eq. (3).
 struct Expected {
   std::uint32_t bin = 0;
-  double to_boundary = 0;  ///< as a share of the range
+  double to_boundary = 0;  ///< as a fraction of the range
 };
 
 constexpr double degree = std::numbers::pi / 180;
@@ -40,7 +40,7 @@ std::uint32_t bins_of(const PatchworkConfig& config) {
   return static_cast<std::uint32_t>(bins);
 }
 
-/// How far theta lies counter-clockwise from where the field of view begins, 0 to 2 pi.
+/// Angle from the start of the field of view to theta, counter-clockwise, 0 to 2 pi.
 double from_begin(double theta, const FieldOfView& view) {
   const double turn = 2 * std::numbers::pi;
   const double angle = theta - view.begin * degree;
@@ -73,7 +73,7 @@ Expected by_equation(Point p, const PatchworkConfig& config) {
   return expected;
 }
 
-/// Zones of any number, rings of any width, sectors of any number.
+/// Any number of zones, rings of any width, any number of sectors.
 PatchworkConfig any_zones() {
   PatchworkConfig config;
   config.min_range = static_cast<float>(*rc::gen::inRange(0, 500)) / 100.0f;
@@ -92,7 +92,7 @@ PatchworkConfig any_zones() {
   return config;
 }
 
-/// Anywhere, of any width; all around in one case of four.
+/// A field of view with any start and width; in one of four cases the full circle.
 FieldOfView any_view() {
   const int choice = *rc::gen::inRange(0, 4);
   return {.begin = static_cast<float>(*rc::gen::inRange(-3600, 3601)) / 10.0f,
@@ -164,7 +164,7 @@ TEST(ConcentricZones, AFullTurnFromAnyStartContainsAllPoints) {
     config.zones = {{.ring_radii = {80}, .sectors = *rc::gen::inRange(1, 3601)}};
     config.field_of_view.begin = static_cast<float>(*rc::gen::inRange(-360, 361));
     const ConcentricZones zones(config);
-    // Where it begins, and as close to it as numbers come.
+    // The start of the field of view, and the nearest numbers.
     const double begin = config.field_of_view.begin * degree;
     for (const double angle : {begin, begin - 1e-9, begin - 1e-7, begin + 1e-7}) {
       const Point p{static_cast<float>(10 * std::cos(angle)),
@@ -238,7 +238,8 @@ TEST(ConcentricZones, TheNoiseLimitDecreasesWithRangeIfTheGroundMaySlopeDown) {
 }
 
 TEST(ConcentricZones, PointsOnADiagonalAreInTheSectorThatBeginsThere) {
-  // Sectors are numbered from theta = -pi; of 16, every other one begins on an axis or a diagonal.
+  // Sectors are counted from theta = -pi; of 16 sectors, every second one begins on an axis or a
+  // diagonal.
   PatchworkConfig config;
   config.zones = {{.ring_radii = {80}, .sectors = 16}};
   const ConcentricZones zones(config);
@@ -254,7 +255,7 @@ TEST(ConcentricZones, PointsOnADiagonalAreInTheSectorThatBeginsThere) {
 }
 
 TEST(ConcentricZones, PointsAtInfinityAreOutOfRangeForAnyNumberOfRings) {
-  // Their squared range is infinite, and no power of two is the number of rings.
+  // The squared range is infinite, and the number of rings is not a power of two.
   for (const int rings : {1, 15, 16, 17, 33, 600, 1000}) {
     PatchworkConfig config;
     config.zones = {{.ring_radii = equal_rings(config.min_range, 80, rings), .sectors = 2}};

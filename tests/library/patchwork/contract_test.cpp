@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Clauses of the data contract for Patchwork alone; for every method: tests/lab/baselines.
+// Guarantees of Patchwork only. The guarantees of all methods are tested in tests/lab/baselines.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(PatchworkContract, EqualPointsAreOnePatch) {
   const std::vector<Point> in_the_air(5000, Point{6, 2, 1.5f});
 
   EXPECT_THAT(labels_of(on_ground), testing::Each(Label::ground));
-  // Perfectly flat, so that the flatness term may believe it or not; but all of it or nothing.
+  // The patch is perfectly flat. The flatness term may accept or reject it, but only as a whole.
   const std::vector<Label> air = labels_of(in_the_air);
   EXPECT_THAT(air, testing::Each(air.front()));
 }

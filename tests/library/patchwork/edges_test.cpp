@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What Patchwork makes of ground on two levels and of reflections below it.
+// Patchwork on ground with two levels, and with reflections below the ground.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,9 +61,9 @@ TEST(PatchworkAtEdges, SingleGhostPointsAreNeverGround) {
   }
 }
 
-/// A bin of Z1 with ground, and `count` points around 1 m below it, each as far from that level as
-/// `off_level` says, on `rows` rows of 2 m. Points below the height margin are kept out of the
-/// first set, so that the plane is that of the upper level.
+/// A bin of Z1 with ground, and `count` points around 1 m below it on `rows` rows of 2 m, each at
+/// the distance `off_level` from that level. Points below the height margin are excluded from the
+/// first set, so that the plane is fitted to the upper level.
 template <class OffLevel>
 Outcome of_ground_above(int count, int rows, const OffLevel& off_level,
                         PatchworkConfig config = {}) {
@@ -98,7 +98,7 @@ TEST(PatchworkBelowAPatch, PointsThatFormASeparatePlaneAreGroundAndCounted) {
   EXPECT_NEAR(outcome.patches[0].mean[2], -1.73f, 0.01f);
 }
 
-TEST(PatchworkBelowAPatch, ScatteredPointsAreNoise) {
+TEST(PatchworkBelowAPatch, PointsThatFormNoPlaneAreNoise) {
   const Outcome outcome = of_ground_above(30, 3, scattered);
   EXPECT_EQ(std::ranges::count(outcome.labels, Label::noise), 30);
   EXPECT_EQ(outcome.patches[0].lower_ground_count, 0U);

@@ -10,7 +10,7 @@
 namespace flagstone::patchwork {
 namespace {
 
-/// A plane of three or more points with what the likelihood looks at.
+/// A plane of at least three points with the values that the likelihood uses.
 Plane plane(double normal_z, double mean_z, double sigma) {
   Plane plane;
   plane.count = 100;

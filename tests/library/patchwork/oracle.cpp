@@ -26,13 +26,13 @@ struct Place {
   int zone = 0;
   int ring = 0;
   int sector = 0;
-  double inner = 0;  ///< of the ring
+  double inner = 0;  ///< inner radius of the ring, metres
   double outer = 0;
 };
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// How far theta lies counter-clockwise from where the field of view begins, 0 to 2 pi.
+/// Angle from the start of the field of view to theta, counter-clockwise, 0 to 2 pi.
 double into_view(double theta, const PatchworkConfig& config) {
   const double turn = 2 * std::numbers::pi;
   const double from_begin = theta - radians(config.field_of_view.begin);
@@ -53,7 +53,7 @@ Place place_of(double rho, double theta, const PatchworkConfig& config) {
       if (inner <= rho && rho < outer) {
         const double width = radians(config.field_of_view.width) / zone.sectors;
         int sector = static_cast<int>(std::floor(into_view(theta, config) / width));
-        if (sector == zone.sectors) sector = 0;  // a full turn is none
+        if (sector == zone.sectors) sector = 0;  // a full turn is sector 0
         return {static_cast<int>(m), static_cast<int>(i), sector, inner, outer};
       }
       inner = outer;
@@ -92,8 +92,7 @@ Plane plane_of(CloudView cloud, const Indices& set) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(c);  // ascending
   plane.eigenvalues = solver.eigenvalues().reverse().cwiseMax(0);
   plane.normal = solver.eigenvectors().col(0);
-  if (std::abs(plane.normal.z()) <=
-      1e-6) {  // an upright plane, as the product's documentation has it
+  if (std::abs(plane.normal.z()) <= 1e-6) {  // a vertical plane, as documented for principal_axes()
     plane.normal.z() = 0;
     const double larger = std::abs(plane.normal.y()) > std::abs(plane.normal.x())
                               ? plane.normal.y()
@@ -103,7 +102,8 @@ Plane plane_of(CloudView cloud, const Indices& set) {
     plane.normal = -plane.normal;
   }
 
-  // Points that fix no plane: the most upright one, as the product's documentation has it.
+  // Points that do not determine a plane: the most upright normal, as documented for
+  // principal_axes().
   const double trace = plane.eigenvalues.sum();
   const double equal = 1e-6 * trace;
   if (plane.eigenvalues[0] - plane.eigenvalues[2] <= equal) {
@@ -118,7 +118,7 @@ Plane plane_of(CloudView cloud, const Indices& set) {
 }
 
 /// z-bar_init: mean height of the N_seed lowest points of S_n that are not below M_h * h_s.
-/// The height of the sensor if there are none, as in the public code.
+/// If there are none, the height of the sensor, as in the public code.
 double initial_height(CloudView cloud, const Indices& s_n, double cut,
                       const PatchworkConfig& config) {
   const int n_seed = config.seed_count;
@@ -138,7 +138,7 @@ double initial_height(CloudView cloud, const Indices& s_n, double cut,
   return sum / static_cast<double>(heights.size());
 }
 
-/// Eq. (5): G^0, without the points below the margin where the configuration says so.
+/// Eq. (5): G^0, without the points below the margin if the configuration excludes them.
 Indices initial_set(CloudView cloud, const Indices& s_n, double cut,
                     const PatchworkConfig& config) {
   const double z_init = initial_height(cloud, s_n, cut, config);
@@ -157,7 +157,7 @@ double height_above(const Plane& plane, CloudView cloud, std::size_t k) {
   return plane.d - d_hat;
 }
 
-/// Eqs. (5) and (6), without what is so far below that it is noise.
+/// Eqs. (5) and (6), without the points that are so far below the plane that they are noise.
 Indices next_set(CloudView cloud, const Indices& s_n, const Plane& plane,
                  const PatchworkConfig& config) {
   Indices set;
@@ -184,7 +184,7 @@ Verdict judge(const Plane& plane, double r_n, std::size_t ring, const PatchworkC
   const double above = (plane.mean.z() - kappa) / config.elevation.scale;
   const double log_psi = near ? -std::log1p(std::exp(std::min(above, 300.0))) : 0;
 
-  // Eq. (11), as a logarithm, which small scales do not overflow
+  // Eq. (11) as a logarithm, which does not overflow for small scales
   const double spread = plane.eigenvalues.sum();
   const double sigma = spread > 0 ? plane.eigenvalues[2] / spread : 0;
   const std::vector<float>& thresholds = config.flatness.thresholds;
@@ -204,11 +204,11 @@ Verdict judge(const Plane& plane, double r_n, std::size_t ring, const PatchworkC
   return Verdict::too_high;
 }
 
-// Ground below a patch, which the paper does not know
+// Ground below a patch, which is not in the paper
 // ---------------------------------------------
 
-/// Of the points so far below a patch that they are noise, those that lie in a plane of their own
-/// are ground, if they are enough, spread both ways, flat and upright.
+/// Points below a patch are ground instead of noise if they form a separate plane: enough points,
+/// with enough length and width, flat, and with an upright normal.
 Indices lower_ground(CloudView cloud, const Indices& deep) {
   const auto near = [&](const Plane& plane, double margin) {
     Indices set;
@@ -245,8 +245,8 @@ void segment_bin(CloudView cloud, const Place& place, std::size_t ring_overall,
 
   const Zone& zone = config.zones[static_cast<std::size_t>(place.zone)];
   const double margin = zone.height_margin;
-  // M_h h_s; if the origin is not in the sensor, as far below the ground as for one 1.73 m above
-  // it.
+  // M_h h_s. If the origin is not at the sensor, the depth below the ground is that for a sensor at
+  // 1.73 m.
   const double height = config.sensor_height;
   const double cut = std::isinf(margin) ? margin
                      : height > 0       ? margin * height

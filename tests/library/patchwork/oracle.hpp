@@ -12,7 +12,7 @@
 
 namespace flagstone::oracle {
 
-/// What the oracle says of one bin.
+/// The result of the oracle for one bin.
 struct Bin {
   int zone = 0;
   int ring = 0;
@@ -24,14 +24,14 @@ struct Bin {
   Eigen::Vector3d eigenvalues = Eigen::Vector3d::Zero();  ///< lambda_1 >= lambda_2 >= lambda_3
 };
 
-/// What the oracle says of a scan.
+/// The result of the oracle for a scan.
 struct Answer {
   std::vector<Label> labels;
-  std::vector<Bin> bins;  ///< those with points, by zone, ring and sector
+  std::vector<Bin> bins;  ///< bins with points, ordered by zone, ring and sector
 };
 
-/// Patchwork as the paper's section III writes it, in double precision, point by point and as
-/// plainly as possible. For comparing with; it is slow and allocates as it likes.
+/// A simple implementation of section III of the paper, in double precision, point by point. Only
+/// for comparison: it is slow and allocates memory in every call.
 Answer segment(CloudView cloud, const PatchworkConfig& config);
 
 }  // namespace flagstone::oracle

@@ -41,8 +41,7 @@ Difference compare(CloudView cloud, const PatchworkConfig& config) {
     const bool same = patch.zone == bin.zone && patch.ring == bin.ring &&
                       patch.sector == bin.sector && patch.verdict == bin.verdict;
     difference.different_verdicts += !same;
-    // A point within rounding of a margin is in one set and not in the other, which turns the
-    // plane.
+    // A point within rounding of a margin is in only one of the two sets, which rotates the plane.
     const bool same_set = std::ranges::all_of(
         bin.points, [&](std::size_t k) { return result.labels()[k] == expected.labels[k]; });
     if (!same || !same_set || !patch.is_ground()) continue;
@@ -54,7 +53,7 @@ Difference compare(CloudView cloud, const PatchworkConfig& config) {
 }
 
 void expect_agreement(const std::string& what, const Difference& difference) {
-  std::printf("%s: %zu of %zu labels and %zu of %zu verdicts differ from the oracle\n",
+  std::printf("%s: %zu of %zu labels and %zu of %zu patch states differ from the oracle\n",
               what.c_str(), difference.different_labels, difference.points,
               difference.different_verdicts, difference.patches);
   EXPECT_LE(difference.different_labels * 10000, difference.points) << what;

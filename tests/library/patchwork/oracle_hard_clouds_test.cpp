@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// The product against the oracle where single precision, sums in lanes and sorting networks have it
-// hardest: no order, many equal points, lines, steep planes, wide bins, great heights.
+// Compares Patchwork with the oracle on clouds that are difficult for single precision, sums in
+// lanes and sorting networks: unordered clouds, many equal points, lines, steep planes, wide bins,
+// large heights.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,10 +29,10 @@ using oracle::expect_agreement;
 using tests::random_cloud;
 using tests::view_of;
 
-/// 0 <= value < 1, the same everywhere.
+/// 0 <= value < 1; the same numbers everywhere.
 float unit(std::mt19937& random) { return static_cast<float>(random() >> 8U) / 16777216.0f; }
 
-/// Points at random places around the sensor, up to `range` metres away, on z = height(x, y).
+/// Points at random positions around the sensor, up to `range` metres away, on z = height(x, y).
 std::vector<Point> surface(std::size_t points, float range, std::uint32_t seed,
                            const std::function<float(float x, float y)>& height,
                            float roughness = 0.03f) {
@@ -40,7 +41,7 @@ std::vector<Point> surface(std::size_t points, float range, std::uint32_t seed,
   cloud.reserve(points);
   while (cloud.size() < points) {
     const float rho = 2.8f + (range - 2.9f) * unit(random);
-    // A multiple of all presets' sectors: no direction is within rounding of a sector's boundary.
+    // A multiple of the sectors of all presets: no direction is within rounding of a boundary.
     const float theta = 6.2831853f * (std::floor(12096 * unit(random)) + 0.5f) / 12096;
     const float x = rho * std::cos(theta);
     const float y = rho * std::sin(theta);
@@ -98,7 +99,7 @@ TEST_P(OracleOnHardClouds, HalfOfTheBinAtOnePosition) {
 }
 
 TEST_P(OracleOnHardClouds, TwoClusters) {
-  // Two tight clusters a bin, one above the other by a varying height.
+  // Two tight clusters per bin, one above the other at varying height.
   std::mt19937 random(3);
   std::vector<Point> cloud;
   for (int bin = 0; bin < 300; ++bin) {
@@ -116,7 +117,7 @@ TEST_P(OracleOnHardClouds, TwoClusters) {
 }
 
 TEST_P(OracleOnHardClouds, Poles) {
-  // Points straight above each other leave a plane no choice but a wall.
+  // Points straight above each other can only form a vertical plane.
   std::mt19937 random(4);
   std::vector<Point> cloud;
   for (int pole = 0; pole < 200; ++pole) {
@@ -172,7 +173,7 @@ TEST_P(OracleOnHardClouds, BinsOf300Metres) {
 
 TEST_P(OracleOnHardClouds, HeightsOf9999Metres) {
   config.noise_depth = std::numeric_limits<float>::infinity();
-  // With a margin all points may be below it, the next test's subject.
+  // With a margin, all points may be below it; the next test covers that.
   for (Zone& zone : config.zones) zone.height_margin = -std::numeric_limits<float>::infinity();
   for (const float height : {-9999.0f, 9999.0f}) {
     const auto level = [height](float x, float) { return height + 0.004f * x; };
@@ -185,7 +186,7 @@ TEST_P(OracleOnHardClouds, HeightsOf9999Metres) {
 }
 
 TEST_P(OracleOnHardClouds, GroundBelowEveryMargin) {
-  // Without seeds heights are seen from the sensor's, in steps of 8 micrometres at 100 m.
+  // Without seeds, heights are relative to the sensor, with a resolution of 8 micrometres at 100 m.
   config.noise_depth = std::numeric_limits<float>::infinity();
   const auto level = [](float x, float) { return -100 + 0.004f * x; };
   expect_agreement_on("ground at -100 m", surface(60000, 79, 14, level, 0.5f));

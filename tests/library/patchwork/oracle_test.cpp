@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// The product against the equations written out in double precision, scan by scan and preset by
-// preset.
+// Compares Patchwork with a direct implementation of the equations in double precision, for each
+// scan and preset.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,8 +23,8 @@ using oracle::compare;
 using oracle::Difference;
 using oracle::expect_agreement;
 
-/// Axes are sector boundaries: which side a point on one belongs to is a matter of rounding in an
-/// arc tangent. concentric_zones_test says what the product does with them.
+/// Removes points on the axes. Axes are sector boundaries, where the rounding of an arc tangent
+/// decides the sector. concentric_zones_test covers these points.
 bool lies_on_an_axis(const Point& p) { return std::abs(p.x) < 1e-30f || std::abs(p.y) < 1e-30f; }
 
 class Oracle : public testing::TestWithParam<std::string_view> {

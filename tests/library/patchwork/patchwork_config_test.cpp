@@ -19,7 +19,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// What check() says after `spoil`; empty if it is content.
+/// The error message of check() after `spoil`; empty if the configuration is valid.
 std::string complaint(const std::function<void(PatchworkConfig&)>& spoil) {
   PatchworkConfig config;
   spoil(config);

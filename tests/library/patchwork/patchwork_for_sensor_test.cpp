@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// The rule of docs/reference/sensors.md: what Patchwork's settings owe to a sensor.
+// The rule that derives the settings of Patchwork from a sensor.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -23,12 +23,12 @@ using testing::HasSubstr;
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Fewest points of a bin on flat ground, and the share of bins that may have fewer: those at the
-/// edges of zones, whose sectors are a compromise between rings.
+/// Minimum number of points of a bin on flat ground, and the fraction of bins that may have fewer.
+/// These are at the edges of zones, where the number of sectors is a compromise between rings.
 constexpr std::size_t fewest_points = 15;
 constexpr double share_with_fewer = 0.1;
 
-/// Where a beam at this angle meets flat ground.
+/// Distance at which a beam at this angle meets flat ground.
 Point on_flat_ground(const Sensor& sensor, double elevation, double azimuth) {
   const double range = sensor.height / std::tan(-elevation * degree);
   return {static_cast<float>(range * std::cos(azimuth * degree)),
@@ -36,13 +36,13 @@ Point on_flat_ground(const Sensor& sensor, double elevation, double azimuth) {
           static_cast<float>(-sensor.height)};
 }
 
-/// Lines that a sensor draws on the ground.
+/// Lines of points of a sensor on the ground.
 struct Lines {
   std::vector<double> elevations;
-  int points = 0;  ///< of each
+  int points = 0;  ///< number of points per line
 };
 
-/// A rosette's points as lines that lie evenly in its field of view.
+/// The points of a rosette as lines that are evenly spaced in its field of view.
 Lines lines_of(const Sensor& sensor) {
   if (!sensor.draws_rosette()) return {sensor.elevations, sensor.firings};
   const int count = static_cast<int>(std::sqrt(sensor.firings));
@@ -58,7 +58,7 @@ bool meets_flat_ground(const Sensor& sensor, double elevation) {
   return elevation < 0 && sensor.height < sensor.max_range * std::sin(-elevation * degree);
 }
 
-/// One scan of nothing but flat ground.
+/// A scan of flat ground only.
 std::vector<Point> flat_scan(const Sensor& sensor) {
   const double width = sensor.azimuth_end - sensor.azimuth_begin;
   const Lines lines = lines_of(sensor);
@@ -81,7 +81,7 @@ std::size_t bins_of(const PatchworkConfig& config) {
   return bins;
 }
 
-/// Some sensor: few beams or many, evenly apart or not, all around or narrow, low or high.
+/// Any sensor: few or many beams, evenly spaced or not, full or narrow field of view, low or high.
 Sensor any_sensor() {
   const auto between = [](double low, double high) {
     return low + (high - low) * *rc::gen::inRange(0, 1001) / 1000;
@@ -125,7 +125,7 @@ Segmentation segmented(const PatchworkConfig& config, const std::vector<Point>& 
   return result;
 }
 
-/// Beams that meet flat ground, of each ring.
+/// Number of beams that meet flat ground, per ring.
 std::vector<int> beams_by_ring(const Sensor& sensor, const PatchworkConfig& config) {
   std::vector<int> beams;
   double inner = config.min_range;
@@ -143,7 +143,7 @@ std::vector<int> beams_by_ring(const Sensor& sensor, const PatchworkConfig& conf
   return beams;
 }
 
-/// Bins of the rings that a beam meets on flat ground.
+/// Number of bins in the rings that a beam meets on flat ground.
 std::size_t bins_on_flat_ground(const Sensor& sensor, const PatchworkConfig& config) {
   const std::vector<int> beams = beams_by_ring(sensor, config);
   std::size_t ring = 0;
@@ -156,7 +156,7 @@ std::size_t bins_on_flat_ground(const Sensor& sensor, const PatchworkConfig& con
   return bins;
 }
 
-/// From the sensor outward to the last that has one.
+/// The rings from the sensor to the last ring with a beam.
 bool all_rings_have_a_beam(const Sensor& sensor, const PatchworkConfig& config) {
   std::vector<int> beams = beams_by_ring(sensor, config);
   while (!beams.empty() && beams.back() == 0) beams.pop_back();

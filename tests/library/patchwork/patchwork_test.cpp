@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What the paper says of Patchwork, on small scenes of which the answer is plain.
+// Properties of Patchwork described in the paper, on small scenes with a known answer.
 #include "flagstone/patchwork.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 namespace flagstone {
 namespace {
 
-/// Points on z = height(x, y), 5 cm apart, over one bin-sized square at (x, y).
+/// Points on z = height(x, y), 5 cm apart, in a square of the size of a bin at (x, y).
 template <class Height>
 void add_square(std::vector<Point>& cloud, float x, float y, Height height) {
   for (int i = 0; i < 20; ++i) {
@@ -30,7 +30,7 @@ void add_square(std::vector<Point>& cloud, float x, float y, Height height) {
   }
 }
 
-/// A few millimetres of roughness, so that planes are planes and not exact.
+/// A roughness of a few millimetres, so that planes are not exact.
 float rough(float x, float y) { return 0.004f * std::sin(91 * x + 57 * y); }
 
 tests::Outcome segment(const std::vector<Point>& cloud, const PatchworkConfig& config = {}) {
@@ -115,7 +115,7 @@ TEST_P(OnEveryPreset, ObjectsOnTheGroundAreNotGround) {
   for (std::size_t i = 400; i < 440; ++i) ASSERT_EQ(outcome.labels[i], Label::nonground);
 }
 
-/// Fig. 4 of the paper: level ground in the central zone, and returns mirrored below it.
+/// Fig. 4 of the paper: level ground in the central zone, and reflections below it.
 std::vector<Point> ground_with_reflections(int reflections) {
   std::vector<Point> cloud;
   add_square(cloud, 5, 0.6f, [](float x, float y) { return -1.73f + rough(x, y); });
@@ -142,7 +142,7 @@ TEST(Reflections, BelowAPatchOfGroundAreNoise) {
 }
 
 TEST(AdaptiveSeeds, SkipReflectionsEvenIfThereAreMoreThanSeeds) {
-  // Taken for seeds, 25 of them would hold the first ground set down at their own level.
+  // As seeds, 25 of them would keep the first ground set at their level.
   PatchworkConfig config = PatchworkConfig::preset("paper");
   config.iterations = 1;
   config.evaluate_final_set = false;
@@ -166,8 +166,8 @@ TEST(AdaptiveSeeds, KeepDistantGroundThatSlopesDown) {
 }
 
 TEST(AdaptiveSeeds, WithoutAMarginSkipNoPointForAnySensorHeight) {
-  // Rising by 10 %, far out, where the margin is minus infinity: 3 m above the seeds of height 0
-  // that a bin without candidates would have.
+  // Ground with a slope of 10 %, at a distance where the margin is minus infinity. It is 3 m above
+  // height 0, the seed height of a bin without candidates.
   std::vector<Point> cloud;
   for (const float sensor_height : {1.73f, 0.0f, -1.0f}) {
     PatchworkConfig config;
@@ -197,7 +197,8 @@ TEST(FewPoints, GetTheConfiguredLabel) {
 }
 
 TEST(Iterations, MorePlanesFitCloser) {
-  // A step in the bin: the seeds' set holds both levels, the plane settles on the lower.
+  // A step in the bin: the first set contains both levels, and the plane converges to the lower
+  // one.
   std::vector<Point> cloud;
   add_square(cloud, 6.45f, 0.3f, [](float x, float y) { return -1.73f + rough(x, y); });
   for (int i = 0; i < 60; ++i)

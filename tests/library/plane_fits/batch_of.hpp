@@ -8,9 +8,9 @@
 
 namespace flagstone::tests {
 
-/// A batch of up to sixteen bins of 1 to many points with these heights, metres, above and below
-/// which nothing but +-900 m is. Their x and y are at random places of one sixteenth of a circle, 5
-/// to 10 m from the sensor.
+/// A batch of up to sixteen bins with these heights, metres; at least one point per bin, heights
+/// from -900 m to 900 m. x and y are random in one sixteenth of a circle, 5 to 10 m from the
+/// sensor.
 plane_fits::BinBatch batch_of(const std::vector<std::vector<float>>& heights);
 
 }  // namespace flagstone::tests

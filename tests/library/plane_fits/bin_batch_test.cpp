@@ -23,7 +23,7 @@ namespace {
 /// The parameter is the instruction set.
 class BinBatchOn : public testing::TestWithParam<std::string> {
  protected:
-  /// Gathers all bins of the scan, sixteen at a time, and compares each with its points.
+  /// Gathers all bins of the scan, sixteen at a time, and compares each bin with its points.
   static void expect_gathered(const std::vector<Point>& cloud) {
     const tests::SortedScan sorted(cloud, {});
     BinBatch batch;
@@ -100,9 +100,10 @@ TEST_P(BinBatchOn, ContainsABinOfAnySize) {
   }
 }
 
-/// Points of a patch from `first` on, as they are after a sort.
+/// Points of a patch after sorting, starting with number `first`.
 std::vector<MovedPoint> moved(std::size_t count, float first) {
-  std::vector<MovedPoint> points(count + 16, {1e9f, 1e9f, 1e9f, 0});  // what may be read behind
+  std::vector<MovedPoint> points(
+      count + 16, {1e9f, 1e9f, 1e9f, 0});  // elements that can be read after the last point
   for (std::size_t i = 0; i < count; ++i) {
     const auto step = static_cast<float>(i);
     points[i] = {first + 0.01f * step, 7 - 0.02f * step, -1.7f + 0.001f * step, 0};
@@ -112,7 +113,7 @@ std::vector<MovedPoint> moved(std::size_t count, float first) {
 
 TEST_P(BinBatchOn, ContainsAnEvenlySpacedSampleOfEachBin) {
   for (const std::size_t most : {1U, 2U, 16U, 63U, 64U, 65U, 128U, 65535U}) {
-    // As many points as are taken at most, fewer, and more, by a little and by far.
+    // The maximum number of points, fewer, slightly more, and many more.
     const std::vector<std::size_t> sizes = {
         1, 2, 15, 16, 17, most, most + 1, 2 * most, 2 * most + 1, 127, 128, 129, 1000, 70001};
     ASSERT_LE(sizes.size(), batch_size);

@@ -26,7 +26,7 @@ using patchwork::read_chunk;
 
 using Lists = std::vector<std::vector<std::uint32_t>>;  ///< indices of the points of each bin
 
-/// The points of each bin in input order, found one by one.
+/// The points of each bin in input order, found point by point.
 Lists naive(const ScanPoints& scan, std::size_t points, const ConcentricZones& zones) {
   std::vector<std::uint32_t> bins(points);
   zones.locate(scan.x(), scan.y(), scan.z(), points, bins.data());
@@ -35,7 +35,7 @@ Lists naive(const ScanPoints& scan, std::size_t points, const ConcentricZones& z
   return lists;
 }
 
-/// The same as the groups have it.
+/// The points of each bin in input order, according to the groups.
 Lists listed(const BinGroups& groups, std::uint32_t group_count) {
   Lists lists(group_count);
   for (std::uint32_t bin = 0; bin < group_count; ++bin) lists[bin] = tests::points_of(groups, bin);
@@ -75,7 +75,7 @@ TEST(BinGroups, OfAnUnorderedCloudAreMovedPoints) {
   EXPECT_TRUE(tests::SortedScan(shuffled(tests::random_cloud(100000, 1)), {}).groups.moved());
 }
 
-/// `run_length` points by turns in two bins opposite each other.
+/// Points in two opposite bins: `run_length` points in each, alternately.
 std::vector<Point> by_turns(std::size_t points, std::size_t run_length) {
   std::vector<Point> cloud;
   cloud.reserve(points);
@@ -86,7 +86,7 @@ std::vector<Point> by_turns(std::size_t points, std::size_t run_length) {
 }
 
 TEST(BinGroups, AreCorrectIfRunsAreJustLongEnoughToKeep) {
-  // Four points a run is what memory is reserved for; chunks of 8,192 end between runs.
+  // Memory is reserved for runs of four points; chunks of 8,192 points end between runs.
   for (const std::size_t run_length : {1U, 3U, 4U, 5U}) {
     const std::vector<Point> cloud = by_turns(40000, run_length);
 
@@ -113,7 +113,7 @@ TEST(BinGroups, DoNotDependOnThePreviousScan) {
             naive(sorted.scan, second.size(), sorted.zones));
 }
 
-/// What must not depend on how points are moved; the parameter is the instruction set.
+/// Properties that must not depend on how points are moved. The parameter is the instruction set.
 class MovedPointsOn : public testing::TestWithParam<std::string> {
   tests::ForcedTarget forced{GetParam()};
 };
@@ -121,7 +121,8 @@ class MovedPointsOn : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, MovedPointsOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-/// The indices of the points in the order of their cells, and where each cell begins.
+/// The indices of the points in the order of their cells, and the index of the first point of each
+/// cell.
 struct NaiveOrder {
   explicit NaiveOrder(const std::vector<Point>& cloud, const tests::SquareCells& cells) {
     Lists lists(cells.group_count());
@@ -133,7 +134,7 @@ struct NaiveOrder {
     firsts.push_back(indices.size());
   }
 
-  /// Of the cells from `begin` on, less than `end`.
+  /// The points of the cells `begin` to `end` - 1.
   [[nodiscard]] std::vector<std::uint32_t> range(std::uint32_t begin, std::uint32_t end) const {
     const auto at = [&](std::size_t i) {
       return indices.begin() + static_cast<std::ptrdiff_t>(firsts[i]);
@@ -159,7 +160,7 @@ TEST_P(MovedPointsOn, OfARangeOfBinsAreContiguousInInputOrderPerBin) {
     std::vector<Point> cloud = *rc::gen::arbitrary<bool>() ? tests::corrupted_cloud(size, seed)
                                                            : tests::random_cloud(size, seed);
     if (*rc::gen::arbitrary<bool>()) cloud = shuffled(std::move(cloud));
-    // Mostly full, a tenth full, and nearly empty blocks of bins.
+    // Blocks of bins that are mostly full, a tenth full, and nearly empty.
     const auto cells = *rc::gen::element(tests::SquareCells{.cell = 20, .width = 5},
                                          tests::SquareCells{.cell = 1, .width = 100},
                                          tests::SquareCells{.cell = 0.25f, .width = 511});
@@ -198,7 +199,7 @@ TEST_P(MovedPointsOn, KeepTheirCoordinatesBitForBit) {
 TEST_P(MovedPointsOn, DoNotDependOnThePreviousScan) {
   const std::vector<Point> first = shuffled(tests::corrupted_cloud(20000, 2));
   tests::CellPoints moved(first, {.cell = 1, .width = 150});
-  // Fewer bins, then more than ever, then fewer again.
+  // Fewer bins, then more than any previous scan, then fewer again.
   for (const tests::SquareCells& cells :
        {tests::SquareCells{.cell = 2, .width = 40}, tests::SquareCells{.cell = 0.5f, .width = 400},
         tests::SquareCells{.cell = 5, .width = 10}}) {

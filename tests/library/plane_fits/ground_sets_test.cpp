@@ -20,14 +20,14 @@
 namespace flagstone::plane_fits {
 namespace {
 
-/// Sums over a set, and over the absolute values of what they sum.
+/// Sums over a set, and sums of the absolute values of the terms.
 struct NaiveSums {
   Moments moments;
   Vector3 absolute{};
   double all_squares = 0;
 };
 
-/// The set of bin `i`, point by point.
+/// The sums over the set of bin `i`, computed point by point.
 NaiveSums naive(const BinBatch& batch, std::size_t i, const GroundSet& set) {
   NaiveSums sums;
   for (std::size_t k = 0; k < batch.size(i); ++k) {
@@ -79,7 +79,7 @@ class SumMomentsOn : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Target, SumMomentsOn, testing::ValuesIn(simd_targets()),
                          [](const auto& target) { return target.param; });
 
-/// Asserts that sums are those of point by point within shares of what they sum.
+/// Asserts that sums match the sums point by point, relative to the sums of absolute values.
 void check_sums(Precision precision, double share, std::size_t most_points) {
   std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
   const auto count = *rc::gen::inRange<std::size_t>(1, batch_size + 1);
@@ -168,7 +168,7 @@ TEST_P(SumMomentsOn, AreZeroForASetWithoutPointsOrBounds) {
   const BinBatch batch = tests::batch_of({{-1, 0, 1}, {-1, 0, 1}});
   GroundSets sets{};
   sets[0] = {0, 0, 1, 5, 6};
-  sets[1] = {nan, nan, nan, nan, nan};  // what a plane without points leaves behind
+  sets[1] = {nan, nan, nan, nan, nan};  // the set of a plane without points
   for (const Precision precision : {Precision::single, Precision::full}) {
     MomentsBatch moments{};
     moments.count.fill(77);
@@ -189,7 +189,7 @@ TEST_P(SumMomentsOn, OfFirstSetsMatchTheShiftedHeights) {
   MomentsBatch first{};
   sum_first_moments(batch, {{{.origin = -1.5f, .bottom = 0, .top = 1}}}, first);
   GroundSets sets{};
-  sets[0] = {0, 0, 1, 0, 1};  // as seen from -1.5 m
+  sets[0] = {0, 0, 1, 0, 1};  // relative to -1.5 m
   MomentsBatch again{};
   sum_moments(batch, sets, 1, Precision::single, again);
 

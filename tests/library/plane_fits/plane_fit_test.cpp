@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What each setting of the fit does, on bins of which the right sets are plain. That whole fits are
-// right, Patchwork's oracle tells.
+// The effect of each setting of the fit, on bins with known sets. The comparison of Patchwork with
+// its oracle covers whole fits.
 #include "library/plane_fits/plane_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -19,14 +19,14 @@ namespace {
 
 using Heights = std::vector<float>;
 
-/// 300 points of level ground, 1.7 m below the sensor, and these.
+/// 300 points of level ground, 1.7 m below the sensor, and these points.
 Heights ground_and(const Heights& others) {
   Heights heights(300, -1.7f);
   heights.insert(heights.end(), others.begin(), others.end());
   return heights;
 }
 
-/// One plane, through the first set.
+/// Settings that fit one plane, to the first set.
 FitSettings first_set_only() {
   return {.seed_height = 0.5,
           .distance_margin = 0.125,
@@ -36,7 +36,7 @@ FitSettings first_set_only() {
           .evaluate_final_set = false};
 }
 
-/// The same for each bin.
+/// The same seeds for each bin.
 Seeds same_seeds(double floor, std::uint32_t count) {
   Seeds seeds{};
   seeds.floors.fill(floor);
@@ -68,7 +68,7 @@ TEST(PlaneFit, FirstSetEndsTheSeedHeightAboveTheMeanOfTheSeeds) {
 TEST(PlaneFit, FirstSetBeginsTheSeedDepthBelowTheMeanOfTheSeeds) {
   const Heights heights = ground_and({-2.65f, -3.5f});
   FitSettings settings = first_set_only();
-  const Seeds seeds = same_seeds(-inf, 200);  // whose mean is 1.4 cm below the ground
+  const Seeds seeds = same_seeds(-inf, 200);  // their mean is 1.4 cm below the ground
 
   EXPECT_EQ(fitted({heights}, settings, seeds).judged.count[0], 302);
   settings.seed_depth = 1;
@@ -103,7 +103,7 @@ TEST(PlaneFit, FloorIsPerBin) {
 
   const PlaneFit::Result result = fitted({heights, heights}, first_set_only(), seeds);
 
-  EXPECT_EQ(result.exists, 0b10U);  // two points that are far below all others have no plane
+  EXPECT_EQ(result.exists, 0b10U);  // two points far below all others have no plane
   EXPECT_EQ(result.judged.count[1], 302);
 }
 

@@ -22,7 +22,7 @@ using patchwork::ConcentricZones;
 using patchwork::read_chunk;
 using tests::view_of;
 
-/// The bin of each point, as ConcentricZones has it.
+/// The bin of each point according to ConcentricZones.
 std::vector<std::uint32_t> located(const std::vector<Point>& cloud, const ConcentricZones& zones) {
   std::vector<float> x;
   std::vector<float> y;
@@ -44,8 +44,8 @@ void read_all(const std::vector<Point>& cloud, const ConcentricZones& zones, Sca
   }
 }
 
-/// The bin of each point, as the runs have it. Where they do not cover all points, each once, fewer
-/// or more than there are.
+/// The bin of each point according to the runs. If the runs do not cover every point exactly once,
+/// the number of elements differs from the number of points.
 std::vector<std::uint32_t> told_by_runs(const ScanPoints& scan, std::size_t points) {
   std::vector<std::uint32_t> bins;
   for (std::size_t chunk = 0; chunk < ScanPoints::chunk_count(points); ++chunk) {
@@ -94,7 +94,8 @@ TEST_P(ScanPointsOn, RunsContainTheBinOfEveryPoint) {
 }
 
 TEST_P(ScanPointsOn, RunsContainTheBinForAnyWayOfFindingIt) {
-  constexpr tests::SquareCells cells{.cell = 0.25f, .width = 511};  // 261,122 bins: most that fit
+  constexpr tests::SquareCells cells{.cell = 0.25f,
+                                     .width = 511};  // 261,122 bins: nearly the maximum
   for (const std::size_t size : {1U, 16U, 17U, 8193U, 20000U}) {
     const std::vector<Point> cloud = tests::corrupted_cloud(size, 6);
     ScanPoints scan;

@@ -22,7 +22,7 @@ namespace {
 
 using Heights = std::vector<float>;
 
-/// Eq. (5), as it is written.
+/// A direct implementation of eq. (5).
 double naive(Heights heights, float floor, std::size_t seed_count) {
   std::erase_if(heights, [=](float z) { return z < floor; });
   std::ranges::sort(heights);
@@ -32,7 +32,7 @@ double naive(Heights heights, float floor, std::size_t seed_count) {
   return heights.empty() ? 0 : sum / static_cast<double>(heights.size());
 }
 
-/// What the product says of these bins, all with one floor.
+/// The result for these bins, with the same floor for all.
 Batch found(const std::vector<Heights>& bins, float floor,
             const std::array<std::uint32_t, batch_size>& seed_counts) {
   std::size_t points = 0;
@@ -47,14 +47,14 @@ Batch found(const std::vector<Heights>& bins, float floor,
   return means;
 }
 
-/// The same with one number of seeds.
+/// The result for these bins, with the same number of seeds for all.
 Batch found(const std::vector<Heights>& bins, float floor, std::size_t seed_count) {
   std::array<std::uint32_t, batch_size> seed_counts{};
   seed_counts.fill(static_cast<std::uint32_t>(seed_count));
   return found(bins, floor, seed_counts);
 }
 
-/// Heights of -3 to 1 m, `levels` different ones.
+/// Heights from -3 to 1 m with `levels` different values.
 Heights any_heights(std::size_t count, unsigned levels, std::mt19937& random) {
   Heights heights(count);
   for (float& z : heights) {
@@ -109,7 +109,7 @@ TEST_P(SeedHeightsOn, AreTheMeanOfTheLowestForBinsOf5000Points) {
 }
 
 TEST_P(SeedHeightsOn, AreCorrectForSortedHeights) {
-  // The lowest points then all lie in few places, and in few lanes where steps are of sixteen.
+  // The lowest points are then at neighbouring positions, or in a few lanes if steps are sixteen.
   Heights rising(1000);
   Heights falling(1000);
   Heights low_in_one_lane(1000);

@@ -15,7 +15,7 @@
 
 namespace flagstone::tests {
 
-/// A cloud as the pipeline has it when planes are about to be fitted.
+/// A cloud in the form that the pipeline uses before it fits planes.
 struct SortedScan {
   SortedScan(const std::vector<Point>& cloud, const PatchworkConfig& config) : zones(config) {
     scan.reserve(cloud.size());
@@ -31,7 +31,7 @@ struct SortedScan {
   plane_fits::BinGroups groups;
 };
 
-/// A cloud whose points were moved to square cells.
+/// A cloud with its points moved to square cells.
 struct CellPoints {
   CellPoints(const std::vector<Point>& cloud, const SquareCells& square_cells)
       : cells(square_cells) {
@@ -52,7 +52,7 @@ struct CellPoints {
   plane_fits::BinGroups groups{plane_fits::Listing::points};
 };
 
-/// Indices of the points of a bin, whichever way the groups list them.
+/// Indices of the points of a bin, for both forms of listing.
 inline std::vector<std::uint32_t> points_of(const plane_fits::BinGroups& groups,
                                             std::uint32_t bin) {
   std::vector<std::uint32_t> points;
@@ -66,7 +66,7 @@ inline std::vector<std::uint32_t> points_of(const plane_fits::BinGroups& groups,
   return points;
 }
 
-/// One ring of sixteen bins, from 2.7 to 80 m, which no height is too low for.
+/// One ring of sixteen bins, from 2.7 to 80 m, without a noise limit.
 inline PatchworkConfig sixteen_bins() {
   PatchworkConfig config;
   config.zones = {{.ring_radii = {80}, .sectors = 16}};
