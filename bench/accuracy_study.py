@@ -192,7 +192,7 @@ def sensors_tables(results):
 
 # --- height and tilt: known, estimated, wrong -----------------------------------------------------------------
 
-PITCH = 20  # degrees
+PITCH = -20  # degrees about the y axis: the front of the cloud is turned up
 WRONG_BY = 0.5  # metres
 
 
@@ -290,8 +290,8 @@ MOUNT_COLUMNS = {
         "known": "known height",
         "height": "height estimated",
         "both": "height and tilt estimated",
-        "pitched": f"pitched by {PITCH}°",
-        "pitched, both": f"pitched by {PITCH}°, both estimated",
+        "pitched": f"pitched by {abs(PITCH)}°",
+        "pitched, both": f"pitched by {abs(PITCH)}°, both estimated",
     },
     "mount-height": {
         "known": "known height",

@@ -131,9 +131,9 @@ def table(head, rows, left=1):
 
 
 def rounded(value):
-    """`value` with all numbers rounded to five decimals: fractions to a thousandth of a percent."""
+    """`value` with all numbers rounded to seven decimals."""
     if isinstance(value, float):
-        return round(value, 5)
+        return round(value, 7)
     if isinstance(value, dict):
         return {key: rounded(entry) for key, entry in value.items()}
     return [rounded(entry) for entry in value] if isinstance(value, list) else value
