@@ -106,7 +106,7 @@ struct PatchworkConfig {
   /// Horizontal field of view. Points outside it are out of range.
   FieldOfView field_of_view{};
 
-  // Points below any ground
+  // Noise: points below any possible ground
   // ------------------------------------------------------------------------
 
   /// Points lower than -h_s - noise_depth - noise_slope * r are noise, where r is the outer radius
@@ -174,9 +174,9 @@ struct PatchworkConfig {
   static std::span<const std::string_view> preset_names() noexcept;
 
   /// Settings derived from a sensor: zones, field of view, ranges and margins that fit its beams
-  /// and its height; docs/reference/sensors.md has the rule. All other settings are those of
-  /// `default`. Throws std::invalid_argument if Sensor::check throws, if the height is 0, or if no
-  /// beam meets flat ground within the range of the sensor.
+  /// and its height. docs/explanation/settings-from-a-sensor.md describes the rule. All other
+  /// settings are those of `default`. Throws std::invalid_argument if Sensor::check throws, if the
+  /// height is less than 0.01 m, or if no beam meets flat ground within the range of the sensor.
   static PatchworkConfig for_sensor(const Sensor& sensor);
 
   /// Settings derived from a known sensor at its usual height. Throws std::invalid_argument if

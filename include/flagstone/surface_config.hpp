@@ -26,7 +26,7 @@ struct PatchAcceptance {
   float max_slope = 0.35f;
 
   /// Maximum height of a patch above the height that nearer patches predict, right next to them;
-  /// metres, 0 to 100, or infinity for no limit. A patch may be 0.5 m farther below that height.
+  /// metres, 0 to 100, or infinity for no limit. Below that height, the limit is 0.5 m larger.
   float max_step = 0.5f;
   /// Added to `max_step` per metre of distance to the nearest of those patches, up to 15 m; m/m,
   /// 0 to 10.
@@ -48,8 +48,8 @@ struct Refinement {
   float gate_per_metre = 0.004f;
 
   /// Maximum clutter ratio of a cell: the number of points 18 to 88 cm above the surface, divided
-  /// by the number at the surface; 0 to 1,000, or infinity for no limit. A cell with a larger ratio
-  /// contains an obstacle: it shows only that the ground is not above its lowest point.
+  /// by the number at the surface; 0 to 1,000, or infinity for no limit. Cells with a larger
+  /// ratio contain an obstacle: they show only that the ground is not above their lowest point.
   float max_clutter_ratio = 0.5f;
 
   /// Weight of that lower bound, compared with 1 for a measured cell; 0 to 1, 0 to disable it.
@@ -69,7 +69,8 @@ struct PointRule {
   /// Height of an obstacle above the surface, metres, 0 to 2; see `obstacle_margin`.
   float obstacle_height = 0.72f;
 
-  /// Points farther below the surface than this are noise; metres, 0 to 1,000.
+  /// Points farther below the surface than this are noise, unless they form a separate plane;
+  /// metres, 0 to 1,000.
   float noise_depth = 0.15f;
   /// Added to `noise_depth` per metre of range; m/m, 0 to 10.
   float noise_depth_per_metre = 0.02f;
@@ -95,8 +96,9 @@ struct SurfaceConfig {
   Refinement refinement{};       ///< how the points refine the surface
   PointRule point{};             ///< which points are ground
 
-  /// Settings derived from a sensor: its height and its range; see docs/reference/sensors.md.
-  /// Throws std::invalid_argument if Sensor::check throws.
+  /// Settings derived from a sensor: its height and its range; see
+  /// docs/explanation/settings-from-a-sensor.md. Throws std::invalid_argument if Sensor::check
+  /// throws.
   static SurfaceConfig for_sensor(const Sensor& sensor);
 
   /// Settings derived from a known sensor at its usual height. Throws std::invalid_argument if

@@ -91,7 +91,7 @@ class Cascaded final : public Segmenter {
   Cascaded(Cascaded&&) noexcept;
   Cascaded& operator=(Cascaded&&) noexcept;
 
-  /// See Segmenter::segment. A point belongs to the ring of the beam with the nearest elevation.
+  /// See Segmenter::segment. Each point belongs to the ring of the beam with the nearest elevation.
   /// result.patches() contains the regions: `ring` is the number of the section, counted outwards;
   /// `sector` is 0 backward, 1 right, 2 forward, 3 left.
   Status segment(CloudView cloud, Segmentation& result) noexcept override;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Derives the settings of Patchwork from the positions where the beams of a sensor meet flat
-// ground. docs/reference/sensors.md describes the rule.
+// ground. docs/explanation/settings-from-a-sensor.md describes the rule.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
