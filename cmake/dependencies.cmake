@@ -1,39 +1,39 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# What the library, its command and its tests need, and why: docs/contributing/dependencies.md.
-# A package of the system comes first; where there is none, or only an older one, the project's own
-# archive of a pinned version is fetched and checked against its checksum.
+# Dependencies of the library, the command and the tests. docs/contributing/dependencies.md lists the reasons.
+# A system package is preferred. If it is missing or too old, the upstream archive of a pinned version is fetched and
+# checked against its checksum.
 include(FetchContent)
 
 # flagstone_dependency(NAME URL SHA256 [arguments of find_package...])
 function(flagstone_dependency name url sha256)
-  set(CMAKE_POLICY_DEFAULT_CMP0077 NEW) # options set here count for the fetched project
+  set(CMAKE_POLICY_DEFAULT_CMP0077 NEW) # options set here apply to the fetched project
   set(CMAKE_POLICY_DEFAULT_CMP0126 NEW)
-  set(CMAKE_POLICY_VERSION_MINIMUM 3.5) # CMake 4 refuses projects that ask for less
+  set(CMAKE_POLICY_VERSION_MINIMUM 3.5) # CMake 4 rejects projects that require an older version
   if(CMAKE_VERSION VERSION_LESS 4.4)
     set(CMAKE_WARN_DEPRECATED OFF)
   endif()
-  set(CMAKE_UNITY_BUILD OFF) # not every project's files can be compiled together
+  set(CMAKE_UNITY_BUILD OFF) # the files of some projects cannot be compiled together
   set(BUILD_SHARED_LIBS OFF)
-  set(CMAKE_POSITION_INDEPENDENT_CODE ON) # what is static here may become part of the Python module
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON) # static libraries may become part of the Python module
   FetchContent_Declare(
     ${name}
-    SYSTEM # first: after URL_HASH, CMake 3.25 takes it for a part of the checksum
+    SYSTEM # must come first: after URL_HASH, CMake 3.25 treats it as part of the checksum
     URL ${url}
     URL_HASH SHA256=${sha256}
     FIND_PACKAGE_ARGS ${ARGN})
   FetchContent_MakeAvailable(${name})
   if(NOT ${name}_FOUND)
     message(STATUS "${name}: not on this system, built from ${url}")
-    # Built where it is needed, never installed.
+    # Built if another target needs it, never installed.
     FetchContent_GetProperties(${name} SOURCE_DIR source)
     set_property(DIRECTORY ${source} PROPERTY EXCLUDE_FROM_ALL ON)
   endif()
 endfunction()
 
-# Highway is the library's one dependency, and no header of ours shows it. A system's Highway is linked by
-# whoever links flagstone::flagstone; a fetched one becomes part of it.
+# Highway is the only dependency of the library, and no public header includes it. Programs that link
+# flagstone::flagstone also link a system Highway; a fetched Highway becomes part of the library.
 set(HWY_ENABLE_TESTS OFF)
 set(HWY_ENABLE_EXAMPLES OFF)
 set(HWY_ENABLE_CONTRIB OFF)
@@ -89,8 +89,8 @@ if(needs_command)
     CLI11 https://github.com/CLIUtils/CLI11/archive/v2.1.2.tar.gz
     26291377e892ba0e5b4972cdfd4a2ab3bf53af8dac1f4ea8fe0d1376b625c8cb 2.1)
 
-  # Single rays against triangles is all the simulator asks of Embree, and the lowest instruction set is
-  # quick enough for it; all of Embree takes four times as long to build.
+  # The simulator needs only single rays and triangles, and the lowest instruction set is fast enough. A complete Embree
+  # takes four times as long to build.
   set(EMBREE_STATIC_LIB ON)
   set(EMBREE_TASKING_SYSTEM INTERNAL)
   set(EMBREE_ISPC_SUPPORT OFF)
@@ -106,7 +106,7 @@ if(needs_command)
     embree https://github.com/embree/embree/archive/v3.13.5.tar.gz
     b8c22d275d9128741265537c559d0ea73074adbf2f2b66b0a766ca52c52d665b 3)
 
-  # Chart.js, one minified file that the HTML reports carry, draws their plots.
+  # Chart.js draws the plots of HTML reports, which contain its minified file.
   find_file(
     FLAGSTONE_CHART_JS chart.min.js
     PATHS /usr/local/share/javascript/chart.js /usr/share/javascript/chart.js
@@ -128,7 +128,7 @@ if(needs_command)
     set(FLAGSTONE_CHART_JS ${chart_js_SOURCE_DIR}/dist/chart.min.js)
   endif()
 
-  # Cairo and what it stands on are the system's business. Without it the command draws no pictures.
+  # Cairo is only used from the system. Without it the command cannot draw images.
   find_package(PkgConfig QUIET)
   if(PkgConfig_FOUND)
     pkg_check_modules(cairo QUIET IMPORTED_TARGET cairo)
@@ -137,14 +137,14 @@ if(needs_command)
   if(cairo_FOUND)
     target_link_libraries(flagstone_cairo INTERFACE PkgConfig::cairo)
   elseif(FLAGSTONE_BUILD_TESTS)
-    message(FATAL_ERROR "Cairo not found, which the tests need: install pkg-config and Cairo's development files "
-                        "(Debian: apt-get install pkg-config libcairo2-dev)")
+    message(FATAL_ERROR "Cairo was not found, but the tests require it: install pkg-config and Cairo's development "
+                        "files (Debian: apt-get install pkg-config libcairo2-dev)")
   else()
-    message(STATUS "Cairo: not on this system, the command is built without pictures "
+    message(STATUS "Cairo: not on this system, so the command cannot draw images "
                    "(Debian: apt-get install pkg-config libcairo2-dev)")
   endif()
-  # The package's command goes to machines without Cairo. What Cairo's shared library stands on includes X11, which
-  # wheels may not bring; of its archive only what draws into memory is linked.
+  # The command in the wheel must run without Cairo. Cairo's shared library depends on X11, which wheels must not contain,
+  # so the static library is linked: only its parts that draw into memory.
   if(cairo_FOUND AND FLAGSTONE_BUILD_PYTHON)
     set(archives "")
     foreach(library IN LISTS cairo_STATIC_LIBRARIES)

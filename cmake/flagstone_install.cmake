@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# The install tree: the library, its headers, what CMake and pkg-config need to find it, the command
-# and the licence. It can be moved.
+# The install tree: the library, its headers, the files for CMake and pkg-config, the command and the licence. It is
+# relocatable.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/flagstone)
-# A static library leaves it to its users to link what it stands on: threads and the system's Highway.
+# Users of a static library must also link its dependencies: threads and the system Highway.
 set(find_dependencies "")
 set(highway_of_pkgconfig "")
 if(NOT BUILD_SHARED_LIBS)

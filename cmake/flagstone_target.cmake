@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# Options of every target. Results must not depend on the compiler: no contraction of a * b + c (GCC's default) and no
-# fast-math. That nothing reads floating-point exceptions changes no result, and lets GCC vectorise loops that choose
-# between two values.
+# Options of every target. Results must not depend on the compiler: no contraction of a * b + c (the default of GCC) and
+# no fast-math. -fno-trapping-math is allowed, because nothing reads floating-point exceptions; it changes no result and
+# lets GCC vectorise loops that select between two values.
 #
-# The presets compile the files of a folder together (CMAKE_UNITY_BUILD): that takes less than half the time. So a name
-# in an unnamed namespace must be unique in its folder; shadowing is only reported where files are compiled alone. Two kinds of files are compiled alone: those compiled once per
-# instruction set include themselves, and the compiler warns of an operator new that it sees being called.
+# The presets compile the files of a directory together (CMAKE_UNITY_BUILD), which takes less than half the time. A name
+# in an unnamed namespace must therefore be unique in its directory, and shadowing is reported only in builds without
+# CMAKE_UNITY_BUILD. Two kinds of files are always compiled alone: files that are compiled once per instruction set,
+# because they include themselves, and files that replace operator new, because the compiler warns if it sees the calls.
 function(flagstone_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
@@ -21,15 +22,15 @@ function(flagstone_compile_options target)
     if(EXISTS ${source})
       file(STRINGS ${source} reason REGEX "foreach_target\\.h|^void\\* operator new" LIMIT_COUNT 1)
     endif()
-    if(reason OR NOT EXISTS ${source}) # a generated file does not exist when clang-tidy looks for it
+    if(reason OR NOT EXISTS ${source}) # generated files do not exist when clang-tidy runs
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     endif()
   endforeach()
 endfunction()
 
-# flagstone_library(NAME SOURCES...) makes the static library flagstone_NAME of a folder in src; its headers are
-# included by their path from src. Folders that parse, format and print need no speed; GCC compiles them in two thirds
-# of the time with -O1.
+# flagstone_library(NAME SOURCES...) adds the static library flagstone_NAME of a directory in src. Its headers are
+# included by their path from src. Directories that parse, format and print are not time-critical; with -O1, GCC compiles
+# them in two thirds of the time.
 function(flagstone_library name)
   add_library(flagstone_${name} STATIC ${ARGN})
   target_include_directories(flagstone_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
@@ -43,14 +44,13 @@ function(flagstone_library name)
   endif()
 endfunction()
 
-# flagstone_public_library(NAME FOLDERS folders... [LINK public libraries...]) makes flagstone::NAME, which
-# others link and which is installed, of the objects of those folders. It is shared if BUILD_SHARED_LIBS
-# says so. Its interface is include/flagstone. Inside this project the folders' own targets are linked
-# instead, so that tests see what the interface does not show.
+# `flagstone_public_library(NAME FOLDERS FOLDER... [LINK LIBRARY...])` adds the public, installed library flagstone::NAME
+# from the objects of directories in src. It is shared if BUILD_SHARED_LIBS is ON. Its interface is include/flagstone.
+# Targets of this project link the targets of the directories instead, so that tests can use internal headers.
 function(flagstone_public_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;LINK")
   list(TRANSFORM arg_FOLDERS REPLACE "(.+)" "$<TARGET_OBJECTS:flagstone_\\1>" OUTPUT_VARIABLE objects)
-  # `flagstone` is the command, flagstone_FOLDER a part; target names are one namespace.
+  # Target names share one namespace: `flagstone` is the command, `flagstone_FOLDER` a part of the library.
   set(file_name flagstone)
   if(NOT name STREQUAL flagstone)
     set(file_name flagstone_${name})
@@ -80,21 +80,21 @@ function(flagstone_public_library name)
                SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 endfunction()
 
-# flagstone_test(NAME SOURCES... LINK libraries... [SHARDS n]) makes one GoogleTest program and registers it with ctest:
-# as NAME, as NAME.1 to NAME.n where it runs long, or as SANITIZER.NAME in a build with sanitizers.
+# flagstone_test(NAME SOURCES... LINK libraries... [SHARDS n]) adds a GoogleTest program and registers it with ctest: as
+# NAME, as NAME.1 to NAME.n with SHARDS, or as SANITIZER.NAME in a build with sanitizers.
 function(flagstone_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "SHARDS" "SOURCES;LINK")
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LINK} GTest::gtest_main GTest::gmock)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/tests)
   flagstone_compile_options(${name})
-  # Tests take longer to compile than to run. The headers that all of them include are compiled once.
+  # Tests take longer to compile than to run. The headers that all tests include are precompiled.
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_precompile_headers(${name} REUSE_FROM test_headers)
   if(FLAGSTONE_SANITIZER)
     add_test(NAME ${FLAGSTONE_SANITIZER}.${name} COMMAND ${name} --gtest_brief=1
                                                          --gtest_filter=${FLAGSTONE_SANITIZED_FILTER})
-    # Tests request more memory than there is, and expect an error.
+    # Some tests request more memory than the system has, and expect an error.
     set_tests_properties(
       ${FLAGSTONE_SANITIZER}.${name}
       PROPERTIES LABELS sanitizer

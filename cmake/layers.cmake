@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# The layers of src, from the bottom: a folder uses only folders of layers below its own, and others of its own layer
-# if the layer is one whole directory of src. The methods in library/ do not use each other.
+# The layers of src, from the bottom. A directory may use directories of lower layers, and of its own layer if that layer
+# is one whole directory of src. The methods in library/ must not use each other.
 set(flagstone_layers
     "library/core"
     "library/plane_fits"
@@ -26,17 +26,17 @@ function(flagstone_layer path result)
   message(FATAL_ERROR "src/${path} is in no layer (expected one of ${flagstone_layers}; see cmake/layers.cmake)")
 endfunction()
 
-# Fails unless the folder `from` may use the folder `to`, both paths from src. `how` says what shows that it does.
+# Fails unless the directory `from` may use the directory `to`; both are paths from src. `how` describes the use.
 function(flagstone_check_dependency from to how)
   flagstone_layer(${from} upper)
   flagstone_layer(${to} lower)
   list(GET flagstone_layers ${upper} layer)
   if(lower GREATER upper OR (lower EQUAL upper AND layer MATCHES "[|]" AND NOT from STREQUAL to))
-    message(FATAL_ERROR "src/${from} must not use src/${to}: ${how} (expected: only layers below; see cmake/layers.cmake)")
+    message(FATAL_ERROR "src/${from} must not use src/${to}: ${how} (expected only layers below; see cmake/layers.cmake)")
   endif()
 endfunction()
 
-# Checks what every flagstone_* target links, and that no two targets need each other.
+# Checks the libraries that every flagstone_* target links, and that there is no cyclic dependency.
 function(flagstone_check_layers)
   set_property(GLOBAL PROPERTY GLOBAL_DEPENDS_NO_CYCLES ON)
   get_property(targets GLOBAL PROPERTY FLAGSTONE_LIBRARIES)
@@ -52,7 +52,7 @@ function(flagstone_check_layers)
   endforeach()
 endfunction()
 
-# As a script, cmake -P cmake/layers.cmake: checks what every file of src includes.
+# As a script, cmake -P cmake/layers.cmake: checks the includes of every file in src.
 if(CMAKE_SCRIPT_MODE_FILE STREQUAL CMAKE_CURRENT_LIST_FILE)
   cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH root)
   file(GLOB_RECURSE files RELATIVE ${root}/src ${root}/src/*.hpp ${root}/src/*.cpp)

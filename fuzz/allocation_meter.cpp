@@ -14,7 +14,7 @@ namespace {
 
 std::atomic<std::size_t> allocated{0};
 
-// Words, fields and names of a header are bounded by max_fields; this is what they may take.
+// Memory for the words, fields and names of a header, which max_fields limits.
 constexpr std::size_t any_file = std::size_t{512} * 1024;
 
 void count_allocation(const volatile void* /*pointer*/, std::size_t size) { allocated += size; }
@@ -32,7 +32,7 @@ AllocationMeter::AllocationMeter() noexcept {
 void AllocationMeter::require_at_most(std::size_t factor, std::size_t file_size) const {
   if (allocated > factor * file_size + any_file) {
     std::fprintf(stderr, "%zu bytes allocated for a file of %zu\n", allocated.load(), file_size);
-    require(false, "a reader allocates what the file's size justifies");
+    require(false, "a reader allocates in proportion to the size of the file");
   }
 }
 

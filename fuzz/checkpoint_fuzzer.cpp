@@ -17,8 +17,8 @@ constexpr const char* evaluation = "fuzzed";
 
 }  // namespace
 
-// The first byte says of how many methods the evaluation is and whether the rest stands behind the
-// checkpoint's own heading or is the whole file.
+// The first byte selects the number of methods, and whether the rest follows the heading of a checkpoint
+// or is the whole file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   if (size == 0) return 0;
@@ -33,17 +33,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Status status = checkpoint.resume(file.path(), evaluation, methods, finished);
   if (!status.ok()) {
     fuzz::check_line(status.message());
-    fuzz::require(finished.empty(), "of what is refused nothing is taken");
-    fuzz::require(io::contents_of(file.path()) == text, "what is refused is left alone");
+    fuzz::require(finished.empty(), "nothing is read from a rejected checkpoint");
+    fuzz::require(io::contents_of(file.path()) == text, "a rejected checkpoint is unchanged");
     return 0;
   }
   for (const auto& [scan, outcome] : finished) {
-    fuzz::require(outcome.methods.size() == methods, "an outcome is of every method");
+    fuzz::require(outcome.methods.size() == methods, "an outcome has every method");
   }
 
   eval::Checkpoint again;
   std::map<std::string, eval::ScanOutcome> kept;
-  fuzz::require(again.resume(file.path(), evaluation, methods, kept).ok(), "it goes on again");
-  fuzz::require(kept.size() == finished.size(), "what was finished is kept");
+  fuzz::require(again.resume(file.path(), evaluation, methods, kept).ok(), "it can be resumed again");
+  fuzz::require(kept.size() == finished.size(), "finished scans are kept");
   return 0;
 }

@@ -12,7 +12,7 @@
 namespace flagstone::fuzz {
 namespace {
 
-/// Bytes that are touched so that a sanitizer sees a read beyond them.
+/// Makes the reads observable, so that a sanitizer detects a read out of bounds.
 volatile double sink;
 
 bool is_same(const io::Cloud& a, const io::Cloud& b) {
@@ -25,7 +25,7 @@ bool is_same(const io::Cloud& a, const io::Cloud& b) {
   return std::ranges::equal(a.fields(), b.fields(), is_kept);
 }
 
-/// As numbers: what remains comparable where the layout changes on the way (PLY).
+/// Compares only the numbers, for formats that change the layout (PLY).
 bool has_same_numbers(const io::Cloud& a, const io::Cloud& b) {
   if (a.size() != b.size()) return false;
   std::size_t column = 0;
@@ -57,8 +57,8 @@ void check_status(const Status& status) {
   const std::string& message = status.message();
   if (status.ok()) return require(message.empty(), "a success has no message");
   if (status.code() == StatusCode::out_of_memory) return;
-  require(status.code() == StatusCode::bad_file, "a reader blames the file");
-  require(message.starts_with("byte "), "a message names a byte");
+  require(status.code() == StatusCode::bad_file, "a reader reports a bad file");
+  require(message.starts_with("byte "), "a message starts with a byte offset");
   require(message.size() < 600, "a message is short");
   require(std::ranges::all_of(message, [](char c) { return c >= ' ' && c <= '~'; }),
           "a message is one printable line");
@@ -87,15 +87,15 @@ void check_round_trip(const io::Cloud& cloud, Writer write, Reader read, bool ho
   std::vector<std::byte> file;
   const Status written = write(cloud, file);
   if (!written.ok()) {
-    require(!holds_all, "the format holds every cloud");
-    return require(written.code() == StatusCode::invalid_argument, "a writer says why");
+    require(!holds_all, "the format supports every cloud");
+    return require(written.code() == StatusCode::invalid_argument, "a writer reports the reason");
   }
   io::Cloud again;
   const Status reread = read(file, again);
   if (!reread.ok()) std::fprintf(stderr, "%s\n", reread.message().c_str());
-  require(reread.ok(), "what was written can be read");
+  require(reread.ok(), "a written cloud can be read");
   require(holds_all ? is_same(cloud, again) : has_same_numbers(cloud, again),
-          "what was written reads the same");
+          "a written cloud is unchanged when it is read");
 }
 
 }  // namespace flagstone::fuzz

@@ -9,14 +9,14 @@
 #include "files/io/cloud.hpp"
 #include "flagstone/status.hpp"
 
-/// What must hold of every reader, whatever the bytes. A broken property aborts, which the fuzzer
-/// takes for a finding.
+/// Properties of every reader, for any bytes. A violation aborts, which the fuzzer reports.
 namespace flagstone::fuzz {
 
-/// Aborts with its text unless `holds`.
+/// Aborts and prints `property` unless `holds`.
 void require(bool holds, const char* property);
 
-/// An error has a code of a reader and one printable line that names a byte; a success has no text.
+/// An error has an error code of a reader and one printable line with a byte offset; a success has no
+/// message.
 void check_status(const Status& status);
 
 /// The rows are whole, the fields cover them, and every point can be read through view() and
@@ -26,9 +26,8 @@ void check_cloud(const io::Cloud& cloud);
 using Writer = Status (*)(const io::Cloud&, std::vector<std::byte>&);
 using Reader = Status (*)(std::span<const std::byte>, io::Cloud&);
 
-/// What a writer makes of `cloud` reads back with the same points, and the same fields but for
-/// padding, whose type may differ. A writer may refuse where its format cannot hold the cloud; one
-/// that `holds_all` must not.
+/// A written cloud reads back with the same points and the same fields, except for the type of padding.
+/// A writer may fail if its format does not support the cloud, but not with `holds_all`.
 void check_round_trip(const io::Cloud& cloud, Writer write, Reader read, bool holds_all);
 
 }  // namespace flagstone::fuzz

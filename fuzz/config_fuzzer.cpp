@@ -17,7 +17,7 @@
 namespace flagstone {
 namespace {
 
-/// Whether the method takes these settings; if not, its reason is one line.
+/// Whether the method accepts these settings; if not, the reason is one line.
 bool is_allowed(const MethodConfig& config) {
   try {
     config.check();
@@ -28,13 +28,13 @@ bool is_allowed(const MethodConfig& config) {
   return true;
 }
 
-/// What is written of settings reads back to them.
+/// Written settings read back unchanged.
 void check_round_trip(std::string_view method, const MethodConfig& config) {
   const std::string text = config::to_toml(config);
   MethodConfig again = default_config(method);
   MountSettings mount;
   config::apply_toml(text, "written", again, mount);
-  fuzz::require(config::to_toml(again) == text, "settings read back as they were");
+  fuzz::require(config::to_toml(again) == text, "settings read back unchanged");
 }
 
 void segment(std::string_view method, const MethodConfig& config) {
@@ -42,15 +42,15 @@ void segment(std::string_view method, const MethodConfig& config) {
   static Segmentation result;
   const std::unique_ptr<Segmenter> segmenter = make_segmenter(method, config);
   const CloudView view = tests::view_of(cloud);
-  fuzz::require(segmenter->segment(view, result).ok(), "whatever is allowed segments");
+  fuzz::require(segmenter->segment(view, result).ok(), "every accepted setting segments");
   fuzz::require(result.labels().size() == cloud.size(), "every point has a label");
 }
 
 }  // namespace
 }  // namespace flagstone
 
-// The first byte names the method, the rest is the text of its settings: refused in one line, or
-// the method works with them.
+// The first byte selects the method, the rest is the text of its settings. They are rejected with one
+// line, or the method works with them.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   register_baselines();

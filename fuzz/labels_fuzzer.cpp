@@ -7,7 +7,7 @@
 #include "cloud_properties.hpp"
 #include "files/io/label_files.hpp"
 
-// The first byte says which layout, the next two how many points the scan has, the rest is the
+// The first byte selects the layout, the next two the number of points of the scan, and the rest is the
 // file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
@@ -20,6 +20,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                             expected, classes);
   meter.require_at_most(fuzz::plain_factor, size);
   fuzz::check_status(status);
-  fuzz::require(classes.size() == (status.ok() ? expected : 0), "one class a point or none at all");
+  fuzz::require(classes.size() == (status.ok() ? expected : 0), "one class per point, or none");
   return 0;
 }

@@ -6,7 +6,7 @@
 #include "cloud_properties.hpp"
 #include "files/io/lzf.hpp"
 
-// Any bytes as a LZF stream.
+// Any bytes as an LZF stream.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   const auto stream = std::as_bytes(std::span(data, size));
@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Status status = io::measure_lzf(stream, 0, expanded);
   fuzz::check_status(status);
   if (!status.ok()) return 0;
-  fuzz::require(expanded <= 88 * size, "three bytes expand to 264 at most");
+  fuzz::require(expanded <= 88 * size, "three bytes expand to at most 264");
   std::vector<std::byte> out(expanded);
   io::expand_lzf(stream, out);
   return 0;

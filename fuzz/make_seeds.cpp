@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Writes the files the fuzzers start from: make_seeds FOLDER makes FOLDER/pcd/..., FOLDER/ply/... .
-// They are few and small; the fuzzers find the rest.
+// Writes the initial corpus of the fuzzers: make_seeds DIR writes DIR/pcd/..., DIR/ply/... . The files
+// are few and small; the fuzzers find more.
 
 #include <cstdint>
 #include <cstdio>
@@ -43,7 +43,7 @@ class SeedFolder {
   bool failed_ = false;
 };
 
-/// Three points with a field of every type, one of several numbers, and padding.
+/// Three points with one field of every type, a field of several numbers, and padding.
 Cloud varied_cloud() {
   using enum FieldType;
   std::vector<Field> fields{
@@ -54,7 +54,7 @@ Cloud varied_cloud() {
   std::size_t stride = 0;
   for (const Field& field : fields) stride += field.size();
   const std::size_t small =
-      stride - 2 * sizeof(std::uint64_t);  // 64-bit integers that PLY can hold
+      stride - 2 * sizeof(std::uint64_t);  // keeps 64-bit integers small enough for PLY
   for (std::size_t i = 0; i < 3 * stride; ++i) {
     rows.push_back(static_cast<std::byte>(i % 7 == 0 && i % stride < small));
   }
@@ -63,7 +63,7 @@ Cloud varied_cloud() {
   return cloud;
 }
 
-/// x, y and z of the type, which must be converted.
+/// x, y and z of a type that must be converted.
 Cloud converted_cloud(FieldType type) {
   Cloud cloud;
   const std::vector<Field> fields{{"z", type}, {"x", type}, {"y", type}};
@@ -150,8 +150,7 @@ void add_labels(SeedFolder& seeds) {
                     npy_file("{'descr': '>i4', 'fortran_order': False, 'shape': (10,), }", 40)}));
 }
 
-/// A few hundred places on the ground, as the fuzzer of segmenters takes them, for each method's
-/// settings.
+/// A few hundred ground points, as input for the fuzzer of segmenters, for the settings of each method.
 void add_segment(SeedFolder& seeds) {
   Bytes places;
   for (int i = 0; i < 300; ++i) {
@@ -170,7 +169,7 @@ void add_segment(SeedFolder& seeds) {
   }
 }
 
-/// A text behind the byte that says what it is.
+/// A text after the byte that selects its kind.
 Bytes chosen(std::uint8_t choice, std::string_view text) {
   return joined({Bytes{std::byte{choice}}, bytes_of(text)});
 }
@@ -214,7 +213,7 @@ void add_texts(SeedFolder& seeds) {
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::fprintf(stderr, "make_seeds FOLDER\n");
+    std::fprintf(stderr, "usage: make_seeds DIR\n");
     return 2;
   }
   SeedFolder seeds(argv[1]);

@@ -8,7 +8,7 @@
 #include "lab/eval/protocol.hpp"
 #include "text_properties.hpp"
 
-// The first byte says whether the rest is TOML or JSON.
+// The first byte selects TOML or JSON for the rest.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   if (size == 0) return 0;
@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Status status = eval::read_protocol(file.path(), protocol);
   if (!status.ok()) {
     fuzz::check_line(status.message());
-    fuzz::require(protocol.ground.empty(), "what is refused leaves nothing");
+    fuzz::require(protocol.ground.empty(), "a rejected protocol leaves nothing");
     return 0;
   }
   fuzz::require(!protocol.ground.empty() || !protocol.low_ground.empty(), "a protocol has ground");

@@ -8,7 +8,7 @@
 #include "files/io/pcd.hpp"
 #include "files/io/read_cloud.hpp"
 
-// The first two bytes say how many floats a point has, the rest is the file.
+// The first two bytes are the number of floats per point, the rest is the file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   if (size < 2) return 0;
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::check_cloud(cloud);
   std::vector<std::byte> file;
   fuzz::require(io::write_raw_points(cloud, file).ok(), "raw points can be written");
-  fuzz::require(file.size() == size - 2, "raw points are written as they were");
+  fuzz::require(file.size() == size - 2, "raw points are written unchanged");
   fuzz::check_round_trip(cloud, io::write_pcd, io::read_pcd, true);
   return 0;
 }

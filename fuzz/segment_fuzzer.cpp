@@ -23,7 +23,7 @@
 namespace flagstone {
 namespace {
 
-/// The presets, and the presets' numbers over layouts of zones that take other paths.
+/// The presets, also with layouts of zones that take other code paths.
 PatchworkConfig patchwork_config(std::size_t choice) {
   const auto names = PatchworkConfig::preset_names();
   PatchworkConfig config = PatchworkConfig::preset(names[choice % names.size()]);
@@ -44,7 +44,7 @@ PatchworkConfig patchwork_config(std::size_t choice) {
 }
 constexpr std::size_t patchwork_count = 12;
 
-/// The smallest and the largest surface, every number of levels, and hardly a limit.
+/// The smallest and the largest surface, different numbers of levels, and settings with almost no limits.
 SurfaceConfig surface_config(std::size_t choice) {
   constexpr float infinite = std::numeric_limits<float>::infinity();
   SurfaceConfig config;
@@ -85,12 +85,12 @@ SurfaceConfig surface_config(std::size_t choice) {
 }
 constexpr std::size_t surface_count = 8;
 
-/// What the others are compared with, by their own settings.
+/// The baselines, with their default settings.
 constexpr std::array<std::string_view, 5> baselines = {"ransac", "gpf", "line_fit", "cascaded",
                                                        "r_gpf"};
 
-/// A method with one choice of settings, in one thread and, where it has any, in three. Kept, as
-/// programs keep them: what came before must not matter.
+/// A method with one choice of settings, with one thread and, if it supports threads, with three. Reused
+/// for all inputs, as in programs: previous inputs must not matter.
 struct Segmenters {
   std::unique_ptr<Segmenter> alone;
   std::unique_ptr<Segmenter> crew;
@@ -134,15 +134,15 @@ class Input {
   std::span<const std::uint8_t> bytes_;
 };
 
-/// Any bits as floats.
+/// Floats with any bit pattern.
 std::vector<Point> points_of_floats(Input input) {
   std::vector<Point> points;
   for (Point p{}; input.read(p);) points.push_back(p);
   return points;
 }
 
-/// Numbers of 16 bits as places within 100 m and heights within 6 m, each `copies` times, rising by
-/// millimetres: such points share bins.
+/// 16-bit integers as positions within 100 m and heights within 6 m, each `copies` times with heights
+/// that increase by millimetres, so that points share bins.
 std::vector<Point> points_of_shorts(Input input, std::size_t copies) {
   std::vector<Point> points;
   for (std::array<std::int16_t, 3> at{}; input.read(at);) {
@@ -155,7 +155,8 @@ std::vector<Point> points_of_shorts(Input input, std::size_t copies) {
   return points;
 }
 
-/// Points in a block of memory that ends with them, so that a sanitizer sees a read beyond.
+/// Points in a block of memory without padding at its end, so that a sanitizer detects a read out of
+/// bounds.
 class Memory {
  public:
   Memory(const std::vector<Point>& points, std::size_t choice) : count_(points.size()) {
@@ -217,15 +218,15 @@ void check_counts(const Segmentation& result, std::size_t points) {
   fuzz::require(result.labels().size() == points, "every point has a label");
   std::array<std::size_t, label_count> counts{};
   for (const Label label : result.labels()) {
-    fuzz::require(static_cast<std::size_t>(label) < label_count, "a label is one there is");
+    fuzz::require(static_cast<std::size_t>(label) < label_count, "a label is valid");
     ++counts.at(static_cast<std::size_t>(label));
   }
   for (std::size_t code = 0; code < label_count; ++code) {
-    fuzz::require(counts.at(code) == result.count(static_cast<Label>(code)), "counts are right");
+    fuzz::require(counts.at(code) == result.count(static_cast<Label>(code)), "counts are correct");
   }
 }
 
-/// What must hold of heights and of the ground where a method makes a surface.
+/// Properties of heights and ground, for methods that provide a surface.
 void check_surface(const Segmentation& result, CloudView cloud) {
   const GroundSurface& surface = result.surface();
   if (surface.empty()) return fuzz::require(result.heights().empty(), "heights need a surface");
@@ -233,23 +234,23 @@ void check_surface(const Segmentation& result, CloudView cloud) {
     for (std::size_t i = 0; i < grid.heights.size(); ++i) {
       const float confidence = grid.confidences[i];
       fuzz::require(confidence >= 0 && confidence <= 1, "confidence is 0 to 1");
-      fuzz::require((confidence == 0) == std::isnan(grid.heights[i]), "0 where not known");
-      fuzz::require(!std::isinf(grid.heights[i]), "no ground is infinitely high");
+      fuzz::require((confidence == 0) == std::isnan(grid.heights[i]), "confidence is 0 if unknown");
+      fuzz::require(!std::isinf(grid.heights[i]), "heights of the ground are finite");
     }
   }
   fuzz::require(result.heights().size() == cloud.size(), "every point has a height");
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const float height = result.heights()[i];
     const Label label = result.labels()[i];
-    fuzz::require(label != Label::ground || !std::isnan(height), "ground is known to be there");
+    fuzz::require(label != Label::ground || !std::isnan(height), "ground points have a height");
     if (label == Label::invalid || label == Label::out_of_range) {
-      fuzz::require(std::isnan(height), "points that are nowhere have no height");
+      fuzz::require(std::isnan(height), "points without a position have no height");
       continue;
     }
     const Point p = cloud[i];
     const float above = p.z - surface.height(p.x, p.y);
-    fuzz::require(std::isnan(height) == std::isnan(above), "heights are known where ground is");
-    // Segmenters take numbers below 1.2e-38 for zero.
+    fuzz::require(std::isnan(height) == std::isnan(above), "heights are known if the ground is");
+    // Segmenters flush numbers below 1.2e-38 to zero.
     const bool is_same = height == above || std::abs(height - above) < 1e-37f;
     fuzz::require(std::isnan(height) || is_same, "heights are above ground");
   }
@@ -265,7 +266,7 @@ void segment(Segmenter& segmenter, CloudView cloud, Segmentation& result) {
 namespace flagstone {
 namespace {
 
-/// A method whose mount is found out from the scan: any verdict, but a mount that is in range.
+/// A method that estimates height and tilt from the scan. The estimate may fail, but the result is valid.
 void segment_estimating(std::size_t choice, CloudView cloud) {
   static std::array<std::unique_ptr<GravityAlignedSegmenter>, 3> made;
   std::unique_ptr<GravityAlignedSegmenter>& levelled = made.at(choice % made.size());
@@ -282,15 +283,15 @@ void segment_estimating(std::size_t choice, CloudView cloud) {
   check_counts(result, cloud.size());
   const Mount& mount = levelled->mount();
   const float length = std::hypot(mount.up[0], mount.up[1], mount.up[2]);
-  fuzz::require(std::abs(length - 1) < 1e-3f, "up has length one");
-  fuzz::require(std::isfinite(mount.sensor_height), "the height is a number");
+  fuzz::require(std::abs(length - 1) < 1e-3f, "up has length 1");
+  fuzz::require(std::isfinite(mount.sensor_height), "the height is finite");
 }
 
 }  // namespace
 }  // namespace flagstone
 
-// The first byte chooses the method and its settings, the second the layout in memory, the third
-// how the rest becomes points. Labels, patches, heights and surface must be the same on the best
+// The first byte selects the method and its settings, the second the layout in memory, the third how the
+// rest is converted to points. Labels, patches, heights and surface must be bit-identical on the best
 // instruction set, in plain C++ and with three threads.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
@@ -310,12 +311,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   if (segmenters.crew) {
     segment(*segmenters.crew, memory.view(), other);
-    require_same(best, other, "threads change nothing");
+    require_same(best, other, "results do not depend on threads");
   }
 
   use_simd_target("scalar");
   segment(*segmenters.alone, memory.view(), other);
   use_simd_target("");
-  require_same(best, other, "the instruction set changes nothing");
+  require_same(best, other, "results do not depend on the instruction set");
   return 0;
 }

@@ -5,14 +5,14 @@
 #include <filesystem>
 #include <string_view>
 
-/// What must hold of everything that reads text, whatever the text.
+/// Properties of everything that reads text, for any text.
 namespace flagstone::fuzz {
 
-/// An error's message is one line that can be printed.
+/// An error message is one printable line.
 void check_line(std::string_view message);
 
-/// A file that is written anew for every input, in a folder of this process in memory where there
-/// is such, and removed in the end.
+/// A file that is rewritten for every input. It is in a temporary directory of this process, in memory
+/// if possible, which is removed at exit.
 class ScratchFile {
  public:
   explicit ScratchFile(std::string_view name);
