@@ -16,7 +16,7 @@ namespace flagstone::fuzz {
 namespace fs = std::filesystem;
 
 void check_line(std::string_view message) {
-  require(!message.empty(), "an error says something");
+  require(!message.empty(), "an error has a message");
   const bool is_printable = std::ranges::all_of(message, [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return byte >= 0x20 && byte != 0x7f;
