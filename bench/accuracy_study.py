@@ -13,6 +13,7 @@ is installed.
 """
 
 import importlib.util
+import math
 import pathlib
 import sys
 import tempfile
@@ -51,7 +52,10 @@ def evaluate(study, parts, options, methods=METHODS):
 
 def means(results, method):
     scans = per_scan(results, method)["per_scan"]
-    return {metric: mean_of([scan[metric] for scan in scans])["mean"] for metric in ("precision", "recall", "f1")}
+    # Without any point labelled ground, precision and F1 are undefined; they count as 0.
+    return {
+        metric: mean_of([scan[metric] or 0.0 for scan in scans])["mean"] for metric in ("precision", "recall", "f1")
+    }
 
 
 # --- presets of Patchwork on real scans -----------------------------------------------------------------------
@@ -174,7 +178,7 @@ def sensor_cells(row):
     return [percent(row[name][method]) for method in reversed(METHODS) for name in ("given", "derived")]
 
 
-SENSOR_HEAD = ["`patchwork`, `default`", "`patchwork`, derived", "`surface`, default", "`surface`, derived"]
+SENSOR_HEAD = ["`patchwork`, default", "`patchwork`, derived", "`surface`, default", "`surface`, derived"]
 
 
 def sensors_tables(results):
@@ -192,7 +196,7 @@ def sensors_tables(results):
 
 # --- height and tilt: known, estimated, wrong -----------------------------------------------------------------
 
-PITCH = -20  # degrees about the y axis: the front of the cloud is turned up
+PITCH = -20  # degrees about the y axis: the ground in front appears to rise
 WRONG_BY = 0.5  # metres
 
 
@@ -316,9 +320,59 @@ def mount_tables(results):
     return found
 
 
+# --- settings recommended by `flagstone doctor` ---------------------------------------------------------------
+
+
+def measure_doctor(study):
+    import tomllib  # needs Python 3.11, which `page` and `check` do not need
+
+    sets = Sets(study, livox_apart=True)
+    rows, commands = [], []
+    for name in [name for name in REAL_SENSORS if name != "kitti/patchwork"]:
+        show_progress(f"doctor: {name}")
+        scans, own = sets.arguments[name][0]
+        part = (scans, " ".join(without(own.split(), "--sensor-height")))
+        file = study.work / "doctor" / f"{name.replace('/', '-')}.toml"
+        file.parent.mkdir(exist_ok=True)
+        doctor = f"flagstone doctor {scans} --output $WORK/doctor/{file.name}"
+        study.call(doctor, exit_codes=(0, 1))  # 1: it recommends settings
+        before, _ = evaluate(study, [part], "")
+        after, used = evaluate(study, [part], f" --config $WORK/doctor/{file.name}")
+        commands = [doctor, *used]
+        settings = tomllib.loads(file.read_text())
+        rows.append(
+            {
+                "title": sets.titles[name],
+                "sensor": settings.get("sensor"),
+                "height": settings.get("sensor_height"),
+                "up": settings.get("mount", {}).get("up"),
+                **{method: {"default": before[method]["f1"], "recommended": after[method]["f1"]} for method in METHODS},
+            }
+        )
+    return {"rows": rows, "commands": commands}
+
+
+def doctor_table(results):
+    rows = []
+    for row in results["rows"]:
+        settings = [f"`{row['sensor']}`", f"height {row['height']:g} m"]
+        if row["up"]:
+            settings.append(f"tilt {math.degrees(math.acos(row['up'][2])):.1f}°")
+        values = [percent(row[method][name]) for method in METHODS for name in ("default", "recommended")]
+        rows.append([row["title"], ", ".join(settings), *values])
+    head = ["F1, %: scans", "recommended settings"]
+    head += [text for method in METHODS for text in (f"`{method}`, default", "recommended")]
+    return with_commands(table(head, rows, left=2), results, "Commands for the last row:")
+
+
 # --- the study ------------------------------------------------------------------------------------------------
 
-MEASUREMENTS = {"presets": measure_presets, "sensors": measure_sensors, "mount": measure_mount}
+MEASUREMENTS = {
+    "presets": measure_presets,
+    "sensors": measure_sensors,
+    "mount": measure_mount,
+    "doctor": measure_doctor,
+}
 
 
 def tables(results):
@@ -330,6 +384,8 @@ def tables(results):
         found |= sensors_tables(results["sensors"])
     if "mount" in results:
         found |= mount_tables(results["mount"])
+    if "doctor" in results:
+        found["doctor"] = doctor_table(results["doctor"])
     return found
 
 

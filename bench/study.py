@@ -31,8 +31,8 @@ class Runs:
         self.made_by = {}  # flagstone, machine, date
         work.mkdir(parents=True, exist_ok=True)
 
-    def call(self, command):
-        """Returns the standard output of a command. Exits if the command fails."""
+    def call(self, command, exit_codes=(0,)):
+        """Returns the standard output of a command. Exits if its exit code is not one of `exit_codes`."""
         text = command
         for name, directory in self.directories.items():
             text = text.replace(name, shlex.quote(directory))
@@ -40,7 +40,7 @@ class Runs:
         if words[0] == "flagstone":
             words[0] = self.flagstone
         done = subprocess.run(words, cwd=ROOT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        if done.returncode != 0:
+        if done.returncode not in exit_codes:
             sys.exit(f"exit code {done.returncode}: {command}\n{done.stderr.rstrip()}")
         return done.stdout
 
