@@ -246,7 +246,7 @@ std::string winner_text(const Sweep& sweep) {
   if (order.size() < 2) return text + ".";
   const eval::Spread ahead = difference(points[order[0]], points[order[1]]);
   text +=
-      fmt::format("; {:.2f} points ahead of {}", percent * ahead.mean, name_of(sweep, order[1]));
+      fmt::format("; {:.2f} percentage points ahead of {}", percent * ahead.mean, name_of(sweep, order[1]));
   if (!ahead.ci95) return text + "; one scan gives no interval.";
   if (*ahead.ci95 == 0) return text + ", the same on every scan.";
   const double intervals = ahead.mean / *ahead.ci95;

@@ -160,14 +160,14 @@ TEST(SweepResults, TheWinnerIsAheadByMultiplesOfTheIntervalOfTheDifference) {
   const Sweep sweep = sweep_of({"5", "10", "20"}, {{50, 60, 70}, {80, 90, 95}, {76, 84, 90}});
 
   EXPECT_EQ(winner_text(sweep),
-            "Best F1: 88.33 % at seed_count = 10; 5.00 points ahead of seed_count = 20, 2.0 times "
+            "Best F1: 88.33 % at seed_count = 10; 5.00 percentage points ahead of seed_count = 20, 2.0 times "
             "the 95 % interval of the difference: more than noise.");
 }
 
 TEST(SweepResults, ALeadWithinItsIntervalIsCalledNoise) {
   const Sweep sweep = sweep_of({"5", "10"}, {{50, 90}, {80, 61}});
 
-  EXPECT_THAT(winner_text(sweep), HasSubstr("at seed_count = 10; 0.50 points ahead"));
+  EXPECT_THAT(winner_text(sweep), HasSubstr("at seed_count = 10; 0.50 percentage points ahead"));
   EXPECT_THAT(winner_text(sweep), HasSubstr("no more than noise"));
 }
 
@@ -175,13 +175,13 @@ TEST(SweepResults, ALeadThatEveryScanHasNeedsNoInterval) {
   const Sweep sweep = sweep_of({"5", "10"}, {{50, 50}, {50, 50}});
 
   EXPECT_EQ(winner_text(sweep),
-            "Best F1: 50.00 % at seed_count = 5; 0.00 points ahead of seed_count = 10, the same on "
+            "Best F1: 50.00 % at seed_count = 5; 0.00 percentage points ahead of seed_count = 10, the same on "
             "every scan.");
 }
 
 TEST(SweepResults, OneScanGivesNoInterval) {
   EXPECT_THAT(winner_text(sweep_of({"5", "10"}, {{50}, {60}})),
-              HasSubstr("10.00 points ahead of seed_count = 5; one scan gives no interval."));
+              HasSubstr("10.00 percentage points ahead of seed_count = 5; one scan gives no interval."));
 }
 
 TEST(SweepResults, OnePointWinsAlone) {
