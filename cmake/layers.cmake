@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# The layers of src, from the bottom. A directory may use directories of lower layers, and of its own layer if that layer
-# is one whole directory of src. The methods in library/ must not use each other.
+# The layers of src, from the bottom. A directory may use directories of lower layers. If a layer is one whole directory
+# of src, its directories may also use each other. The methods in library/ must not use each other.
 set(flagstone_layers
     "library/core"
     "library/plane_fits"

@@ -44,7 +44,8 @@ PatchworkConfig patchwork_config(std::size_t choice) {
 }
 constexpr std::size_t patchwork_count = 12;
 
-/// The smallest and the largest surface, different numbers of levels, and settings with almost no limits.
+/// The smallest and the largest surface, different numbers of levels, and settings with almost no
+/// limits.
 SurfaceConfig surface_config(std::size_t choice) {
   constexpr float infinite = std::numeric_limits<float>::infinity();
   SurfaceConfig config;
@@ -89,8 +90,8 @@ constexpr std::size_t surface_count = 8;
 constexpr std::array<std::string_view, 5> baselines = {"ransac", "gpf", "line_fit", "cascaded",
                                                        "r_gpf"};
 
-/// A method with one choice of settings, with one thread and, if it supports threads, with three. Reused
-/// for all inputs, as in programs: previous inputs must not matter.
+/// A method with one choice of settings, with one thread and, if it supports threads, with three.
+/// Reused for all inputs, as in programs: previous inputs must not matter.
 struct Segmenters {
   std::unique_ptr<Segmenter> alone;
   std::unique_ptr<Segmenter> crew;
@@ -134,15 +135,15 @@ class Input {
   std::span<const std::uint8_t> bytes_;
 };
 
-/// Floats with any bit pattern.
+/// Floats with any value, including NaN, infinity and denormals.
 std::vector<Point> points_of_floats(Input input) {
   std::vector<Point> points;
   for (Point p{}; input.read(p);) points.push_back(p);
   return points;
 }
 
-/// 16-bit integers as positions within 100 m and heights within 6 m, each `copies` times with heights
-/// that increase by millimetres, so that points share bins.
+/// 16-bit integers as positions within 100 m and heights within 6 m, each `copies` times with
+/// heights that increase by millimetres, so that points share bins.
 std::vector<Point> points_of_shorts(Input input, std::size_t copies) {
   std::vector<Point> points;
   for (std::array<std::int16_t, 3> at{}; input.read(at);) {
@@ -155,8 +156,8 @@ std::vector<Point> points_of_shorts(Input input, std::size_t copies) {
   return points;
 }
 
-/// Points in a block of memory without padding at its end, so that a sanitizer detects a read out of
-/// bounds.
+/// Points in a block of memory without padding at its end, so that a sanitizer detects a read out
+/// of bounds.
 class Memory {
  public:
   Memory(const std::vector<Point>& points, std::size_t choice) : count_(points.size()) {
@@ -266,7 +267,8 @@ void segment(Segmenter& segmenter, CloudView cloud, Segmentation& result) {
 namespace flagstone {
 namespace {
 
-/// A method that estimates height and tilt from the scan. The estimate may fail, but the result is valid.
+/// A method that estimates height and tilt from the scan. The estimate may fail, but the result is
+/// valid.
 void segment_estimating(std::size_t choice, CloudView cloud) {
   static std::array<std::unique_ptr<GravityAlignedSegmenter>, 3> made;
   std::unique_ptr<GravityAlignedSegmenter>& levelled = made.at(choice % made.size());
@@ -290,9 +292,9 @@ void segment_estimating(std::size_t choice, CloudView cloud) {
 }  // namespace
 }  // namespace flagstone
 
-// The first byte selects the method and its settings, the second the layout in memory, the third how the
-// rest is converted to points. Labels, patches, heights and surface must be bit-identical on the best
-// instruction set, in plain C++ and with three threads.
+// The first byte selects the method and its settings, the second the layout in memory, the third
+// how the rest is converted to points. Labels, patches, heights and surface must be bit-identical
+// on the best instruction set, in plain C++ and with three threads.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   if (size < 3) return 0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Every format reads back what it writes, for clouds with any fields.
+// Written clouds read back unchanged in every format, for any fields.
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

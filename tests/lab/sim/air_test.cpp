@@ -27,7 +27,7 @@ struct Place {
   Frame pose = above_origin(1.5);
 };
 
-// Level beams all around.
+// A level beam in this direction.
 Vector3 level(int degrees) {
   const double angle = degrees * 3.14159265358979 / 180;
   return {std::cos(angle), std::sin(angle), 0};

@@ -97,7 +97,7 @@ TEST(Beams, RosetteFillsTheFieldOfViewAndStaysInside) {
     };
     ++hits[cell(down)][cell(across)];
   }
-  // The rosette is round: of the square, what lies within the circle through its edges.
+  // The rosette is round: it fills the circle inside the square.
   for (std::size_t row = 0; row < cells; ++row) {
     for (std::size_t column = 0; column < cells; ++column) {
       const double x = (static_cast<double>(column) + 0.5) / cells - 0.5;

@@ -72,9 +72,9 @@ TEST(Mounting, HeightsAreMeasuredInTheVehicleFrameForAnyTilt) {
 constexpr Surface house{.semantic = SemanticClass::building, .reflectivity = 0.5F};
 constexpr Surface lorry{.semantic = SemanticClass::car, .reflectivity = 0.5F};
 constexpr double first_gap = 6;  // metres to the lorry at stop 0
-constexpr double step = 3;       // metres it drives from stop to stop
+constexpr double step = 3;       // motion of the lorry per stop, metres
 
-// The vehicle stands still before a house 20 m ahead, and a lorry drives away from it.
+// The vehicle stands still, 20 m in front of a house, and a lorry moves away from it.
 Landscape lorry_before_a_house(std::uint64_t /*seed*/) {
   Landscape landscape{.ground = flat_ground(),
                       .route = std::vector<Stop>(frames_per_drive),
@@ -121,7 +121,7 @@ TEST(Moving, ObjectsAreHiddenBehindStaticOnes) {
   }
 }
 
-TEST(Moving, ObjectsAppearInMirrors) {
+TEST(Moving, ObjectsAppearInReflections) {
   Mesh pane;
   add_wall(pane, 10, {.semantic = SemanticClass::building, .mirror = 1});
   const Scene scene = flat_scene(pane);

@@ -22,7 +22,7 @@ namespace {
 constexpr Surface wall{.semantic = SemanticClass::building, .reflectivity = 0.5F};
 constexpr Surface glass{.semantic = SemanticClass::building, .reflectivity = 0.1F, .mirror = 1};
 
-// Looks along the x axis at whatever stands there, 1.5 m above a level road.
+// A scan of `objects` along the x axis, from 1.5 m above a level road.
 SimulatedScan look_ahead(Mesh objects, const Noise& noise, std::uint64_t seed = 1) {
   return simulate(flat_scene(std::move(objects)), sensor_ahead(20, 1000), noise, above_origin(1.5),
                   seed);
@@ -44,7 +44,7 @@ TEST(Returns, GroundPointsAreOnALevelRoadWithinTheNoiseForEverySensor) {
     for (std::size_t i = 0; i < scan.size(); ++i) {
       const Vector3 point = point_of(scan, i);
       const double sine = point.z / length(point);
-      // What the noise moves along the beam, seen from above.
+      // The error along the beam that corresponds to the error in z.
       const double error = (point.z + sensor.height) / std::abs(sine);
       ASSERT_EQ(class_of(scan, i), SemanticClass::road);
       ASSERT_LT(std::abs(error), 6 * sensor.range_sigma + 0.005) << sensor.name;
@@ -60,7 +60,7 @@ struct Condition {
   std::string noise, weather;
 };
 
-// A street of cars with a wall of glass beside the vehicle.
+// A street of cars with a wall of glass next to the vehicle.
 struct GlassStreet {
   Landscape landscape = find_scene_kind("parked_cars")->make(2);
   Stop stop = landscape.route.front();
@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Conditions, EveryCondition,
                            return condition.param.noise + "_" + condition.param.weather;
                          });
 
-TEST(Returns, GlassAtRightAnglesMirrorsATenthOfTheBeams) {
+TEST(Returns, GlassReflectsATenthOfTheBeamsAtRightAngles) {
   Mesh objects;
   add_wall(objects, 10, glass);
   add_wall(objects, -8, wall);
@@ -161,21 +161,21 @@ TEST(Returns, GlassAtRightAnglesMirrorsATenthOfTheBeams) {
   }
 }
 
-TEST(Returns, GlassMirrorsMoreAtGrazingIncidence) {
+TEST(Returns, GlassReflectsMoreAtGrazingIncidence) {
   const auto share_mirrored = [](double along) {
-    Mesh objects;  // a pane that is 2 m ahead at y = 0
+    Mesh objects;  // a pane, 2 m ahead at y = 0
     objects.add_quad({2 - 30 * along, -30, -1}, {2 + 30 * along, 30, -1}, {2 + 30 * along, 30, 20},
                      {2 - 30 * along, -30, 20}, glass);
     Noise noise = no_noise();
     noise.mirroring = 1;
-    // With nothing to be seen in it, what is mirrored is lost.
+    // Reflected beams are lost, because they hit nothing.
     return 1 - static_cast<double>(look_ahead(objects, noise).size()) / beams_ahead;
   };
 
   EXPECT_GT(share_mirrored(6), 2 * share_mirrored(0));
 }
 
-TEST(Returns, WetRoadShowsObjectsMirroredBelowIt) {
+TEST(Returns, WetRoadShowsReflectedObjectsBelowIt) {
   Mesh objects;
   add_wall(objects, 20, wall);
   const Scene scene = flat_scene(objects);
@@ -197,7 +197,7 @@ TEST(Returns, WetRoadShowsObjectsMirroredBelowIt) {
 TEST(Returns, MixedPixelsAreBetweenTheSurfacesOfAnEdgeAtTheirRate) {
   Mesh objects;
   add_wall(objects, 11, wall);
-  for (double y = -1; y < 1; y += 0.1) {  // a fence of pales, 5 cm wide, 5 cm apart
+  for (double y = -1; y < 1; y += 0.1) {  // a fence of pales 5 cm wide and 5 cm apart
     objects.add_quad({10, y, 0}, {10, y + 0.05, 0}, {10, y + 0.05, 8}, {10, y, 8}, wall);
   }
   Noise always = no_noise();

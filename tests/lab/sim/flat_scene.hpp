@@ -26,7 +26,7 @@ inline void add_wall(Mesh& mesh, double x, Surface surface) {
   mesh.add_quad({x, -20, -1}, {x, 20, -1}, {x, 20, 20}, {x, -20, 20}, surface);
 }
 
-/// Level, `height` metres above the origin.
+/// A level frame, `height` metres above the origin.
 inline Frame above_origin(double height) { return {.origin = {0, 0, height}}; }
 
 inline Vector3 point_of(const SimulatedScan& scan, std::size_t i) {
@@ -41,7 +41,7 @@ inline double count(const SimulatedScan& scan, EchoKind kind) {
   return static_cast<double>(std::ranges::count(scan.echoes, kind));
 }
 
-/// Beams in a cone of some degrees ahead of the sensor, this many.
+/// A sensor with `rows` times `firings` beams in a narrow field of view ahead.
 inline Sensor sensor_ahead(int rows, int firings) {
   Sensor sensor{.name = "ahead",
                 .title = "",

@@ -19,10 +19,10 @@
 namespace flagstone::sim {
 namespace {
 
-// Begins at y = 3 and rises to the left.
+// A step that starts at y = 3 and rises to the left.
 constexpr StepPlace place{.x = 5, .y = 3, .across_x = 0, .across_y = 1, .width = 0.02};
 
-// A ramp of this width in the middle of the step.
+// A ramp of this rise and width in the middle of the step.
 HeightAt ramp(double rise, double width) {
   return [=](double, double y) {
     const double middle = place.y + place.width / 2;
@@ -78,7 +78,8 @@ TEST(StepView, HasNoWidthAcrossAGap) {
   EXPECT_FALSE(view.width);
 }
 
-// Cells of 0.25 m: a kerb between two rows of cell centres is spread between these.
+// Cells of 0.25 m: a kerb between two rows of cell centres is spread over the distance between the
+// rows.
 TEST(StepView, KerbIsSpreadOverTheCellsOfAQuarterMetreGrid) {
   flagstone::GroundSurface surface;
   std::vector<flagstone::GroundSurface::Grid>& grids = surface.start();
@@ -115,7 +116,7 @@ TEST(SeenSides, HaveAGroundPointNearTheStep) {
   EXPECT_EQ(sides({5, 3.01F}), std::pair(false, false)) << "on the face";
 }
 
-TEST(StepPlaces, ShowTheStepInTheTrueHeightsOfEverySensor) {
+TEST(StepPositions, ShowTheStepInTheTrueHeightsOfEverySensor) {
   const Drive drive(*find_scene_kind("steps"), Sensor::named("hdl-64e"), 4);
   const Scene scene = drive.scene();
   for (const std::size_t frame : {2U, 7U}) {
@@ -126,7 +127,7 @@ TEST(StepPlaces, ShowTheStepInTheTrueHeightsOfEverySensor) {
       for (const StepPlace& at : places_on(step, scene.ground(), pose)) {
         const StepView view = view_step(at, truth);
         ++places;
-        // What the sensor leans and the ground slopes makes up for little.
+        // The tilt of the sensor and the slope of the ground have little influence.
         ASSERT_NEAR(view.rise, step.rise, 0.05) << step.kind;
         ASSERT_NEAR(view.width.value(), 0.8 * std::abs(step.y_end - step.y_begin), 0.3)
             << step.kind;
@@ -136,7 +137,7 @@ TEST(StepPlaces, ShowTheStepInTheTrueHeightsOfEverySensor) {
   }
 }
 
-TEST(StepPlaces, KerbIsAsSharpAsDefined) {
+TEST(StepPositions, KerbIsAsSharpAsDefined) {
   const Drive drive(*find_scene_kind("steps"), Sensor::named("hdl-64e"), 4);
   const Scene scene = drive.scene();
   const Frame& pose = drive.poses()[3];

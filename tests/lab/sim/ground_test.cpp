@@ -24,7 +24,7 @@ namespace {
 constexpr Surface road{.semantic = SemanticClass::road, .reflectivity = 0.2F};
 constexpr Surface lawn{.semantic = SemanticClass::terrain, .reflectivity = 0.4F};
 
-// Two cells along x, 1 m each, bent to the left by 0.5 m a metre; the far one is lawn.
+// Two cells along x, 1 m each, bent to the left by 0.5 m/m; the far cell is lawn.
 Ground bent_ground() {
   return {{.x = {0, 1, 2}, .offset = {0, 0.5, 1}, .t = {0, 2}}, {0, 0, 1, 1, 4, 4}, {road, lawn}};
 }
@@ -61,7 +61,7 @@ TEST(Ground, RejectsAMissingHeight) {
                std::invalid_argument);
 }
 
-// A street with everything that bends its ground.
+// A street with all parameters that bend its ground.
 StreetShape hilly_street() {
   StreetShape shape;
   shape.half_length = 40;
@@ -151,14 +151,14 @@ TEST(Street, AcceptsAnyNumberOfGrades) {
 constexpr Surface soil{};
 constexpr double face_width = 0.02;  // width of the face of a step, metres
 
-// Flat at 0 for y below 0, flat at 1 m beyond a face that leans back by 2 cm; 20 m square.
+// A step on a 20 m square: height 0 for negative y, 1 m behind a face that is tilted back by 2 cm.
 Ground step_ground() {
   return {{.x = {-10, 10}, .offset = {0, 0}, .t = {-10, 0, face_width, 10}},
           {0, 0, 1, 1, 0, 0, 1, 1},
           {soil, soil, soil}};
 }
 
-// A slope of 1 in 10 along x.
+// A slope of 0.1 m/m along x.
 Ground slope_ground() {
   return {{.x = {-10, 10}, .offset = {0, 0}, .t = {-10, 10}}, {-1, -1, 1, 1}, {soil}};
 }
@@ -178,7 +178,8 @@ TEST(FirstCrossing, IsZeroOnTheGroundItself) {
 }
 
 TEST(FirstCrossing, IsTheNearestOfSeveral) {
-  // Leans by 0.1 m a metre, the face by 0.02: it leaves the upper level through the face again.
+  // The line is tilted by 0.1 m/m and the face by 0.02 m/m, so the line leaves the upper level
+  // through the face.
   const Ground ground = step_ground();
   const Vector3 leaning{0, -0.1, -1};
 
@@ -197,7 +198,7 @@ TEST(FirstCrossing, IsEmptyOffTheGridAndForRaysThatLeaveIt) {
   EXPECT_EQ(ground.first_crossing({0, 0, 5}, {1, 0, 0}), std::nullopt) << "above it all the way";
 }
 
-// Everything that bends the ground of a street.
+// A steeper street with all parameters that bend its ground.
 Ground steeper_street() {
   StreetShape shape = hilly_street();
   shape.grade = 0.1;
@@ -230,7 +231,7 @@ TEST(FirstCrossing, IsOnTheGroundWithNoGroundInFront) {
 TEST(TrueGround, IsMeasuredAlongTheZAxisOfATiltedSensor) {
   const Ground ground = slope_ground();
   const double slope = std::atan(0.1);
-  // Stands on the slope as a vehicle does, 2 m above it: the ground is level in its frame.
+  // 2 m above a vehicle on the slope, so that the ground is level in its frame.
   const Frame pose = raised(frame_on_wheels(ground, 0, 0, 0.5, 2, 1), 2);
 
   const std::vector<float> heights =
@@ -290,7 +291,7 @@ TEST_P(TrueGroundOfScene, MatchesGroundPointsWithoutNoise) {
       ASSERT_GT(height, -0.002) << "point " << i;
       if (is_ground(static_cast<SemanticClass>(scan.classes[i]))) faces += height > 0.002;
     }
-    // Rounding carries a point off the edge of a steep face, and then the ground lies well below.
+    // Rounding may move a point off the edge of a steep face, and then the ground is well below it.
     EXPECT_LE(faces, scan.size() / 2'000);
   }
 }
@@ -307,7 +308,7 @@ TEST(StreetGround, MatchesTheGroundPointsOfAScan) {
   std::size_t all = 0;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (!is_ground(static_cast<SemanticClass>(scan.classes[i]))) continue;
-    constexpr float range_noise = 0.1F;  // metres; what it makes of a height is less
+    constexpr float range_noise = 0.1F;  // metres; the error of a height is smaller
     const float z = scan.xyzi[4 * i + 2];
     ++all;
     near += std::abs(z - heights[i]) < range_noise;

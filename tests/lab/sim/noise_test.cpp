@@ -77,7 +77,7 @@ TEST(Noise, IntensityStaysWithinZeroAndOne) {
   }
 }
 
-TEST(Noise, MirroringDecreasesWithRange) {
+TEST(Noise, SpecularReflectionDecreasesWithRange) {
   const auto mirrored = [](double range) {
     return share(
         [&](Random& random) { return is_mirrored(Noise{.ghost_rate = 1}, range, random); });

@@ -89,7 +89,7 @@ TEST(PloughedField, FurrowsAreFifteenToTwentyFiveCentimetresDeepWhereTheVehicleC
     for (const Stop& stop : land.route) {
       double low = 1e9;
       double high = -1e9;
-      for (double y = -0.4; y < 0.4; y += 0.02) {  // the widest furrow, across
+      for (double y = -0.4; y < 0.4; y += 0.02) {  // across the widest furrow
         const double height = land.ground.height(stop.x, stop.y + y);
         low = std::min(low, height);
         high = std::max(high, height);
@@ -97,7 +97,7 @@ TEST(PloughedField, FurrowsAreFifteenToTwentyFiveCentimetresDeepWhereTheVehicleC
       depths.push_back(high - low);
     }
     std::ranges::nth_element(depths, depths.begin() + 5);
-    // Clods and the slope of the land come on top.
+    // The limits allow for clods and the slope of the land.
     EXPECT_GT(depths[5], 0.13) << "seed " << seed;
     EXPECT_LT(depths[5], 0.36) << "seed " << seed;
   }
@@ -163,7 +163,7 @@ TEST(Park, HasAReflectivePondNextToEveryRoute) {
   }
 }
 
-// A level ground of 40 by 40 m.
+// Level ground of 40 by 40 m.
 Ground lawn() {
   return {{.x = {-20, 20}, .offset = {0, 0}, .t = {-20, 20}},
           {0, 0, 0, 0},
@@ -181,7 +181,7 @@ TEST(HighGrass, HidesPartOfTheGround) {
     int reach = 0;
     constexpr int beams = 1000;
     for (int i = 0; i < beams; ++i) {
-      // At 15 degrees towards places 2 m around the middle.
+      // Beams at 15 degrees below the horizon, to positions within 2 m of the middle.
       const double slope = std::tan(15 / degrees);
       const Vector3 target{random.uniform(-2, 2), random.uniform(-2, 2), 0};
       const Vector3 from = target + Vector3{-10, 0, 10 * slope};

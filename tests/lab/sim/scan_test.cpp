@@ -30,7 +30,7 @@ SemanticClass class_of(const SimulatedScan& scan, std::size_t i) {
   return static_cast<SemanticClass>(scan.classes[i]);
 }
 
-// A street, the sensor on it and what is above the ground of it.
+// A street and a sensor in it.
 struct Drive {
   explicit Drive(std::uint64_t seed)
       : scene(make_street(seed)), pose(sensor_pose(scene.ground(), sensor, 0, -1.6, 0)) {}
@@ -50,7 +50,7 @@ struct Drive {
   Frame pose;
 };
 
-// The beam of the sensor that points the way of this point, no_beam if none does.
+// The beam of the sensor in the direction of this point, or no_beam.
 std::size_t beam_of(const Sensor& sensor, Vector3 point) {
   const double elevation = std::atan2(point.z, std::hypot(point.x, point.y)) / radians;
   for (std::size_t beam = 0; beam < sensor.elevations.size(); ++beam) {
@@ -59,7 +59,7 @@ std::size_t beam_of(const Sensor& sensor, Vector3 point) {
   return no_beam;
 }
 
-// Degrees from straight ahead to the left; what rounding puts just below 360 counts as 0.
+// Degrees to the left of straight ahead; a value rounded to just below 360 counts as 0.
 double azimuth_of(Vector3 point) {
   const double azimuth = std::atan2(point.y, point.x) / radians;
   return azimuth < -1e-4 ? azimuth + 360 : azimuth;
@@ -89,7 +89,7 @@ TEST(Scan, GroundPointsHaveTheClassOfTheGroundAtTheirPosition) {
     different += drive.scene.ground().surface(world.x, world.y).semantic != class_of(scan, i);
   }
 
-  // Rounding may carry a point over the line between two surfaces.
+  // Rounding may move a point over the border between two surfaces.
   EXPECT_LT(different, ground_points / 1'000);
 }
 

@@ -23,7 +23,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 
 const SceneKind& kind_named(std::string_view name) { return *find_scene_kind(name); }
 
-// An HDL-64E that fires a sixth as often: a sixth of the work.
+// An HDL-64E with a sixth of the firings, to save time.
 Sensor sparse_sensor() {
   Sensor sensor = Sensor::named("hdl-64e");
   sensor.firings = 360;
@@ -34,7 +34,7 @@ Drive plan(std::string_view name, std::uint64_t seed) {
   return {kind_named(name), sparse_sensor(), seed};
 }
 
-// A drive and its world.
+// A run and its scene.
 struct World {
   explicit World(std::string_view name, std::uint64_t seed = 1)
       : drive(plan(name, seed)), scene(drive.scene()) {}
@@ -50,7 +50,7 @@ struct World {
   Scene scene;
 };
 
-// A point of a scan in the world.
+// A point of a scan in world coordinates.
 Vector3 world_point(const Frame& pose, const SimulatedScan& scan, std::size_t i) {
   return pose.to_world({scan.xyzi[4 * i], scan.xyzi[4 * i + 1], scan.xyzi[4 * i + 2]});
 }
@@ -80,12 +80,12 @@ TEST_P(EveryScene, GroundTruthIsExact) {
       of_another_class += world.scene.ground().surface(point.x, point.y).semantic != semantic;
     }
     EXPECT_GT(ground, 2'000U);
-    EXPECT_LE(of_another_class, ground / 1'000);  // rounded over the line between two surfaces
+    EXPECT_LE(of_another_class, ground / 1'000);  // rounding over the border between two surfaces
   }
 }
 
-// Is nothing within `aside` metres of the sensor, nor `above` metres over it? Asks beams of every
-// direction, along a spiral from pole to pole.
+// Whether nothing is within `aside` metres of the sensor, or `above` metres above it. Casts beams
+// in all directions, along a spiral from pole to pole.
 bool stands_clear(const RayCaster& world, const Frame& pose, double aside, double above) {
   constexpr int beams = 400;
   for (int i = 0; i < beams; ++i) {
@@ -102,7 +102,7 @@ TEST_P(EveryScene, SensorIsClearOfObjectsAndSeesGroundAheadAndBehind) {
   const World world(GetParam(), 2);
   for (int frame = 0; frame < frames_per_drive; ++frame) {
     const Frame& pose = world.drive.poses()[static_cast<std::size_t>(frame)];
-    // The ground is further away; the ceiling of a car park is not.
+    // The ground is farther away than 1.2 m, but the ceiling of a car park may be closer.
     EXPECT_TRUE(stands_clear(world.scene.caster(), pose, 1.2, 0.4)) << "frame " << frame;
     if (frame % 4 != 0) continue;
     const SimulatedScan scan = world.drive.scan(world.scene, Noise{}, frame);
@@ -161,7 +161,7 @@ TEST(SceneKinds, AreFoundByName) {
   EXPECT_EQ(find_scene_kind(""), nullptr);
 }
 
-// Those with traffic.
+// Scenes with traffic.
 class MovingScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(MovingScene, TrafficMovesBetweenStopsClearOfTheSensor) {
@@ -217,7 +217,8 @@ TEST(FlatStreet, HasNoGradeAboveTwoPercentUnderTheWheels) {
   }
 }
 
-// Share of places along the path with a car within `reach` metres of it, to the right and left.
+// Fraction of positions along the path with a car within `reach` metres, to the right and to the
+// left.
 std::array<double, 2> cars_beside_the_path(const World& world, double reach) {
   std::array<double, 2> share{};
   int places = 0;
@@ -268,8 +269,8 @@ TEST(BushesAndLawn, LowVegetationIsNextToThePathAndBushesAreFurtherOut) {
   EXPECT_LT(buildings, points / 10);
 }
 
-// Root mean square, over the paths of some drives, of how far the ground is bent within 2 m: the
-// height in the middle against the mean of those 1 m before and behind, metres.
+// Roughness along the paths of some runs: the RMS difference between the height of the ground and
+// the mean of the heights 1 m before and behind, metres.
 double bumpiness(std::string_view name) {
   double sum = 0;
   int places = 0;
@@ -337,7 +338,7 @@ TEST(Ramp, RisesOrDescendsOneStoreyAtTwelveToFifteenPercent) {
   EXPECT_LT(up, drives);
 }
 
-// How high the nearest thing over the sensor is, metres above the ground; 100 for none.
+// Height of the nearest object above the sensor, metres above the ground; 100 if there is none.
 double ceiling_over(const World& world, const Frame& pose) {
   const auto hit = world.scene.caster().cast(pose.origin, {0, 0, 1}, 0.1, 100);
   return hit ? world.above_ground(pose.origin) + hit->range : 100;
@@ -346,7 +347,7 @@ double ceiling_over(const World& world, const Frame& pose) {
 TEST(Ramp, HasACeilingOverEveryStop) {
   const World world("ramp", 2);
   for (const Frame& pose : world.drive.poses()) EXPECT_LT(ceiling_over(world, pose), 6.5);
-  // On a storey, a low one.
+  // A storey has a low ceiling.
   EXPECT_LT(ceiling_over(world, world.drive.poses().front()), 2.85);
 }
 
@@ -423,7 +424,7 @@ TEST(Steps, HasEveryKindNextToTheRouteForEverySeed) {
   }
 }
 
-TEST(Drive, ScansAreTheSameWhenTheSceneIsBuiltAgain) {
+TEST(SimulatedRun, ScansAreTheSameWhenTheSceneIsBuiltAgain) {
   const World one("bumpy_field", 3);
   const World again("bumpy_field", 3);
   for (const int frame : {0, 9}) {
@@ -434,7 +435,7 @@ TEST(Drive, ScansAreTheSameWhenTheSceneIsBuiltAgain) {
   }
 }
 
-TEST(Drive, ScenesOfASequenceDiffer) {
+TEST(SimulatedRun, ScenesOfASequenceDiffer) {
   EXPECT_NE(drive_seed(1, 0), drive_seed(1, 1));
   EXPECT_NE(drive_seed(1, 0), drive_seed(2, 0));
   for (const SceneKind& kind : scene_kinds()) {

@@ -14,7 +14,7 @@
 namespace flagstone::sim {
 namespace {
 
-// Along the x axis, own_speed metres from stop to stop.
+// A route along the x axis with stops own_speed metres apart.
 std::vector<Stop> straight_route() {
   std::vector<Stop> route;
   for (int stop = 0; stop < frames_per_drive; ++stop) {
@@ -41,7 +41,7 @@ double mean_x(const Mesh& mesh) {
 
 TEST(Traffic, OmitsVehiclesThatWouldPassThroughTheSensor) {
   Traffic traffic(straight_route());
-  // Across the road, where the sensor is half a second after its fifth stop.
+  // Across the road, at the position of the sensor half a second after its fifth stop.
   const double x = -half_drive + 4.5 * frame_spacing;
   const Stop begin{.x = x, .y = -45, .yaw = std::numbers::pi / 2};
 
