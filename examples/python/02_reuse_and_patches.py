@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Scan after scan with the same segmenter, and what Patchwork found in each patch of ground."""
+"""Reuse a segmenter for several scans, and inspect the patches of Patchwork."""
 
 import numpy as np
 
@@ -10,20 +10,20 @@ random = np.random.default_rng(1)
 
 
 def next_scan() -> np.ndarray:
-    """A road and a wall, as your driver would return them."""
+    """A road and a wall. Replace this with your driver."""
     road = random.uniform([-40, -40, -1.75], [40, 40, -1.71], (80_000, 3))
     wall = random.uniform([10, -20, -1.7], [10.1, 20, 1], (20_000, 3))
     return np.concatenate([road, wall]).astype(np.float32)
 
 
-# The segmenter keeps its memory: after the first scans hardly anything is allocated. Nothing else is kept, so the
-# labels of a scan never depend on the scans before it.
+# The segmenter keeps its memory, so after the first scans it allocates almost nothing. It keeps nothing else, so the
+# labels of a scan never depend on earlier scans.
 segmenter = flagstone.Patchwork(sensor="hdl-64e")
 for _ in range(3):
     result = segmenter.segment(next_scan())
     print(f"ground: {result.counts['ground']} of {len(result)} points, {len(result.patches)} patches")
 
-# The patches of the last scan: where, how many points, the plane normal . p + d = 0, and the verdict.
+# The patches of the last scan: position, number of points, plane (normal . p + d = 0) and status.
 for patch in result.patches[:5]:
     x, y, z = patch["normal"]
     print(
@@ -31,6 +31,6 @@ for patch in result.patches[:5]:
         f" normal ({x:.3f} {y:.3f} {z:.3f}), d {patch['d']:.2f}, {flagstone.Verdict(patch['verdict']).name.lower()}"
     )
 
-# A structured array can be counted and filtered; result.to_pandas() is the same as a data frame.
+# You can count and filter the structured array. result.to_pandas() returns it as a data frame.
 for verdict, count in zip(*np.unique(result.patches["verdict"], return_counts=True), strict=True):
     print(f"{flagstone.Verdict(verdict).name.lower()}: {count} patches")

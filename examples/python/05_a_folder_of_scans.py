@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""A folder of scans on several threads; labels go to a folder of their own. For a cluster there is flagstone.ray."""
+"""Segment a directory of scans with several threads, and write the labels to files. For clusters, use flagstone.ray."""
 
 import os
 import threading
@@ -13,7 +13,7 @@ import flagstone
 
 scans, output = Path("scans"), Path("labels")
 output.mkdir(exist_ok=True)
-if not scans.exists():  # your own scans go here: .bin, .pcd, .ply or .npy
+if not scans.exists():  # replace this with your own scans: .bin, .pcd, .ply or .npy
     scans.mkdir()
     for number in range(3):
         random = np.random.default_rng(number)
@@ -21,13 +21,13 @@ if not scans.exists():  # your own scans go here: .bin, .pcd, .ply or .npy
         wall = random.uniform([10, -20, -1.7, 0], [10.1, 20, 1, 1], (20_000, 4))
         np.concatenate([road, wall]).astype(np.float32).tofile(scans / f"{number:06}.bin")
 
-# Python's lock is free while a scan is segmented, so that threads work side by side. Threads that share a segmenter
-# take turns: give each thread its own.
+# segment() releases the GIL, so threads run in parallel. Threads that share a segmenter take turns, so each thread gets
+# its own segmenter.
 own = threading.local()
 
 
 def segment_file(path: Path) -> str:
-    """Segments one scan, writes its labels and returns a line about it."""
+    """Segments one scan, writes its labels and returns a summary."""
     if not hasattr(own, "segmenter"):
         own.segmenter = flagstone.Surface(sensor="hdl-64e")
     result = own.segmenter.segment(flagstone.io.read(path))

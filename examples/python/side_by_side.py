@@ -4,17 +4,18 @@
 # %% [markdown]
 # # Side by side
 #
-# The same scans, segmented by [pypatchworkpp](https://github.com/url-kaist/patchwork-plusplus) (both of its methods),
-# by [Open3D](https://www.open3d.org)'s `segment_plane` and by flagstone (both of its methods): lines of code, time,
-# accuracy, and what happens to input that is not as it should be. What is not installed is left out and named.
+# This program segments the same scans with flagstone (two methods),
+# [pypatchworkpp](https://github.com/url-kaist/patchwork-plusplus) (two methods) and `segment_plane` of
+# [Open3D](https://www.open3d.org). It compares lines of code, time, accuracy and the behaviour for invalid input.
+# Packages that are not installed are skipped.
 #
 #     pip install flagstone[pandas,plot] pypatchworkpp open3d
-#     python side_by_side.py                                         # prints the tables
-#     python side_by_side.py --quick                                 # fewer scans and rounds
-#     python side_by_side.py --write docs/benchmarks/side-by-side.md     # fills the tables in, draws the picture
+#     python side_by_side.py                                         # print the tables
+#     python side_by_side.py --quick                                 # use fewer scans and rounds
+#     python side_by_side.py --write docs/benchmarks/side-by-side.md     # update the page and its plot
 #
-# It also opens as a notebook: the cells begin with `# %%`. Scans are simulated; where the environment variable
-# `FLAGSTONE_DATA` names a folder with real ones, those in `kitti` are taken too.
+# You can also open it as a notebook: cells begin with `# %%`. The scans are simulated. If the environment variable
+# `FLAGSTONE_DATA` names a directory with real scans, the scans in `kitti` are used too.
 
 # %%
 import argparse
@@ -38,14 +39,14 @@ import typing
 
 import numpy as np
 
-os.environ["OMP_NUM_THREADS"] = "1"  # one thread each; read when the packages are loaded, which is below
+os.environ["OMP_NUM_THREADS"] = "1"  # one thread; must be set before the packages are imported
 
 # %% [markdown]
-# ## The code that each needs
+# ## Code
 #
-# Each function makes a segmenter; what it returns takes points, (N, 4) float32: x, y, z, intensity, and gives a
-# mask: which of the points are ground. Settings are the packages' own, but for the sensor's height where it is asked
-# for, and for RANSAC's 0.2 m and 1,000 trials, which have no defaults.
+# Each function creates a segmenter and returns a function from points, (N, 4) float32 (x, y, z, intensity), to a ground
+# mask. All settings have their default values, except the sensor height, and the 0.2 m and 1,000 iterations of RANSAC,
+# which have no defaults.
 
 
 # %%
@@ -121,43 +122,46 @@ def flagstone_patchwork(sensor_height):
 
 # %%
 class Contender(typing.NamedTuple):
-    """A package's way to find ground."""
+    """A ground segmentation method of a package."""
 
     title: str
     package: str
     make: typing.Callable  # sensor height, metres -> a function from points to a mask
-    hands_back: str  # the package's own answer, before a mask is made of it
+    returns: str  # result of the package, before it is converted to a mask
 
 
 CONTENDERS = (
-    Contender("flagstone `Surface`", "flagstone", flagstone_surface, "a label, and a height, for each point"),
-    Contender("flagstone `Patchwork`", "flagstone", flagstone_patchwork, "a label for each point"),
+    Contender("flagstone `Surface`", "flagstone", flagstone_surface, "label and height of each point"),
+    Contender("flagstone `Patchwork`", "flagstone", flagstone_patchwork, "label of each point"),
     Contender(
-        "pypatchworkpp `patchwork`", "pypatchworkpp", pypatchworkpp_patchwork, "two lists of indices, bin by bin"
+        "pypatchworkpp `patchwork`", "pypatchworkpp", pypatchworkpp_patchwork, "two lists of indices, ordered by bin"
     ),
     Contender(
-        "pypatchworkpp `patchworkpp`", "pypatchworkpp", pypatchworkpp_patchworkpp, "two arrays of indices, bin by bin"
+        "pypatchworkpp `patchworkpp`",
+        "pypatchworkpp",
+        pypatchworkpp_patchworkpp,
+        "two arrays of indices, ordered by bin",
     ),
     Contender("Open3D `segment_plane`", "open3d", open3d_segment_plane, "indices of the plane's points, ascending"),
 )
 
 
 def installed(contenders=CONTENDERS):
-    """Those whose package is there; the others are named."""
+    """The contenders whose package is installed. Prints the missing packages."""
     there = [c for c in contenders if importlib.util.find_spec(c.package)]
     for package in sorted({c.package for c in contenders if c not in there}):
-        print(f"left out: {package} is not installed (pip install {package})")
+        print(f"skipped: {package} is not installed (pip install {package})")
     return there
 
 
 def lines_of(make):
-    """Lines of code, without blank ones and without the three that all have in common: two `def`, one `return`."""
+    """Lines of code, without blank lines and without the three common lines: two `def`, one `return`."""
     return sum(bool(line.strip()) for line in inspect.getsource(make).splitlines()) - 3
 
 
 @contextlib.contextmanager
 def silence():
-    """Sends standard output to nowhere: pypatchworkpp prints from C++ when a segmenter is made."""
+    """Discards standard output, because pypatchworkpp prints from C++ when it creates a segmenter."""
     sys.stdout.flush()
     kept, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
@@ -175,21 +179,21 @@ def made(contender, sensor_height):
 
 
 # %% [markdown]
-# ## The scans
+# ## Scans
 #
-# Simulated: one scan of each of eight scenes by an HDL-64E, with exact classes. Real: the eight full-density
-# SemanticKITTI scans of two places, of which the first six were taken within 1.5 seconds.
+# Simulated: one HDL-64E scan of each of eight scenes, with exact classes. Real: eight full-density SemanticKITTI scans
+# from two places; the first six were recorded within 1.5 seconds.
 
 
 # %%
 class Scan(typing.NamedTuple):
-    """Points, (N, 4) float32, and SemanticKITTI's class of each, (N,)."""
+    """Points, (N, 4) float32, and their SemanticKITTI classes, (N,)."""
 
     points: np.ndarray
     classes: np.ndarray
 
 
-SENSOR_HEIGHT = 1.73  # metres, of all of them
+SENSOR_HEIGHT = 1.73  # metres, for all scans
 SCENES = (
     "flat_street", "steep_street", "parked_cars", "bushes_and_lawn", "urban_street", "crossroads", "highway", "park",
 )  # fmt: skip
@@ -216,13 +220,13 @@ def simulated_scans(folder, scenes):
 def real_scans(names):
     folder = pathlib.Path(os.environ.get("FLAGSTONE_DATA", "/none")) / "kitti"
     if not folder.is_dir():
-        print("left out: real scans, since FLAGSTONE_DATA names no folder that has them")
+        print("skipped: real scans (set FLAGSTONE_DATA to a directory that contains kitti/)")
         return []
     return [read_scan(folder / "velodyne" / f"{name}.bin", folder / "labels" / f"{name}.label") for name in names]
 
 
 def show_progress(text):
-    """On a terminal, in one line that the next call replaces; an empty text clears it."""
+    """Shows a line on a terminal, in place of the previous one. An empty text clears the line."""
     if sys.stderr.isatty():
         print(f"\r\033[K{text}", end="", file=sys.stderr, flush=True)
 
@@ -230,9 +234,9 @@ def show_progress(text):
 # %% [markdown]
 # ## Accuracy
 #
-# F1 of ground under the two protocols that the literature uses. Figures are comparable under the same one only.
-# Every scan is segmented by a new segmenter. Counted is also how many labels come out otherwise from a segmenter
-# that saw the scans before: because it adapts itself to them, or because it draws lots.
+# F1 of ground under two protocols from the literature. Only results of the same protocol are comparable. A new
+# segmenter is created for every scan. The last column is the percentage of labels that differ if the segmenter has
+# processed earlier scans, because it adapts to them or because it is random.
 
 
 # %%
@@ -242,11 +246,11 @@ PROTOCOLS = ("patchwork", "patchwork++")
 
 
 def truth_of(scan, protocol):
-    """Which points are ground, and which are scored."""
+    """Masks of the ground points and of the scored points."""
     ground = np.isin(scan.classes, GROUND)
-    if protocol == "patchwork":  # low vegetation is ground too; every point counts
+    if protocol == "patchwork":  # low vegetation is ground; all points are scored
         return ground | ((scan.classes == VEGETATION) & (scan.points[:, 2] < -1.3)), np.ones(len(ground), bool)
-    return ground, ~np.isin(scan.classes, (0, 1, VEGETATION))  # nor do unlabelled points and outliers count
+    return ground, ~np.isin(scan.classes, (0, 1, VEGETATION))  # unlabelled points and outliers are not scored
 
 
 def f1_of(found, truth, scored):
@@ -256,7 +260,7 @@ def f1_of(found, truth, scored):
 
 
 def accuracy(contenders, scans):
-    """By contender: mean F1 over scans by protocol, and labels that change with the scans before, all percent."""
+    """Mean F1 per protocol, and labels changed by earlier scans, by contender, in percent."""
     found = {}
     for contender in contenders:
         show_progress(f"accuracy of {contender.title}")
@@ -273,18 +277,17 @@ def accuracy(contenders, scans):
 # %% [markdown]
 # ## Time
 #
-# From the array to the mask, on one core with one thread. The contenders take turns: each segments all scans, then
-# the next one, in another order every round. The segmenters are kept, as on a drive. It is processor time, which
-# other programs on the machine do not lengthen.
+# CPU time from the array to the mask, with one thread on one core. In each round, the contenders segment all scans one
+# after the other, in an order that changes between rounds. Each contender uses one segmenter for all scans.
 
 
 # %%
 def times(contenders, scans, rounds):
-    """Median over scans and rounds, milliseconds, by contender."""
+    """Median CPU time per scan over scans and rounds, milliseconds, by contender."""
     segment = {contender.title: made(contender, SENSOR_HEIGHT) for contender in contenders}
     taken = {title: [] for title in segment}
     with one_core():
-        for turn in range(rounds + 1):  # the first is to warm up
+        for turn in range(rounds + 1):  # the first round is a warm-up
             show_progress(f"time, round {turn} of {rounds}")
             titles = list(segment)
             for title in titles[turn % len(titles) :] + titles[: turn % len(titles)]:
@@ -297,7 +300,7 @@ def times(contenders, scans, rounds):
 
 @contextlib.contextmanager
 def one_core():
-    """Keeps this process on one core, where the system can."""
+    """Pins this process to one core, if the operating system supports it."""
     if not hasattr(os, "sched_setaffinity"):
         yield
         return
@@ -310,11 +313,10 @@ def one_core():
 
 
 # %% [markdown]
-# ## Input that is not as it should be
+# ## Invalid input
 #
-# In a process of their own, since some of it crashes. The function's own source is what runs there. Counted is how
-# many of the points without a place are called ground, and how many of the other points are labelled otherwise than
-# when the bad ones were not there.
+# Each case runs in a separate process, because some of them crash. The program counts the invalid points that are
+# labelled ground, and the other points whose label changes compared with a scan without the invalid points.
 
 
 # %%
@@ -324,8 +326,8 @@ import numpy as np
 
 {source}
 
-make, case, folder = {name}, *sys.argv[1:]
-points = np.load(folder + "/points.npy")
+make, case, directory = {name}, *sys.argv[1:]
+points = np.load(directory + "/points.npy")
 if case == "empty":
     outcome = {{"shape": list(make({height})(points[:0]).shape)}}
 else:
@@ -336,8 +338,8 @@ else:
     bad = np.isnan(points).any(axis=1)
     ground = make({height})(points)
     alone = make({height})(points[~bad])
-    outcome = {{"called_ground": int(ground[bad].sum()), "changed": float(np.mean(ground[~bad] != alone))}}
-with open(folder + "/outcome.json", "w") as file:
+    outcome = {{"labelled_ground": int(ground[bad].sum()), "changed": float(np.mean(ground[~bad] != alone))}}
+with open(directory + "/outcome.json", "w") as file:
     json.dump(outcome, file)
 """
 
@@ -349,7 +351,7 @@ CASES = {
 
 
 def what_happens(contender, scan, case):
-    """The outcome in a few words."""
+    """The outcome of a case in a few words."""
     source = textwrap.dedent(inspect.getsource(contender.make))
     program = CHILD.format(source=source, name=contender.make.__name__, height=SENSOR_HEIGHT)
     with tempfile.TemporaryDirectory() as folder:
@@ -361,15 +363,15 @@ def what_happens(contender, scan, case):
             return error_in(done.stderr)
         outcome = json.loads((pathlib.Path(folder) / "outcome.json").read_text())
     if case == "empty":
-        return "an empty answer" if outcome["shape"] == [0] else f"an answer of shape {outcome['shape']}"
-    called = f"{outcome['called_ground']:,} of them ground" if outcome["called_ground"] else "none of them ground"
-    changed = f"{max(0.01, 100 * outcome['changed']):.2f} % of the others change"
-    return f"{called}; {changed if outcome['changed'] else 'no other changes'}"
+        return "empty result" if outcome["shape"] == [0] else f"result of shape {outcome['shape']}"
+    ground = f"{outcome['labelled_ground']:,} labelled ground" if outcome["labelled_ground"] else "none labelled ground"
+    changed = f"{max(0.01, 100 * outcome['changed']):.2f} % of the other labels change"
+    return f"{ground}; {changed if outcome['changed'] else 'no other label changes'}"
 
 
 def error_in(text):
-    """The exception's type and the end of its message."""
-    plain = re.sub(r"\x1b\[[0-9;]*m", "", text)  # Open3D's are in colour
+    """Type of the exception and end of its message."""
+    plain = re.sub(r"\x1b\[[0-9;]*m", "", text)  # messages of Open3D are coloured
     kind, _, message = [line for line in plain.splitlines() if "Error" in line][-1].partition(": ")
     return f"`{kind}`: {re.sub(r'^.*[.]cpp:[0-9]+: ', '', message)}"
 
@@ -378,16 +380,16 @@ def behaviour(contenders, scan):
     """Outcomes by contender and case."""
     outcomes = {}
     for contender in contenders:
-        show_progress(f"input that is not as it should be: {contender.title}")
+        show_progress(f"invalid input: {contender.title}")
         outcomes[contender.title] = {case: what_happens(contender, scan, case) for case in CASES}
     return outcomes
 
 
 # %% [markdown]
-# ## The order of labels
+# ## Order of the labels
 #
-# A mask has the order of the points. Indices come as they do: pypatchworkpp's go from bin to bin, and each bin's by
-# height, so that they have to be put back in order before anything else of the scan can be looked up beside them.
+# A mask has the order of the points. The indices of pypatchworkpp are ordered by bin, and within a bin by height. You
+# must sort them before you can combine them with other arrays of the scan.
 
 
 # %%
@@ -401,18 +403,18 @@ def indices_of_pypatchworkpp(scan):
     others = np.asarray(segmenter.getNongroundIndices())
     missing = len(scan.points) - len(indices) - len(others)
     print(
-        f"pypatchworkpp.patchwork: the first indices of ground are {indices[:5].tolist()}; ascending:"
+        f"pypatchworkpp.patchwork: first ground indices: {indices[:5].tolist()}; ascending:"
         f" {bool((np.diff(indices) > 0).all())}; in neither list: {missing} of {len(scan.points):,} points"
     )
 
 
 # %% [markdown]
-# ## Tables and picture
+# ## Tables and plot
 
 
 # %%
 def table(head, rows, left=1):
-    """In Markdown; `left` columns are set flush left, the others right."""
+    """A Markdown table. The first `left` columns are left-aligned, the others right-aligned."""
     rule = ["---"] * left + ["---:"] * (len(head) - left)
     return "\n".join("| " + " | ".join(line) + " |" for line in (head, rule, *rows))
 
@@ -427,16 +429,16 @@ def speed_table(contenders, milliseconds, f1):
         ]
         for contender in contenders
     ]
-    head = ["", "lines", "ms", *(f"F1 `{protocol}`" for protocol in PROTOCOLS), "labels changed by scans before, %"]
+    head = ["", "lines", "ms", *(f"F1 `{protocol}`" for protocol in PROTOCOLS), "labels changed by earlier scans, %"]
     return table(head, rows)
 
 
 def behaviour_table(contenders, outcomes):
     rows = [
-        [contender.title, contender.hands_back, *(outcomes[contender.title][case] for case in CASES)]
+        [contender.title, contender.returns, *(outcomes[contender.title][case] for case in CASES)]
         for contender in contenders
     ]
-    head = ["", "hands back", *CASES.values()]
+    head = ["", "returns", *CASES.values()]
     return table(head, rows, left=len(head))
 
 
@@ -444,7 +446,7 @@ CPU = pathlib.Path("/proc/cpuinfo")
 
 
 def made_by(what, scans, rounds):
-    """How the table came about."""
+    """Conditions of the measurement, for the line below the table."""
     processor = dict(re.findall(r"^(model name|cpu family|model)\s*: (.*)", CPU.read_text(), flags=re.MULTILINE))
     versions = [f"{name} {version_of(name)}" for name in ("flagstone", "pypatchworkpp", "open3d", "numpy")]
     points = statistics.mean(len(scan.points) for scan in scans)
@@ -459,7 +461,7 @@ def made_by(what, scans, rounds):
 def version_of(package):
     from importlib.metadata import PackageNotFoundError, version
 
-    if package == "flagstone":  # may lie in a source tree
+    if package == "flagstone":  # it may be a source tree
         import flagstone
 
         return flagstone.__version__
@@ -470,7 +472,7 @@ def version_of(package):
 
 
 def filled(page, found):
-    """The text of a page with what was found between <!-- table NAME --> and <!-- end -->."""
+    """The text of a page, with new tables between <!-- table NAME --> and <!-- end -->."""
     for name, text in found.items():
         page = re.sub(
             rf"<!-- table {name} -->.*?<!-- end -->",
@@ -482,7 +484,7 @@ def filled(page, found):
 
 
 def draw(results, file=None):
-    """F1 against time: filled dots are real scans, hollow ones simulated."""
+    """Plots F1 over time. Filled dots are real scans, hollow dots simulated scans."""
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(figsize=(7.5, 4.8), layout="constrained")
@@ -509,8 +511,8 @@ def draw(results, file=None):
     axes.set_xscale("log")
     axes.set_xlim(0.5, 500)
     axes.xaxis.set_major_formatter("{x:g}")
-    axes.set_xlabel("milliseconds a scan, one core")
-    axes.set_ylabel("F1 of ground, percent (patchwork++)")
+    axes.set_xlabel("milliseconds per scan, one core")
+    axes.set_ylabel("F1 of ground, % (protocol patchwork++)")
     axes.grid(alpha=0.25)
     axes.spines[["top", "right"]].set_visible(False)
     if file:
@@ -521,10 +523,12 @@ def draw(results, file=None):
 
 # %%
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description="The same scans segmented by several packages.")
-    parser.add_argument("--quick", action="store_true", help="two scans, two rounds")
-    parser.add_argument("--rounds", type=int, help="of timing; 15")
-    parser.add_argument("--write", type=pathlib.Path, help="page whose tables are filled in; draws its picture too")
+    parser = argparse.ArgumentParser(description="Segment the same scans with several packages.")
+    parser.add_argument("--quick", action="store_true", help="use two scans and two rounds")
+    parser.add_argument("--rounds", type=int, metavar="N", help="number of timing rounds (default: 15)")
+    parser.add_argument(
+        "--write", type=pathlib.Path, metavar="PAGE", help="update the tables and the plot of this page"
+    )
     options = parser.parse_args(arguments)
     rounds = options.rounds or (2 if options.quick else 15)
     count = 2 if options.quick else len(SCENES)
@@ -554,6 +558,6 @@ def main(arguments=None):
 
 if __name__ == "__main__":
     try:
-        results = main([] if "ipykernel" in sys.modules else None)  # in a notebook, draw(results) shows the picture
+        results = main([] if "ipykernel" in sys.modules else None)  # in a notebook, draw(results) shows the plot
     except KeyboardInterrupt:
         sys.exit("\ninterrupted")

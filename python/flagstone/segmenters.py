@@ -250,7 +250,7 @@ def make_segmenter(
 
     Raises:
         TypeError: An argument has the wrong type.
-        ValueError: The method or a setting is unknown, or a value is out of range. The message names the allowed values.
+        ValueError: The method or a setting is unknown, or a value is out of range. The message lists valid values.
     """
     made_of: dict[str, Any] = {
         "sensor": sensor,

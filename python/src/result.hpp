@@ -19,8 +19,8 @@
 namespace flagstone::python {
 
 /// Pool of unused results, so that `segment` reuses their memory and does not allocate after the
-/// first scans, as in C++. Thread-safe. Neither function waits for the lock, so a lock that was
-/// held during a fork cannot block the child.
+/// first scans, as in C++. Thread-safe. Neither function waits for the lock, so a mutex that was
+/// locked during a fork cannot block the child.
 class SpareResults {
  public:
   SpareResults() { spare_.reserve(max_kept); }

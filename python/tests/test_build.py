@@ -40,7 +40,7 @@ def test_a_compiler_in_the_path_is_enough(backend, tmp_path, name):
 def test_the_build_announces_its_steps_and_duration(backend, tmp_path):
     terminal = tmp_path / "terminal"
     backend.announce(terminal)
-    assert "compiling the library, the command and the Python module: 2 to 4 minutes" in terminal.read_text()
+    assert "compiling the library, the command and the Python module takes 2 to 4 minutes" in terminal.read_text()
 
 
 def test_without_a_terminal_nothing_is_announced(backend, tmp_path):

@@ -292,9 +292,9 @@ def test_directories_and_missing_files_are_errors(tmp_path: Path) -> None:
         classify_las(tmp_path / "none.las", tmp_path / "b.las", labels)
     with pytest.raises(FileNotFoundError, match=r"no/b\.las"):
         classify_las(tmp_path / "a.las", tmp_path / "no" / "b.las", labels)
-    (tmp_path / "folder.las").mkdir()
-    with pytest.raises(OSError, match=r"is not a regular file.*folder\.las"):
-        classify_las(tmp_path / "a.las", tmp_path / "folder.las", labels)
+    (tmp_path / "directory.las").mkdir()
+    with pytest.raises(OSError, match=r"is not a regular file.*directory\.las"):
+        classify_las(tmp_path / "a.las", tmp_path / "directory.las", labels)
 
 
 def test_a_symbolic_link_is_followed(tmp_path: Path) -> None:
