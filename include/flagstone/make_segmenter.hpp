@@ -16,7 +16,8 @@
 #include "flagstone/surface_config.hpp"
 
 /// Methods by name. The library provides `patchwork` and `surface`; `register_baselines()` in
-/// `flagstone/baselines.hpp` adds the methods that Patchwork is compared with.
+/// `flagstone/baselines.hpp` adds the methods that Patchwork is compared with. All functions
+/// are thread-safe once the methods are registered.
 namespace flagstone {
 
 struct ConfigType;

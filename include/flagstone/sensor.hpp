@@ -52,12 +52,12 @@ struct Sensor {
   /// range, for the first value out of range.
   void check() const;
 
-  /// The known sensor with that name, case-insensitive. The reference is always valid. Throws
-  /// std::invalid_argument listing the known sensors if there is none with that name.
+  /// The known sensor with that name, case-insensitive. The reference is valid until the program
+  /// ends. Throws std::invalid_argument listing the known sensors if there is none with that name.
   static const Sensor& named(std::string_view name);
 
-  /// All known sensors: those in the directory sensors/ of the source tree. The span is always
-  /// valid.
+  /// All known sensors: those in the directory sensors/ of the source tree. The span is valid
+  /// until the program ends.
   static std::span<const Sensor> known();
 };
 
