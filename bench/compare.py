@@ -1,22 +1,21 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Is the working tree faster or slower than another revision? Needs git, CMake, Ninja and a C++ compiler.
+"""Compares the speed of the working tree and another revision. Needs git, CMake, Ninja and a C++ compiler.
 
-    make bench-compare                           # against the last tag, or HEAD~1 where there is none
+    make bench-compare                           # compared with the last tag, or HEAD~1 if there is none
     make bench-compare REVISION=54a37fc
     make bench-compare REVISION=main SCANS="a.bin b.bin" METHOD=surface
     python3 bench/compare.py --revision main --launches 40 --core 1
 
-Builds the library of both, each with bench/segment_loop, and has the two segment the same scans by turns on
-one core. Where a program's memory comes to lie is worth a few percent, so both are started anew many times. A
-launch gives one ratio of the times, working tree / revision: the median over its rounds. Printed is the
-median over launches, with its interval of 95 % or a little more by order statistics, which assumes nothing
-of the distribution.
+Builds the library of both, each with bench/segment_loop, and runs the two programs alternately on the same scans on one
+core. The memory layout of a process changes its speed by a few percent, so both programs are started many times. Each
+launch gives one ratio of times, working tree / revision: the median over its rounds. The output is the median over
+launches and its confidence interval of at least 95 % by order statistics, which assumes no distribution.
 
-Where Valgrind is, also the instructions of one pass over each scan under callgrind: they repeat to the digit
-where times do not. Valgrind offers a program no AVX-512, so the library takes its AVX2 code there.
+If Valgrind is installed, the instructions of one pass over each scan are counted too. Unlike times, these counts are
+reproducible. Valgrind does not support AVX-512, so the library uses its AVX2 code there.
 
-Scans are KITTI's .bin files: those given, else those in FLAGSTONE_DATA, else simulated ones.
+Scans are KITTI .bin files: those on the command line, otherwise those in FLAGSTONE_DATA, otherwise simulated scans.
 """
 
 import argparse
@@ -33,7 +32,7 @@ import tarfile
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDER = ROOT / "build-compare"
+TREES = ROOT / "build-compare"
 
 
 def call(*command):
@@ -45,8 +44,8 @@ def call(*command):
     return done.stdout.strip()
 
 
-def say(text):
-    """On the last line of a terminal."""
+def show_progress(text):
+    """Shows a line on a terminal; the next call replaces it."""
     if sys.stderr.isatty():
         print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
 
@@ -57,19 +56,19 @@ def default_revision():
 
 
 def checkout(revision):
-    """The files of a revision in a folder of their own, which is kept."""
-    folder = FOLDER / revision
-    if not folder.exists():
+    """A directory with the files of a revision. It is kept for later runs."""
+    directory = TREES / revision
+    if not directory.exists():
         archive = subprocess.run(["git", "archive", revision], cwd=ROOT, stdout=subprocess.PIPE, check=True)
         with tarfile.open(fileobj=io.BytesIO(archive.stdout)) as files:
-            files.extractall(folder)
-    return folder
+            files.extractall(directory)
+    return directory
 
 
 def build(name, source):
-    """The driver with the library in `source`."""
-    say(f"building {name}")
-    tree = FOLDER / name
+    """Builds segment_loop with the library in `source`."""
+    show_progress(f"building {name}")
+    tree = TREES / name
     call(
         "cmake", "-G", "Ninja", "-S", ROOT / "bench" / "segment_loop", "-B", tree,
         f"-DFLAGSTONE_REVISION={source}", "-DCMAKE_BUILD_TYPE=Release",
@@ -83,23 +82,23 @@ def default_scans():
     scans = sorted((data / "kitti" / "velodyne").glob("*.bin"))
     if scans:
         return scans
-    folder = FOLDER / "simulated"
-    scans = sorted(folder.rglob("*.bin"))
+    directory = TREES / "simulated"
+    scans = sorted(directory.rglob("*.bin"))
     if not scans:
-        say("simulating")
+        show_progress("simulating")
         command = ROOT / "build" / "flagstone"
         if not command.exists():
             sys.exit(
-                f"no scans: none of KITTI's in {data} and no {command} to simulate some; set FLAGSTONE_DATA,"
-                " run `make build`, or give .bin files as SCANS"
+                f"no scans: {data} has no KITTI scans, and {command} does not exist (set FLAGSTONE_DATA,"
+                " run `make build`, or pass .bin files as SCANS)"
             )
-        call(command, "simulate", "--scene", "flat_street", "--frames", "4", "--output", folder)
-        scans = sorted(folder.rglob("*.bin"))
+        call(command, "simulate", "--scene", "flat_street", "--frames", "4", "--output", directory)
+        scans = sorted(directory.rglob("*.bin"))
     return scans
 
 
 class Loop:
-    """A driver that waits for the next round, on one core. `program` ends on the name of the method."""
+    """A running segment_loop on one core. The last word of `program` is the method."""
 
     def __init__(self, program, scans, core):
         self.process = subprocess.Popen(
@@ -114,11 +113,11 @@ class Loop:
     def answer(self):
         line = self.process.stdout.readline()
         if not line:
-            sys.exit(f"{self.process.args[0]} ended with exit code {self.process.wait()}")
+            sys.exit(f"{self.process.args[0]}: exit code {self.process.wait()}")
         return [int(word) for word in line.split()]
 
     def round(self):
-        """Nanoseconds for each scan."""
+        """Runs one round and returns the nanoseconds per scan."""
         self.process.stdin.write("\n")
         self.process.stdin.flush()
         return self.answer()
@@ -129,9 +128,9 @@ class Loop:
 
 
 def alternate(programs, scans, core, rounds, first):
-    """A launch: times of both, by round and scan, and of each scan whether its labels are the same.
+    """One launch: the times of both programs by round and scan, and whether the labels of each scan are identical.
 
-    The two take turns strictly: who went twice would find its caches warm the second time.
+    The programs alternate strictly. A program that ran twice in a row would find its data in the cache.
     """
     loops = [Loop(program, scans, core) for program in programs]
     times = ([], [])
@@ -146,22 +145,21 @@ def alternate(programs, scans, core, rounds, first):
 
 
 def median_with_interval(values):
-    """Median and its interval of at least 95 %: how many of the values lie below the true median is
-    binomial."""
+    """Median and its confidence interval of at least 95 %. The number of values below the true median is binomial."""
     ordered = sorted(values)
     count = len(ordered)
-    left_out = 0  # values on either side
-    while sum(math.comb(count, k) for k in range(left_out + 1)) / 2**count <= 0.025:
-        left_out += 1
-    first = left_out - 1
+    excluded = 0  # values at each end
+    while sum(math.comb(count, k) for k in range(excluded + 1)) / 2**count <= 0.025:
+        excluded += 1
+    first = excluded - 1
     return statistics.median(ordered), ordered[first], ordered[count - 1 - first]
 
 
 def instructions(program, scan):
-    """Of one pass over a scan, after two to warm up."""
-    with tempfile.TemporaryDirectory() as folder:
+    """Instructions of one pass over a scan, after two warm-up passes."""
+    with tempfile.TemporaryDirectory() as directory:
         done = subprocess.run(
-            ["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out",
+            ["valgrind", "--tool=callgrind", f"--callgrind-out-file={directory}/out",
              "--collect-atstart=no", "--toggle-collect=segment_measured", *program, scan],
             input="\n", text=True, capture_output=True,
         )  # fmt: skip
@@ -175,7 +173,7 @@ def table(head, rows):
 
 
 def row_of(name, launches, time_of):
-    """Times and ratio of what `time_of` takes from a round."""
+    """A table row: median times and their ratio. `time_of(round)` is the time of a round to compare."""
     sides = [[time_of(round_) for times in launches for round_ in times[side]] for side in (0, 1)]
     ratios = [statistics.median(time_of(new) / time_of(old) for old, new in zip(*times)) for times in launches]
     ratio, low, high = median_with_interval(ratios)
@@ -196,7 +194,7 @@ def instruction_table(programs, scans):
     rows = []
     totals = [0, 0]
     for scan in scans:
-        say(f"instructions: {scan.name}")
+        show_progress(f"instructions: {scan.name}")
         counts = [instructions(program, scan) for program in programs]
         if None in counts:
             return f"no instruction counts: Valgrind could not run {programs[counts.index(None)][0]}"
@@ -208,34 +206,34 @@ def instruction_table(programs, scans):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--revision", help="what git knows it by; the last tag or HEAD~1")
+    parser.add_argument("--revision", help="git revision (default: the last tag or HEAD~1)")
     parser.add_argument("--method", choices=("patchwork", "surface"), default="patchwork")
-    parser.add_argument("--launches", type=int, default=20, help="6 or more; 20")
-    parser.add_argument("--rounds", type=int, default=20, help="of a launch, over all scans; 20")
-    parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)), help="the last one")
+    parser.add_argument("--launches", type=int, default=20, help="at least 6 (default: 20)")
+    parser.add_argument("--rounds", type=int, default=20, help="rounds over all scans per launch (default: 20)")
+    parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)), help="default: the last core")
     parser.add_argument("--no-instructions", action="store_true", help="times only")
-    parser.add_argument("scans", nargs="*", type=pathlib.Path, help="KITTI's .bin files")
+    parser.add_argument("scans", nargs="*", type=pathlib.Path, help="KITTI .bin files")
     arguments = parser.parse_args()
     if arguments.launches < 6:
-        parser.error("--launches: 6 or more, fewer give no interval")
+        parser.error("--launches must be at least 6: fewer give no interval")
     if arguments.rounds < 1:
-        parser.error("--rounds: 1 or more")
+        parser.error("--rounds must be at least 1")
     if arguments.core not in os.sched_getaffinity(0):
-        parser.error(f"--core: one of {sorted(os.sched_getaffinity(0))}")
-    FOLDER.mkdir(exist_ok=True)
+        parser.error(f"--core must be one of {sorted(os.sched_getaffinity(0))}")
+    TREES.mkdir(exist_ok=True)
     scans = [scan.resolve() for scan in arguments.scans] or default_scans()
     revision = call("git", "rev-parse", "--short", f"{arguments.revision or default_revision()}^{{commit}}")
     built = build(f"{revision}-build", checkout(revision)), build("tree-build", ROOT)
     programs = [(program, arguments.method) for program in built]
     launches = []
     for number in range(arguments.launches):
-        say(f"{number} of {arguments.launches} launches")
+        show_progress(f"{number} of {arguments.launches} launches")
         times, same = alternate(programs, scans, arguments.core, arguments.rounds, first=number % 2)
         launches.append(times)
-    say("")
+    show_progress("")
     print(
-        f"Working tree against {revision}, method {arguments.method}: {arguments.launches} launches of"
-        f" {arguments.rounds} rounds by turns on core {arguments.core}.\n"
+        f"Working tree compared with {revision}, method {arguments.method}: {arguments.launches} launches of"
+        f" {arguments.rounds} rounds, alternating on core {arguments.core}.\n"
     )
     print(time_table(launches, scans, same))
     if arguments.no_instructions:
@@ -244,7 +242,7 @@ def main():
         print("\nno instruction counts: Valgrind is not installed (Debian: apt-get install valgrind)")
         return
     counts = instruction_table(programs, scans)
-    say("")
+    show_progress("")
     print(f"\n{counts}")
 
 

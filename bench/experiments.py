@@ -8,7 +8,8 @@
     python3 bench/experiments.py check                                     # do the tables match the results?
 
 `run` needs the command (build/flagstone), the real scans in FLAGSTONE_DATA and, for `external`, the packages that
-bench/external_tools.py lists. It simulates five sequences of 200 scans in the work directory, or reuses those that are there.
+bench/external_tools.py lists. It simulates five sequences of 200 scans in the work directory, or reuses those that
+are there.
 """
 
 import json

@@ -1,14 +1,13 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Measures how time and memory of Patchwork and surface grow, draws the plot and prints the tables. Needs
-Matplotlib.
+"""Measures how time and memory of both methods scale, draws the plot and prints the tables. Needs Matplotlib.
 
-    make bench-scaling                                              # all of it, a minute or two
-    scripts/benchmark growth --method surface                # one of them; the other stays as it was measured
-    python3 bench/growth.py --from docs/results/growth.json  # plot and tables of what was measured
+    make bench-scaling                                       # both methods, a minute or two
+    scripts/benchmark growth --method surface                # one method; the results of the other are kept
+    python3 bench/growth.py --from docs/results/growth.json  # plot and tables from earlier results
 
-The figures go to docs/results/growth.json, the plot to docs/images/growth.png, the tables, in Markdown, to
-standard output. All clouds are simulated.
+Results are written to docs/results/growth.json, the plot to docs/images/growth.png, and Markdown tables to standard
+output. All clouds are simulated.
 """
 
 import argparse
@@ -19,8 +18,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "docs" / "results" / "growth.json"
-PICTURE = ROOT / "docs" / "images" / "growth.png"
-LIMIT = 64  # bytes a point that the product may hold
+IMAGE = ROOT / "docs" / "images" / "growth.png"
+LIMIT = 64  # maximum memory, bytes per point
 
 METHODS = ("patchwork", "surface")
 TITLES = {"patchwork": "Patchwork", "surface": "surface"}
@@ -43,7 +42,7 @@ def median(duration):
 
 
 def slope_1(axes, first, last, rate):
-    """A line of `rate` times what is on the axis of x."""
+    """Draws the line y = `rate` x."""
     axes.loglog([first, last], [rate * first, rate * last], "--", color=GREY, linewidth=1, label="slope 1")
 
 
@@ -52,15 +51,15 @@ def plot_points(axes, results):
         rows = measured["points"]
         points = [row["points"] for row in rows]
         for order, line in (("ordered", "o-"), ("shuffled", "s:")):
-            label = TITLES[method] + (", in the sensor's order" if order == "ordered" else ", shuffled")
+            label = TITLES[method] + (", sensor order" if order == "ordered" else ", shuffled")
             times = [median(row[order]) for row in rows]
             axes.loglog(points, times, line, color=COLORS[method], label=label)
     rows = next(iter(results.values()))["points"]
-    # Through the ordered scan of 100,000 points.
+    # The line passes through the ordered scan of 100,000 points.
     through = next((row for row in rows if row["points"] == 100000), rows[-1])
     rate = median(through["ordered"]) / through["points"]
     slope_1(axes, rows[0]["points"], rows[-1]["points"], rate)
-    axes.set(title="Time over points", xlabel="points", ylabel="time a scan, ms")
+    axes.set(title="Time by points", xlabel="points", ylabel="time per scan, ms")
 
 
 def plot_memory(axes, results):
@@ -68,16 +67,16 @@ def plot_memory(axes, results):
         rows = measured["points"]
         points = [row["points"] for row in rows]
         held = [row["bytes_held"] / 2**20 for row in rows]
-        axes.loglog(points, held, "o-", color=COLORS[method], label=f"{TITLES[method]}, result included")
+        axes.loglog(points, held, "o-", color=COLORS[method], label=f"{TITLES[method]}, including the result")
     axes.loglog(
         points,
         [LIMIT * n / 2**20 for n in points],
         "--",
         color=GREY,
         linewidth=1,
-        label=f"{LIMIT} bytes a point (slope 1)",
+        label=f"{LIMIT} bytes per point (slope 1)",
     )
-    axes.set(title="Memory over points", xlabel="points", ylabel="memory held, MiB")
+    axes.set(title="Memory by points", xlabel="points", ylabel="memory, MiB")
 
 
 def plot_beams(axes, results):
@@ -89,7 +88,7 @@ def plot_beams(axes, results):
     slope_1(axes, beams[0], beams[-1], times[-1] / beams[-1])
     axes.set_xticks(beams, [str(n) for n in beams])
     axes.minorticks_off()
-    axes.set(title="Time over beams of 2,048 columns", xlabel="beams", ylabel="time a scan, ms")
+    axes.set(title="Time by beams, 2,048 columns", xlabel="beams", ylabel="time per scan, ms")
 
 
 def plot_bins(axes, results):
@@ -101,7 +100,7 @@ def plot_bins(axes, results):
     default = measured["general_layouts"][0]
     axes.loglog([default["bins"]], [median(default["time"])], "D", color="black", label="default zones")
     slope_1(axes, bins[0], bins[2], times[0] / bins[0])
-    axes.set(title="Patchwork's time over bins, 120,000 points", xlabel="bins", ylabel="time a scan, ms")
+    axes.set(title="Time by bins, Patchwork, 120,000 points", xlabel="bins", ylabel="time per scan, ms")
 
 
 def plot_one_scan(axes, results):
@@ -114,22 +113,22 @@ def plot_one_scan(axes, results):
             label = f"{TITLES[method]}, {size:,} points"
             axes.plot(*zip(*speedups), line, color=COLORS[method], label=label)
     threads_scale(axes, rows)
-    axes.set(title="One scan over threads", xlabel="threads", ylabel="times faster than with one")
+    axes.set(title="One scan, by threads", xlabel="threads", ylabel="speedup")
 
 
 def plot_many_scans(axes, results):
     for method, measured in results.items():
         rows = measured["threads_of_many_scans"]
         alone = rows[0]["scans_per_second"]
-        shares = [(row["threads"], row["scans_per_second"] / alone) for row in rows]
-        label = f"{TITLES[method]}, 120,000 points: {alone:,.0f} scans a second with one"
-        axes.plot(*zip(*shares), "o-", color=COLORS[method], label=label)
+        speedups = [(row["threads"], row["scans_per_second"] / alone) for row in rows]
+        label = f"{TITLES[method]}: {alone:,.0f} scans/s with 1 thread"
+        axes.plot(*zip(*speedups), "o-", color=COLORS[method], label=label)
     threads_scale(axes, rows)
-    axes.set(title="Many scans over threads", xlabel="threads", ylabel="times as many as with one")
+    axes.set(title="Many scans of 120,000 points, by threads", xlabel="threads", ylabel="speedup")
 
 
 def threads_scale(axes, rows):
-    """Linear from 0, with the line on which all threads are used."""
+    """Linear axes from 0, with the line of a perfect speedup."""
     threads = sorted({row["threads"] for row in rows})
     axes.plot(threads, threads, "--", color=GREY, linewidth=1, label="slope 1")
     axes.set_xticks(threads)
@@ -137,7 +136,7 @@ def threads_scale(axes, rows):
 
 
 def plain_numbers(axis):
-    """0.2, 0.5, 1, 2, 5 where there are few decades."""
+    """Ticks at 1, 2, 5 if the axis covers at most two decades."""
     from matplotlib import ticker
 
     low, high = axis.get_view_interval()
@@ -148,8 +147,8 @@ def plain_numbers(axis):
     axis.set_minor_locator(ticker.NullLocator())
 
 
-def where(measured):
-    """On what machine and when."""
+def conditions(measured):
+    """Machine, instruction set and date."""
     return f"{measured['machine']}, {measured['simd']}, {measured['date']}"
 
 
@@ -157,19 +156,19 @@ def draw(results, path):
     try:
         import matplotlib
     except ImportError:
-        sys.exit("no Matplotlib for the plot: install it (Debian: apt-get install python3-matplotlib)")
+        sys.exit("Matplotlib is not installed (Debian: apt-get install python3-matplotlib)")
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
     figure, axes = pyplot.subplots(2, 3, figsize=(13, 7.6), layout="constrained")
     plots = (plot_points, plot_memory, plot_beams, plot_bins, plot_one_scan, plot_many_scans)
-    for plot, place in zip(plots, axes.flat):
-        plot(place, results)
-        place.grid(True, which="major", color="#dddddd", linewidth=0.6)
-        place.set_axisbelow(True)
-        plain_numbers(place.yaxis)
-        place.legend(frameon=False, fontsize=9)
-    figure.suptitle("\n".join(f"{TITLES[name]}: {where(of)}" for name, of in results.items()), fontsize=11)
+    for plot, panel in zip(plots, axes.flat):
+        plot(panel, results)
+        panel.grid(True, which="major", color="#dddddd", linewidth=0.6)
+        panel.set_axisbelow(True)
+        plain_numbers(panel.yaxis)
+        panel.legend(frameon=False, fontsize=9)
+    figure.suptitle("\n".join(f"{TITLES[name]}: {conditions(of)}" for name, of in results.items()), fontsize=11)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=110, metadata={"Software": None})
 
@@ -198,11 +197,11 @@ def points_table(results):
     head = [
         "points",
         "in order, ms",
-        "ns a point",
+        "ns per point",
         "shuffled, ms",
-        "ns a point",
+        "ns per point",
         "shuffled / in order",
-        "bytes held a point",
+        "bytes per point",
     ]
     return table(head, rows)
 
@@ -217,7 +216,7 @@ def beams_table(results):
         ]
         for row in results["beams"]
     ]
-    return table(["beams, 2,048 columns", "points", "ms", "ns a point"], rows)
+    return table(["beams, 2,048 columns", "points", "ms", "ns per point"], rows)
 
 
 def layouts_table(results, name):
@@ -227,7 +226,7 @@ def layouts_table(results, name):
          f"{row['time']['median_ms'] / default:.2f}"]
         for row in results[name]
     ]  # fmt: skip
-    return table(["zones, rings × sectors", "rings", "bins", "with points", "ms", "/ default"], rows)
+    return table(["zones, rings × sectors", "rings", "bins", "non-empty", "ms", "/ default"], rows)
 
 
 def cells_table(results):
@@ -238,7 +237,7 @@ def cells_table(results):
          f"{median(row['time']) / default:.2f}", f"{row['bytes_held'] / 1e6:.2f}"]
         for row in rows
     ]  # fmt: skip
-    return table(["range, m", "levels", "ms", "/ default", "MB held"], cells)
+    return table(["range, m", "levels", "ms", "/ default", "MB"], cells)
 
 
 def memory_table(results):
@@ -246,7 +245,7 @@ def memory_table(results):
     rows = [
         [row["memory"], ms(row["time"]), f"{row['time']['median_ms'] / first:.2f}"] for row in results["memory_layouts"]
     ]
-    return table(["a point is", "ms", "/ packed xyz"], rows)
+    return table(["point layout", "ms", "/ packed xyz"], rows)
 
 
 def yes_or_no(same):
@@ -268,7 +267,7 @@ def threads_tables(results):
                 yes_or_no(row["same_labels"]),
             ]
         )
-    one = table(["one scan of", "threads", "ms", "times faster", "same bytes"], rows)
+    one = table(["points", "threads", "ms", "speedup", "identical labels"], rows)
     many = results["threads_of_many_scans"]
     rows = [
         [
@@ -279,7 +278,7 @@ def threads_tables(results):
         ]
         for row in many
     ]
-    return f"{one}\n{table(['many scans: threads', 'scans a second', 'times as many', 'same bytes'], rows)}"
+    return f"{one}\n{table(['many scans, threads', 'scans per second', 'speedup', 'identical labels'], rows)}"
 
 
 def tables(results):
@@ -296,15 +295,17 @@ def tables(results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "bench" / "performance" / "growth")
-    parser.add_argument("--points", type=int, default=10000000, help="of the largest cloud, 1,000 to 10,000,000")
-    parser.add_argument("--method", choices=METHODS, help="the only one to measure")
-    parser.add_argument("--from", dest="file", type=pathlib.Path, help="figures measured before")
+    parser.add_argument("--points", type=int, default=10000000, help="points of the largest cloud, 1,000 to 10,000,000")
+    parser.add_argument("--method", choices=METHODS, help="measure only this method")
+    parser.add_argument(
+        "--from", dest="file", type=pathlib.Path, help="draw and print these results instead of measuring"
+    )
     arguments = parser.parse_args()
     if arguments.file:
         results = json.loads(arguments.file.read_text())
     else:
         if not arguments.program.exists():
-            sys.exit(f"{arguments.program} is not built: `make bench-scaling` builds it")
+            sys.exit(f"{arguments.program}: no such file (run `make bench-scaling`)")
         results = {}
         if arguments.method:
             results = json.loads(RESULTS.read_text())
@@ -314,7 +315,7 @@ def main():
         RESULTS.write_text(json.dumps(results, indent=1) + "\n")
     for method, measured in results.items():
         print(f"{TITLES[method]}: {tables(measured)}")
-    draw(results, PICTURE)
+    draw(results, IMAGE)
 
 
 if __name__ == "__main__":

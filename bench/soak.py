@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Lets patchwork and surface segment 100,000 different scans each, one after the other, and draws the memory
-that the process holds meanwhile. Needs Matplotlib.
+"""Runs each method on 100,000 different scans and plots the memory of the process. Needs Matplotlib.
 
-    make soak-test                                            # minutes
-    python3 bench/soak.py --from docs/results/soak.json  # plot and table of what was measured
+    make soak-test                                       # some minutes
+    python3 bench/soak.py --from docs/results/soak.json  # plot and table from earlier results
 
-The figures go to docs/results/soak.json, the plot to docs/images/soak.png, a table in Markdown to standard
-output. Ends with 1 where memory grew. All scans are simulated.
+Results are written to docs/results/soak.json, the plot to docs/images/soak.png, and a Markdown table to standard
+output. The exit code is 1 if the memory grew by more than the allowed amount. All scans are simulated.
 """
 
 import argparse
@@ -19,7 +18,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "docs" / "results" / "soak.json"
-PICTURE = ROOT / "docs" / "images" / "soak.png"
+IMAGE = ROOT / "docs" / "images" / "soak.png"
 COLORS = {"patchwork": "#1f6fb4", "surface": "#d9601a"}
 MEBI = 2**20
 
@@ -40,21 +39,22 @@ def draw(results):
     figure, axes = pyplot.subplots(figsize=(8, 3.2), layout="constrained")
     for method, measured in results["methods"].items():
         scans = [row["scans"] for row in measured["memory"]]
-        held = [row["bytes"] / MEBI for row in measured["memory"]]
-        axes.plot(scans, held, label=method, color=COLORS[method])
-        axes.annotate(f"{held[-1]:.1f}", (scans[-1], held[-1]), xytext=(-30, 5), textcoords="offset points")
-    most = max(row["bytes"] for measured in results["methods"].values() for row in measured["memory"])
-    axes.set(xlabel="scans", ylabel="resident memory, MiB", ylim=(0, 1.2 * most / MEBI), xlim=(0, None))
+        memory = [row["bytes"] / MEBI for row in measured["memory"]]
+        axes.plot(scans, memory, label=method, color=COLORS[method])
+        axes.annotate(f"{memory[-1]:.1f}", (scans[-1], memory[-1]), xytext=(-30, 5), textcoords="offset points")
+    maximum = max(row["bytes"] for measured in results["methods"].values() for row in measured["memory"])
+    axes.set(xlabel="scans", ylabel="resident memory, MiB", ylim=(0, 1.2 * maximum / MEBI), xlim=(0, None))
     axes.legend(loc="center right")
     axes.grid(alpha=0.3)
-    figure.savefig(PICTURE, dpi=120)
+    figure.savefig(IMAGE, dpi=120)
 
 
 def table(results):
     lines = [
         f"{results['date']}, {results['machine']}.",
         "",
-        "| method | scans | points, thousand millions | after the first tenth, MiB | most after it, MiB | growth, KiB | allowed, KiB |",
+        "| method | scans | points, 10⁹ | after the first tenth, MiB | maximum after it, MiB | increase, KiB"
+        " | allowed, KiB |",
         "|---|---:|---:|---:|---:|---:|---:|",
     ]
     for method, measured in results["methods"].items():
@@ -71,14 +71,16 @@ def table(results):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "bench" / "performance" / "soak")
-    parser.add_argument("--scans", type=int, default=100000, help="of each method")
-    parser.add_argument("--from", dest="file", type=pathlib.Path, help="figures measured before")
+    parser.add_argument("--scans", type=int, default=100000, help="scans per method")
+    parser.add_argument(
+        "--from", dest="file", type=pathlib.Path, help="draw and print these results instead of measuring"
+    )
     arguments = parser.parse_args()
     if arguments.file:
         results = json.loads(arguments.file.read_text())
     else:
         if not arguments.program.exists():
-            sys.exit(f"{arguments.program} is not built: `make soak-test` builds it")
+            sys.exit(f"{arguments.program}: no such file (run `make soak-test`)")
         measured = {m: measure(arguments.program, m, arguments.scans) for m in COLORS}
         results = {
             "date": datetime.date.today().isoformat(),
