@@ -44,10 +44,11 @@ def show(
 ) -> None:
     """Shows segmented scans in an interactive 3D view.
 
-    Points are coloured by label. Patches are tinted by status (see `Verdict`) and drawn on their planes with their normals; patches
-    without a plane are not drawn. The ground is a shaded surface. Hover over a point to see its height above the
-    ground, and over a patch to see the values behind its status. Click a normal to list all values of its patch in
-    the selection panel. Several scans become a timeline.
+    Points are coloured by label. Patches are tinted by status (see `Verdict`) and drawn on their planes with their
+    normals; patches without a plane are not drawn. The ground is a shaded surface. Several scans become a timeline.
+
+    Hover over a point to see its height above the ground, and over a patch to see the values behind its status. Click a
+    normal to list all values of its patch in the selection panel.
 
     Args:
         points: (N, >=3) in metres, as `Segmenter.segment` accepts them. Without `result`, an iterable of pairs

@@ -64,8 +64,8 @@ def birds_eye(
             Masked elements of a masked array (`numpy.ma`) are not scored and are grey.
         range: Half the side of the plot, metres. By default the distance within which 98 % of the points lie, rounded
             up to 10 m.
-        patches: Tint each patch by its status (see `Verdict`). Requires a method whose patches are squares (`surface`) or
-            ring sectors (`patchwork`).
+        patches: Tint each patch by its status (see `Verdict`). Requires a method whose patches are squares (`surface`)
+            or ring sectors (`patchwork`).
 
     Returns:
         The axes, in metres: y increases to the left, x upward. Add to the plot with `axes.plot(y, x)`, save it with
