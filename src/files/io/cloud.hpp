@@ -72,9 +72,8 @@ class Cloud {
   /// Makes a cloud from `rows`, whose layout `fields` describe in order; computes the offsets of
   /// the fields. Changes `out` only on success. out_of_memory, or invalid_argument if
   /// - x, y or z is missing or is not a single number,
-  /// - a name occurs twice, or is not 1 to 255 printable ASCII characters without spaces, quotes
-  /// and
-  ///   backslashes,
+  /// - a name occurs twice,
+  /// - a name is not 1 to 255 printable ASCII characters without spaces, quotes and backslashes,
   /// - there are more than max_fields fields, or a row is longer than max_stride,
   /// - `rows` is not a whole number of rows.
   static Status from_rows(std::vector<Field> fields, std::vector<std::byte> rows, Cloud& out);
@@ -138,8 +137,8 @@ inline constexpr std::string_view height_name = "height";
 /// `cloud` with one height per point in an added last field, `height`, float32. As with_labels().
 Status with_heights(const Cloud& cloud, std::span<const float> heights, Cloud& out);
 
-/// The points of `cloud` at `indices`, in that order, with all fields.
-/// invalid_argument if an index is not below cloud.size(); out_of_memory. `out` may be `cloud`.
+/// The points of `cloud` at `indices`, in that order, with all fields. invalid_argument if an index
+/// is not below cloud.size(); out_of_memory. `out` may be `cloud`.
 Status select(const Cloud& cloud, std::span<const std::size_t> indices, Cloud& out);
 
 /// The points of `cloud` whose value in `mask` is not 0, in their order, with all fields.

@@ -21,8 +21,8 @@ inline constexpr std::size_t max_file_size = std::size_t{8} << 30U;
 /// `out` is empty.
 Status load_bytes(const std::filesystem::path& path, std::vector<std::byte>& out);
 
-/// Prefetches a file that will be read soon, without waiting. This is only a hint:
-/// if the file cannot be opened, nothing happens, and load_bytes() reports the reason later.
+/// Prefetches a file that will be read soon, without waiting. This is only a hint: if the file
+/// cannot be opened, nothing happens, and load_bytes() reports the reason later.
 void read_ahead(const std::filesystem::path& path) noexcept;
 
 }  // namespace flagstone::io

@@ -15,8 +15,8 @@
 namespace flagstone::io {
 
 /// Reads a file that consists of little-endian 32-bit floats only: `floats_per_point` (3 to
-/// max_fields) per point, x, y and z first. KITTI's .bin has 4, nuScenes' .pcd.bin has 5.
-/// bad_file, invalid_argument, out_of_memory. Never throws; changes `out` only on success.
+/// max_fields) per point, x, y and z first. KITTI's .bin has 4, nuScenes' .pcd.bin has 5. bad_file,
+/// invalid_argument, out_of_memory. Never throws; changes `out` only on success.
 Status read_raw_points(std::span<const std::byte> bytes, std::size_t floats_per_point, Cloud& out);
 
 /// As read_raw_points(), without copying: the bytes become the rows of the cloud.
@@ -36,8 +36,8 @@ enum class CloudFormat {
 
 /// Options for files that do not describe themselves.
 struct ReadOptions {
-  int columns =
-      0;  ///< floats per point in raw files, 3 to max_fields; 0: 5 for .pcd.bin, otherwise 4
+  /// Floats per point in raw files, 3 to max_fields. 0: 5 for .pcd.bin, otherwise 4.
+  int columns = 0;
 };
 
 /// The format that belongs to the file extension, in upper or lower case: `.pcd.bin` and `.bin` are
@@ -45,8 +45,8 @@ struct ReadOptions {
 [[nodiscard]] std::optional<CloudFormat> format_of(const std::filesystem::path& path) noexcept;
 
 /// Whether a file found in a directory is treated as a scan: its extension is known, it is not
-/// hidden, and it is not a file of labels (`_lidarseg.bin`, `.label.npy`), heights
-/// (`.heights.npy`, `.ground.npy`), a surface (`.surface.npy`) or return kinds (`.return.npy`).
+/// hidden, and it is not a file of labels (`_lidarseg.bin`, `.label.npy`), heights (`.heights.npy`,
+/// `.ground.npy`), a surface (`.surface.npy`) or return kinds (`.return.npy`).
 [[nodiscard]] bool is_scan_name(const std::filesystem::path& path) noexcept;
 
 /// Reads a point cloud; the file extension determines the format. Never throws; changes `out` only

@@ -9,8 +9,7 @@ namespace {
 
 template <class HeightAt>
 HeightMap map_by(double extent, double cell, HeightAt height_at) {
-  constexpr double rounding =
-      1e-6;  // cells; rounding must not add a cell to a whole number of cells
+  constexpr double rounding = 1e-6;  // cells; an extent of whole cells must not get one more
   HeightMap map{.cell = cell,
                 .width = 2 * static_cast<std::size_t>(std::ceil(extent / cell - rounding)),
                 .heights = {}};

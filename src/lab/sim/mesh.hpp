@@ -106,8 +106,7 @@ struct Box {
 };
 void add_box(Mesh& mesh, const Frame& frame, const Box& box, Surface surface);
 
-/// A cross-section of a body at `x`: a trapezoid in the y-z plane of the frame, symmetric about y =
-/// 0.
+/// A cross-section of a body at `x`: a trapezoid in the y-z plane of the frame, symmetric in y.
 struct Section {
   double x = 0;
   double low = 0, high = 0;                        ///< heights of the lower and upper edge, metres

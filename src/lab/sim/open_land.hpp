@@ -61,8 +61,7 @@ struct Pit {
 /// A narrow trench along a path with upright sides.
 struct Trench {
   double x_begin = 0, x_end = 0, t_near = 0, width = 1, depth = 1.2;  ///< metres
-  static constexpr double face =
-      0.08;  ///< tilt of the sides; the ground stays a function of x and y
+  static constexpr double face = 0.08;  ///< width of a side: the ground is a function of x and y
 
   /// Change of height at x, `out` metres from the path, at most 0, metres.
   [[nodiscard]] double at(double x, double out) const noexcept {

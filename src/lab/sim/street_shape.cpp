@@ -11,14 +11,12 @@
 namespace flagstone::sim {
 namespace {
 
-constexpr double kerb_face_width =
-    0.02;                               // kerbs are tilted back, so that height is a function of t
-constexpr double gutter_fall = 0.02;    // of the parking strip outward, m/m
-constexpr double sidewalk_rise = 0.02;  // outward, m/m
-constexpr double driveway_kerb_share =
-    0.2;                               // fraction of the kerb height that remains at a driveway
-constexpr double driveway_ramp = 0.6;  // metres on each side of a driveway
-constexpr double bank_begin = 0.5;     // metres behind the sidewalk
+constexpr double kerb_face_width = 0.02;     // kerbs are tilted back: height is a function of t
+constexpr double gutter_fall = 0.02;         // of the parking strip outward, m/m
+constexpr double sidewalk_rise = 0.02;       // outward, m/m
+constexpr double driveway_kerb_share = 0.2;  // fraction of the kerb height at a driveway
+constexpr double driveway_ramp = 0.6;        // metres on each side of a driveway
+constexpr double bank_begin = 0.5;           // metres behind the sidewalk
 constexpr double bank_width = 4;
 constexpr double undulation_begin = 5;  // metres behind the sidewalk until it has its full height
 constexpr double dash_period = 6;       // of the centre marking, half of it painted

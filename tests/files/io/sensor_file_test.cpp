@@ -108,7 +108,7 @@ TEST(SensorFile, ErrorsReportPositionKeyAndExpectedValue) {
               StartsWith("robot.toml: line 5, column 13: max_range must be a number"));
   EXPECT_THAT(refusal_of(robot + "max_range = -1\n"),
               AllOf(StartsWith("robot.toml: line 5, column 13: "), HasSubstr("max_range = -1"),
-                    HasSubstr("allowed: above 0.5, up to 1000 m")));
+                    HasSubstr("(expected above 0.5, up to 1000 m)")));
   EXPECT_THAT(refusal_of(robot + "firings = 1.5\n"), HasSubstr("firings must be an integer"));
   EXPECT_THAT(refusal_of(robot + "range_sigma = nan\n"), HasSubstr("range_sigma = nan"));
   EXPECT_THAT(refusal_of(robot + "elevations = [1, 0]\n"), HasSubstr("cannot be combined"));

@@ -64,8 +64,8 @@ Landscape urban_street(std::uint64_t seed);
 /// shoulders, guard rails, cuttings with a ditch or embankments, noise barriers, a gantry, trucks
 /// and cars.
 Landscape highway(std::uint64_t seed);
-/// The road of steps() with deep edges: quays of 1.5 to 3 m, ditches of 1 and 1.5 m, embankments
-/// of 1.5 and 3 m.
+/// The road of steps() with deep edges: quays of 1.5 to 3 m, ditches of 1 and 1.5 m, embankments of
+/// 1.5 and 3 m.
 Landscape drops(std::uint64_t seed);
 
 /// Two crowned roads that cross: round kerbs, islands, raised flower beds, zebra crossings, traffic
