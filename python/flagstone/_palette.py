@@ -44,7 +44,7 @@ TINT = 0.42
 
 def in_words(member: Label | Verdict) -> str:
     """The name for a legend, for example "out of range"."""
-    return member.name.lower().replace("_", " ")
+    return "non-ground" if member is Label.NONGROUND else member.name.lower().replace("_", " ")
 
 
 def rgb(color: Color) -> tuple[float, float, float]:

@@ -107,8 +107,8 @@ class SharedSegmenter {
     if (has_warned_ || !mostly_out_of_range(segmentation)) return;
     has_warned_ = true;
     const std::string message = fmt::format(
-        "points: {} of {} points are out of range (the scan may not be in metres; for millimetres "
-        "pass mount={{\"scale\": 0.001}}; `flagstone doctor SCAN` finds the scale)",
+        "points: {} of {} points are out of range (expected metres, origin at the sensor; for "
+        "millimetres pass mount={{\"scale\": 0.001}}; `flagstone doctor SCAN` finds the cause)",
         segmentation.count(Label::out_of_range), segmentation.labels().size());
     if (PyErr_WarnEx(PyExc_UserWarning, message.c_str(), 2) != 0) throw nb::python_error();
   }

@@ -20,6 +20,7 @@ matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not install
 matplotlib.use("Agg")
 plt = pytest.importorskip("matplotlib.pyplot")
 
+LEGEND = {"ground": "ground", "non-ground": "nonground"}
 GREEN, RED, BLUE = (44, 166, 96), (255, 72, 56), (66, 140, 255)
 
 
@@ -87,8 +88,9 @@ def test_each_point_has_the_colour_of_its_label(scan: Scan, result: flagstone.Se
 
 
 def test_the_legend_lists_labels_with_percentages(scan: Scan, result: flagstone.Segmentation) -> None:
-    share = 100 * result.ground.mean()
-    assert legend_texts(birds_eye(scan, result))[0] == f"ground {share:.1f} %"
+    counts = result.counts
+    expected = [f"{name} {100 * counts[label] / len(scan):.1f} %" for name, label in LEGEND.items()]
+    assert legend_texts(birds_eye(scan, result))[:2] == expected
 
 
 def test_a_mask_of_another_program_can_be_drawn(scan: Scan) -> None:
