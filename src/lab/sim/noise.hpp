@@ -35,9 +35,8 @@ struct Noise {
   /// Standard deviation of the intensity, which ranges from 0 to 1.
   double intensity_sigma = 0.03;
 
-  /// Factor for the specular reflection of glass, still water and similar surfaces,
-  /// `Surface::mirror`; 0..1. A reflected beam returns, if at all, as a ghost point behind the
-  /// surface.
+  /// Factor, 0..1, for `Surface::mirror`: the specular reflection of glass, still water and similar
+  /// surfaces. A reflected beam returns, if at all, as a ghost point behind the surface.
   double mirroring = 1;
 
   /// Specular reflection of wet roads and pavements, 0..1. They are also darker, by half at 1.
