@@ -14,12 +14,12 @@ MEASUREMENTS := bench-scaling bench-steps bench-edges latency soak-test surface-
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.* ## /\1\t/p' Makefile | expand -t 16
 
-build: ## install what is missing, build the library and the command: build/flagstone
+build: ## install missing tools, build the library and the command: build/flagstone
 	@scripts/setup build
 	@[ -e build/build.ninja ] || cmake --preset release $(CMAKE_FLAGS)
 	@cmake --build build --target flagstone libflagstone
 
-demo: build ## build, then simulate a street, segment it and score the result
+demo: build ## build the command, simulate a street, segment and score it
 	@build/flagstone demo
 
 install: build ## install the library and the command under PREFIX (/usr/local)
@@ -28,10 +28,10 @@ install: build ## install the library and the command under PREFIX (/usr/local)
 test: ## build and test the library, the command and the Python package
 	@scripts/setup build test python && scripts/test
 
-test-all: ## the same, and all that takes long: fuzzers, sanitizers, a Ray cluster, the documentation's site
+test-all: ## also fuzzers, sanitizers, a Ray cluster and the documentation site
 	@scripts/setup build test fuzz python docs && scripts/test all
 
-test-python: ## build and test the Python package alone; PYTHON names another interpreter
+test-python: ## build and test the Python package; PYTHON selects another interpreter
 	@scripts/setup build python && scripts/test python
 
 sanitize: ## run the C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer
@@ -49,31 +49,32 @@ format-check: ## fail if `make format` would change a file
 tidy: ## run clang-tidy over the library and the command
 	@scripts/setup build test tidy && scripts/tidy
 
-docs: ## build the documentation's site, warnings are errors: build/site/index.html
+docs: ## build the documentation site, warnings are errors: build/site/index.html
 	@scripts/setup python docs && NO_MKDOCS_2_WARNING=1 "$$(scripts/python environment)" -m mkdocs build --strict
 
-wheel: ## build the Python wheel into dist/, and use it in an empty environment; PYTHON names another interpreter
+wheel: ## build the Python wheel into dist/ and test it in an empty environment; PYTHON selects another interpreter
 	@scripts/setup build python && wheel=$$(scripts/wheel) && scripts/check-wheel "$$wheel"
 
-bench-compare: build ## is METHOD in the working tree slower than in REVISION, on SCANS?
+bench-compare: build ## compare the speed of METHOD in the working tree and in REVISION on SCANS
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(SCANS)
 
 bench-scaling: PROGRAM = growth ## time and memory by points, beams, bins and threads
-bench-steps: PROGRAM = sharpness ## errors of the surface at kerbs, ditches and drops of known shape
-bench-edges: PROGRAM = edges ## labels on both sides of kerbs, ditches and drops, and of ghost points
-latency: PROGRAM = latency ## time of 10,000 different scans, adversarial scans included
+bench-steps: PROGRAM = sharpness ## errors of the surface at kerbs, ditches and drops
+bench-edges: PROGRAM = edges ## labels at kerbs, ditches and drops, and of ghost points
+latency: PROGRAM = latency ## time of 10,000 different scans, including adversarial ones
 soak-test: PROGRAM = soak ## memory of one segmenter over 100,000 different scans
-surface-figures: PROGRAM = surface_stages ## the figures of docs/explanation/surface.md
+surface-figures: PROGRAM = surface_stages ## draw the images of docs/explanation/surface.md
 $(MEASUREMENTS):
 	@scripts/setup build plot && scripts/benchmark $(PROGRAM)
 
-surface-study: build ## measure the method surface, write the tables of docs/benchmarks/accuracy.md and robustness.md; WORK: a directory with 4 GB free
+surface-study: build ## measure accuracy, write tables of docs/benchmarks/accuracy.md and robustness.md; WORK: a directory with 4 GB free
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/surface_study.py run --work $(or $(WORK),out/study)
+	@"$$(scripts/python plotting)" bench/accuracy_study.py run --work $(or $(WORK),out/study)
 
-worlds-study: build ## measure both methods in every simulated scene, write docs/benchmarks/robustness.md; WORK: a directory with 8 GB free
+worlds-study: build ## measure both methods in all simulated scenes, write tables of docs/benchmarks/robustness.md; WORK: a directory with 8 GB free
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/worlds_study.py run --work $(or $(WORK),out/worlds)
 
-contact-sheet: build ## draw every scene as three sensors see it: docs/images/worlds.png; SHEET: options of bench/contact_sheet.py
+contact-sheet: build ## draw every scene as seen by three sensors: docs/images/worlds.png; SHEET: options of bench/contact_sheet.py
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/contact_sheet.py $(SHEET)
 
 clean: ## remove the build trees

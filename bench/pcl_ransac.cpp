@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// PCL's plane RANSAC as a worker of `flagstone bench --compare`; bench/external_worker.py says how they
-// talk. The threshold is that of flagstone's own RANSAC, 0.2 m; 1,000 trials at most; the rest are
-// PCL's defaults.
+// Plane RANSAC of PCL as a worker of `flagstone bench --compare`; bench/external_worker.py
+// describes the protocol. The threshold is 0.2 m, as in flagstone's RANSAC, with at most 1,000
+// iterations. Other parameters have PCL's defaults.
 #include <pcl/ModelCoefficients.h>
 #include <pcl/PointIndices.h>
 #include <pcl/console/print.h>
@@ -23,7 +23,7 @@ namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
-/// The points that have a place.
+/// Reads a cloud. Points that are not finite or all zero are omitted.
 Cloud::Ptr read_cloud(std::size_t count) {
   std::vector<std::array<float, 4>> rows(count);
   std::cin.read(reinterpret_cast<char*>(rows.data()),
@@ -36,7 +36,7 @@ Cloud::Ptr read_cloud(std::size_t count) {
   return cloud;
 }
 
-/// Prints the nanoseconds it took and how many points lie on the plane.
+/// Prints the time in nanoseconds and the number of points on the plane.
 void run(const Cloud::ConstPtr& cloud) {
   pcl::PointIndices inliers;
   pcl::ModelCoefficients plane;
@@ -48,14 +48,14 @@ void run(const Cloud::ConstPtr& cloud) {
   segmentation.setMaxIterations(1000);
   segmentation.setInputCloud(cloud);
   segmentation.segment(inliers, plane);
-  const std::chrono::nanoseconds spent = std::chrono::steady_clock::now() - start;
-  std::cout << spent.count() << ' ' << inliers.indices.size() << std::endl;
+  const std::chrono::nanoseconds elapsed = std::chrono::steady_clock::now() - start;
+  std::cout << elapsed.count() << ' ' << inliers.indices.size() << std::endl;
 }
 
 }  // namespace
 
 int main() {
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // nothing but answers is printed
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // only answers are printed
   std::cout << "ready" << std::endl;
   std::vector<Cloud::ConstPtr> scans;
   std::string word;

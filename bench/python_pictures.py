@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Draws the pictures of docs/how-to/plot-results.md: docs/images/birds-eye.png and docs/images/viewer.png.
+"""Draws the images of docs/how-to/plot-results.md: docs/images/birds-eye.png and docs/images/viewer.png.
 
 Needs the package with its extras (pip install 'flagstone[all]'), playwright (pip install playwright) and Chromium
-(apt-get install chromium). Chromium draws the viewer in software: no graphics card is needed, a minute is.
+(apt-get install chromium). Chromium renders the viewer in software, without a GPU. This takes about a minute.
 
     python3 bench/python_pictures.py [--only birds-eye|viewer]
 """
@@ -28,14 +28,14 @@ import flagstone
 IMAGES = Path(__file__).parents[1] / "docs" / "images"
 SOFTWARE = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"]
 WIDTH, HEIGHT = 900, 640
-BAR, TIME_LINE = 36, 30  # pixels of the viewer's own that are cut off
-SURFACE_TAB = (132, 50)  # pixels
+BAR, TIME_LINE = 36, 30  # pixels of the viewer's controls, which are cropped
+SURFACE_TAB = (132, 50)  # position in pixels
 OVER_A_PATCH = (90, 440)
 
 
-def scan(folder: Path) -> Any:
-    flagstone.simulate(folder / "drive", scene="steep_street", frames=1)
-    return flagstone.io.read(folder / "drive/sequences/00/velodyne/000000.bin")
+def scan(directory: Path) -> Any:
+    flagstone.simulate(directory / "run", scene="steep_street", frames=1)
+    return flagstone.io.read(directory / "run/sequences/00/velodyne/000000.bin")
 
 
 def draw_birds_eye(points: Any) -> None:
@@ -52,10 +52,10 @@ def draw_birds_eye(points: Any) -> None:
     report(IMAGES / "birds-eye.png")
 
 
-def draw_viewer(points: Any, folder: Path) -> None:
+def draw_viewer(points: Any, directory: Path) -> None:
     from PIL import Image
 
-    patchwork, surface = folder / "patchwork.rrd", folder / "surface.rrd"
+    patchwork, surface = directory / "patchwork.rrd", directory / "surface.rrd"
     flagstone.show(points, flagstone.Patchwork(sensor="hdl-64e").segment(points), save=patchwork)
     flagstone.show(points, flagstone.Surface(sensor="hdl-64e").segment(points), save=surface)
     halves = [seen(patchwork, point_at=OVER_A_PATCH), seen(surface, click_on=SURFACE_TAB)]
@@ -67,18 +67,18 @@ def draw_viewer(points: Any, folder: Path) -> None:
 
 
 def seen(recording: Path, *, click_on: Any = None, point_at: Any = None) -> Any:
-    """What a browser shows of a recording."""
+    """A screenshot of a recording in a browser."""
     from PIL import Image
     from playwright.sync_api import sync_playwright
 
     command = [sys.executable, "-m", "rerun", "--serve-web", "--web-viewer-port", "9393", "--port", "9394", recording]
-    # In a session of its own, since it is a script that starts the program.
+    # In a separate session, so that the program started by this script can be stopped too.
     server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=SOFTWARE)
             page = browser.new_page(viewport={"width": WIDTH, "height": HEIGHT})
-            page.set_default_timeout(180_000)  # a busy machine draws a frame in many seconds
+            page.set_default_timeout(180_000)  # on a busy machine, a frame can take many seconds
             time.sleep(5)
             page.goto("http://localhost:9393/?url=rerun%2Bhttp://localhost:9394/proxy&hide_welcome_screen=1")
             wait_until_still(page)
@@ -90,16 +90,16 @@ def seen(recording: Path, *, click_on: Any = None, point_at: Any = None) -> Any:
                 page.mouse.move(point_at[0] - 3, point_at[1])
                 page.mouse.move(*point_at)
                 wait_until_still(page)
-            picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+            image = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
             browser.close()
-            return picture.crop((0, BAR, WIDTH, HEIGHT - TIME_LINE))
+            return image.crop((0, BAR, WIDTH, HEIGHT - TIME_LINE))
     finally:
         os.killpg(server.pid, signal.SIGTERM)
         server.wait()
 
 
 def wait_until_still(page: Any) -> None:
-    """Software rendering takes its time, and meshes come one after the other."""
+    """Waits until the page stops changing. Software rendering is slow, and meshes appear one after another."""
     before, still = b"", 0
     for _ in range(100):
         time.sleep(4)
@@ -108,7 +108,7 @@ def wait_until_still(page: Any) -> None:
         if still == 4:
             return
         before = now
-    raise TimeoutError("the viewer did not come to rest")
+    raise TimeoutError("the viewer is still changing after 400 s")
 
 
 def report(path: Path) -> None:

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Draws the figures of docs/explanation/surface.md from simulated scans. Needs Matplotlib.
 
-    make surface-figures       # builds what it needs, writes docs/images/surface-*.png
+    make surface-figures       # builds surface_stages and writes docs/images/surface-*.png
 
-The program surface_stages (bench/performance) says what each stage makes of a scan.
+The program surface_stages (bench/performance) writes the results of all stages.
 """
 
 import argparse
@@ -19,21 +19,21 @@ try:
     import matplotlib
     import numpy as np
 except ImportError:
-    sys.exit("no Matplotlib for the figures: install it (Debian: apt-get install python3-matplotlib)")
+    sys.exit("Matplotlib is not installed (Debian: apt-get install python3-matplotlib)")
 matplotlib.use("Agg")
-from matplotlib import patches as shapes  # now that what draws is chosen
+from matplotlib import patches as shapes  # after the backend is selected
 from matplotlib import pyplot
 from matplotlib.colors import LinearSegmentedColormap, ListedColormap
-from PIL import Image  # Matplotlib writes pictures with it
+from PIL import Image  # a dependency of Matplotlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 IMAGES = ROOT / "docs" / "images"
 
 INK, GREY, PALE, ACCEPTED = "#181c22", "#808890", "#d4d8dd", "#e8953c"
 GROUND, OBSTACLE, COARSE, REFINED, BOUND = "#d9a400", "#5f6b78", "#c2477f", "#1f6fb4", "#d9601a"
-# Low to high ground, light enough for lines and shades on top.
+# Low to high ground, light enough for contour lines and shading.
 HEIGHTS = ["#a9c8d8", "#cfe3d4", "#e9edc9", "#f0dfb4", "#e2c199", "#cda58a"]
-VERDICTS = {
+STATUSES = {
     "ground": ("#7db46c", "ground"),
     "mixed": ("#e8953c", "mixed"),
     "not_upright": ("#9b6fb0", "not_upright"),
@@ -48,23 +48,23 @@ X, Y, Z, CLASS, LABEL, HEIGHT = range(6)
 
 
 class Stages:
-    """What surface_stages wrote of a scan."""
+    """The results of surface_stages for one scan."""
 
     def __init__(self, program, scene, seed):
-        with tempfile.TemporaryDirectory(prefix="flagstone-stages-") as place:
-            done = subprocess.run([program, scene, str(seed), place])
+        with tempfile.TemporaryDirectory(prefix="flagstone-stages-") as name:
+            done = subprocess.run([program, scene, str(seed), name])
             if done.returncode != 0:
                 sys.exit(f"exit code {done.returncode}: {program} {scene} {seed}")
-            folder = pathlib.Path(place)
-            self.about = json.loads((folder / "stages.json").read_text())
-            self.patches = json.loads((folder / "patches.json").read_text())
-            self.points = np.load(folder / "points.npy")
-            self.truth = np.load(folder / "truth.npy")
+            directory = pathlib.Path(name)
+            self.about = json.loads((directory / "stages.json").read_text())
+            self.patches = json.loads((directory / "patches.json").read_text())
+            self.points = np.load(directory / "points.npy")
+            self.truth = np.load(directory / "truth.npy")
             levels = len(self.about["grids"])
-            # By levels of refinement: heights and confidences of the finest grid.
-            self.grids = [np.load(folder / f"grid-{level}.npy") for level in range(levels)]
-            # By level: corrections, weights and numbers of points.
-            self.observed = [np.load(folder / f"observed-{level}.npy") for level in range(levels - 1)]
+            # Heights and confidences of the finest grid, by number of refinement levels.
+            self.grids = [np.load(directory / f"grid-{level}.npy") for level in range(levels)]
+            # Corrections, weights and numbers of points, by level.
+            self.observed = [np.load(directory / f"observed-{level}.npy") for level in range(levels - 1)]
 
     def cell(self, levels):
         return self.about["grids"][levels]["cell"]
@@ -73,7 +73,7 @@ class Stages:
         return self.cell(levels) * self.about["grids"][levels]["width"] / 2
 
     def height(self, levels, x, y):
-        """Of the surface after some levels, from the finest grid that covers a place; bilinear."""
+        """Height of the surface after `levels` levels: bilinear, from the finest grid that covers (x, y)."""
         x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
         found = np.full(x.shape, np.nan)
         for level in range(levels + 1):
@@ -87,56 +87,57 @@ def bilinear(grid, extent, cell, x, y):
     last = len(grid) - 1
     column, row = (np.clip((value + extent) / cell - 0.5, 0, last) for value in (x, y))
     left, low = (np.minimum(value.astype(int), last - 1) for value in (column, row))
-    right_share, high_share = column - left, row - low
-    near = grid[low, left] * (1 - right_share) + grid[low, left + 1] * right_share
-    far = grid[low + 1, left] * (1 - right_share) + grid[low + 1, left + 1] * right_share
-    return near * (1 - high_share) + far * high_share
+    right_weight, high_weight = column - left, row - low
+    near = grid[low, left] * (1 - right_weight) + grid[low, left + 1] * right_weight
+    far = grid[low + 1, left] * (1 - right_weight) + grid[low + 1, left + 1] * right_weight
+    return near * (1 - high_weight) + far * high_weight
 
 
-# --- figures -----------------------------------------------------------------------------------------------
+# --- drawing -----------------------------------------------------------------------------------------------
 
 
-def view_from_above(axes, extent, title):
-    """x, forward, to the right, y, left, upward."""
+def top_view(axes, extent, title):
+    """Axes with x (forward) to the right and y (left) up."""
     axes.set(xlim=(-extent, extent), ylim=(-extent, extent), aspect="equal", title=title)
     axes.set(xlabel="x, m", ylabel="y, m")
     axes.plot(0, 0, "+", color=INK, markersize=8)
 
 
 def draw_patches(stages):
-
     figure, axes = pyplot.subplots(figsize=(10, 5.2), layout="constrained")
     points = stages.points
     axes.scatter(points[:, X], points[:, Y], s=0.15, color=INK, linewidths=0, rasterized=True)
-    counts = dict.fromkeys(VERDICTS, 0)
+    counts = dict.fromkeys(STATUSES, 0)
     for patch in stages.patches:
-        size, verdict = patch["size"], patch["verdict"]
-        counts[verdict] += 1
+        size, status = patch["size"], patch["verdict"]
+        counts[status] += 1
         corner = (patch["x"] - size / 2, patch["y"] - size / 2)
         face = shapes.Rectangle(
             corner,
             size,
             size,
-            facecolor=VERDICTS[verdict][0],
+            facecolor=STATUSES[status][0],
             alpha=0.65,
             edgecolor="white",
             linewidth=0.8,
             zorder=0,
         )
         axes.add_patch(face)
-    view_from_above(axes, 48, "Patches of 4 and 8 m, and what they are taken for")
+    top_view(axes, 48, "Patches of 4 and 8 m, by status")
     axes.set(ylim=(-26, 34))
     handles = [
         shapes.Patch(facecolor=color, alpha=0.65, label=f"{text} ({counts[name]})")
-        for name, (color, text) in VERDICTS.items()
+        for name, (color, text) in STATUSES.items()
         if counts[name] > 0
     ]
-    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, title="verdict (patches)")
+    axes.legend(
+        handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, title="status (number of patches)"
+    )
     return figure
 
 
 def shaded(grid, cell, exaggeration):
-    """0 to 1, light from the upper left."""
+    """Brightness from 0 to 1, with light from the upper left."""
     slope_y, slope_x = np.gradient(grid * exaggeration, cell)
     light = np.array([-1, 1, 1.6]) / np.linalg.norm([-1, 1, 1.6])
     brightness = (light[2] - slope_x * light[0] - slope_y * light[1]) / np.sqrt(1 + slope_x**2 + slope_y**2)
@@ -148,20 +149,20 @@ def draw_coarse(stages):
     figure, axes = pyplot.subplots(1, 2, figsize=(12, 5.4), layout="constrained")
     heights, confidences = stages.grids[0]
     half = stages.half_width(0)
-    place = (-half, half, -half, half)
+    bounds = (-half, half, -half, half)
     image = axes[0].imshow(
         np.ma.masked_invalid(heights),
         origin="lower",
-        extent=place,
+        extent=bounds,
         cmap=height_colors(),
         **height_limits(heights, half, extent),
     )
     centers = np.linspace(-half + 1, half - 1, len(heights))
     axes[0].contour(centers, centers, heights, levels=np.arange(-12, 12, 0.5), colors=INK, linewidths=0.4)
-    view_from_above(axes[0], extent, "Coarse surface, contour lines every 0.5 m")
+    top_view(axes[0], extent, "Coarse surface, contour lines every 0.5 m")
     figure.colorbar(image, ax=axes[0], label="height in the sensor frame, m", shrink=0.85)
-    image = axes[1].imshow(confidences, origin="lower", extent=place, cmap="Blues", vmin=0, vmax=1)
-    view_from_above(axes[1], extent, "Its confidence; dots: accepted patches")
+    image = axes[1].imshow(confidences, origin="lower", extent=bounds, cmap="Blues", vmin=0, vmax=1)
+    top_view(axes[1], extent, "Confidence of the coarse surface; dots: accepted patches")
     accepted = [patch["mean"] for patch in stages.patches if patch["verdict"] == "ground"]
     axes[1].plot([mean[0] for mean in accepted], [mean[1] for mean in accepted], ".", color=ACCEPTED, markersize=4)
     figure.colorbar(image, ax=axes[1], shrink=0.85)
@@ -173,7 +174,7 @@ def height_colors():
 
 
 def height_limits(heights, half, extent):
-    """What 98 in 100 of the heights within the extent lie between."""
+    """The 1st and 99th percentile of the heights within the extent."""
     edge = int((half - extent) / (2 * half) * len(heights)) if half > extent else 0
     seen = heights[edge : len(heights) - edge, edge : len(heights) - edge]
     low, high = np.nanpercentile(seen, [1, 99])
@@ -184,13 +185,13 @@ def draw_levels(stages):
     levels = len(stages.observed)
     figure, axes = pyplot.subplots(1, levels, figsize=(3.3 * levels, 4.1), layout="constrained")
     weight_of_bound = stages.about["lower_bound_weight"]
-    for level, (place, observed) in enumerate(zip(axes, stages.observed)):
+    for level, (panel, observed) in enumerate(zip(axes, stages.observed)):
         _, weights, points = observed
         kind = np.where(weights > 0, 2, np.where(points > 0, 1, 0))
-        kind[np.isclose(weights, weight_of_bound)] = 3  # an observation weighs 0.3 or more
+        kind[np.isclose(weights, weight_of_bound)] = 3  # observations have weights of at least 0.3
         half = stages.half_width(level + 1)
         colors = ListedColormap(["white", PALE, REFINED, BOUND])
-        place.imshow(
+        panel.imshow(
             kind,
             origin="lower",
             extent=(-half, half, -half, half),
@@ -199,13 +200,13 @@ def draw_levels(stages):
             vmax=3,
             interpolation="none",
         )
-        view_from_above(place, min(half, 48), f"cells of {stages.cell(level + 1):g} m")
+        top_view(panel, min(half, 48), f"cells of {stages.cell(level + 1):g} m")
         if level > 0:
-            place.set_ylabel("")
+            panel.set_ylabel("")
     handles = [
-        shapes.Patch(facecolor=REFINED, label="observed: points say where the ground is"),
-        shapes.Patch(facecolor=BOUND, label="something stands there: lower bound"),
-        shapes.Patch(facecolor=PALE, label="three points or more, no observation"),
+        shapes.Patch(facecolor=REFINED, label="observation of the ground"),
+        shapes.Patch(facecolor=BOUND, label="obstacle: lower bound"),
+        shapes.Patch(facecolor=PALE, label="at least three points, no observation"),
     ]
     figure.get_layout_engine().set(rect=(0, 0.09, 1, 0.91))
     figure.legend(handles=handles, loc="lower center", ncols=3, frameon=False)
@@ -213,7 +214,7 @@ def draw_levels(stages):
 
 
 def profile_of(axes, stages, where, across, limits, half_slice):
-    """A slice of the scan, the surface and the truth along y at x = `where`."""
+    """Draws a slice along y at x = `where`: points, surface and true ground."""
     levels = len(stages.grids) - 1
     y = np.arange(*across, 0.02)
     points = stages.points
@@ -223,12 +224,15 @@ def profile_of(axes, stages, where, across, limits, half_slice):
     truth_extent, truth_cell = stages.about["truth"]["extent"], stages.about["truth"]["cell"]
     truth = bilinear(stages.truth, truth_extent, truth_cell, np.full_like(y, where), y)
 
-    stands = standing_cells(stages)
+    obstacles = obstacle_cells(stages)
     margin = np.array(
-        [stages.about["obstacle_margin" if (np.floor(2 * where), np.floor(2 * v)) in stands else "margin"] for v in y]
+        [
+            stages.about["obstacle_margin" if (np.floor(2 * where), np.floor(2 * v)) in obstacles else "margin"]
+            for v in y
+        ]
     )
     axes.fill_between(
-        y, refined, refined + margin, color=GROUND, alpha=0.3, linewidth=0, label="ground: up to the margin"
+        y, refined, refined + margin, color=GROUND, alpha=0.3, linewidth=0, label="labelled ground: up to the margin"
     )
     axes.plot(y, truth, color=INK, linewidth=0.9, linestyle=(0, (1, 1)), label="true ground")
     axes.plot(y, coarse, color=COARSE, linewidth=1.2, linestyle="--", label="coarse surface")
@@ -251,31 +255,31 @@ def profile_of(axes, stages, where, across, limits, half_slice):
         color=OBSTACLE,
         linewidths=0,
         zorder=3,
-        label="labelled not ground",
+        label="labelled non-ground",
     )
     axes.set(xlim=across[::-1], ylim=limits, xlabel="y, m", ylabel="z, m")
     axes.grid(True, color="#e4e7ea", linewidth=0.6)
     axes.set_axisbelow(True)
 
 
-def standing_cells(stages):
-    """The cells of 0.5 m in which something stands, as the point rule has them."""
+def obstacle_cells(stages):
+    """The 0.5 m cells that contain an obstacle by the rule for points."""
     height = stages.points[:, HEIGHT]
-    stands = stages.points[(height > stages.about["obstacle_height"]) & (height < 2.5)]
-    return set(zip(np.floor(2 * stands[:, X]), np.floor(2 * stands[:, Y])))
+    obstacles = stages.points[(height > stages.about["obstacle_height"]) & (height < 2.5)]
+    return set(zip(np.floor(2 * obstacles[:, X]), np.floor(2 * obstacles[:, Y])))
 
 
 def draw_profile(cars, street):
     figure = pyplot.figure(figsize=(11, 6.6), layout="constrained")
-    places = figure.subplot_mosaic([["whole", "whole"], ["kerb", "foot"]], height_ratios=[1.25, 1])
-    whole = places["whole"]
+    panels = figure.subplot_mosaic([["whole", "whole"], ["kerb", "fence"]], height_ratios=[1.25, 1])
+    whole = panels["whole"]
     profile_of(whole, cars, where=-5.0, across=(-12, 10), limits=(-2.3, 0.5), half_slice=0.25)
-    whole.set_title("A street between parked cars; behind the right one a fence, bushes, a bank")
+    whole.set_title("A street between parked cars; fence, bushes and bank behind the right car")
     whole.legend(loc="upper center", ncols=3, framealpha=0.9, fontsize=9)
-    profile_of(places["kerb"], street, where=5.0, across=(-3.0, -0.8), limits=(-1.92, -1.42), half_slice=0.15)
-    places["kerb"].set_title("A kerb of another street")
-    profile_of(places["foot"], street, where=5.0, across=(-5.0, -2.8), limits=(-2.0, -1.2), half_slice=0.15)
-    places["foot"].set_title("The foot of a fence there")
+    profile_of(panels["kerb"], street, where=5.0, across=(-3.0, -0.8), limits=(-1.92, -1.42), half_slice=0.15)
+    panels["kerb"].set_title("A kerb in another street")
+    profile_of(panels["fence"], street, where=5.0, across=(-5.0, -2.8), limits=(-2.0, -1.2), half_slice=0.15)
+    panels["fence"].set_title("Base of a fence in that street")
     return figure
 
 
@@ -286,7 +290,7 @@ def draw_relief(stages):
     ground = points[:, LABEL] == 1
     for chosen, color in ((ground, GROUND), (~ground, OBSTACLE)):
         axes[0].scatter(points[chosen, X], points[chosen, Y], s=0.5, color=color, linewidths=0, rasterized=True)
-    view_from_above(axes[0], extent, "Points: ground (yellow) and not (grey)")
+    top_view(axes[0], extent, "Points: ground (yellow) and non-ground (grey)")
     line = np.arange(-extent + cell / 2, extent, cell)
     x, y = np.meshgrid(line, line)
     heights = stages.height(len(stages.grids) - 1, x, y)
@@ -294,25 +298,25 @@ def draw_relief(stages):
     limits = height_limits(heights, extent, extent)
     known = np.where(np.isnan(heights), limits["vmin"], heights)
     colors = height_colors()((known - limits["vmin"]) / (limits["vmax"] - limits["vmin"]))
-    level = shaded(np.zeros((2, 2)), 1, 1)[0, 0]  # of level ground
+    level = shaded(np.zeros((2, 2)), 1, 1)[0, 0]  # brightness of level ground
     colors[..., :3] *= np.clip(brightness / level, 0.4, 1.3)[..., None]
     colors[np.isnan(heights + brightness)] = 1
-    place = (-extent, extent, -extent, extent)
-    axes[1].imshow(np.clip(colors, 0, 1), origin="lower", extent=place, interpolation="none")
+    bounds = (-extent, extent, -extent, extent)
+    axes[1].imshow(np.clip(colors, 0, 1), origin="lower", extent=bounds, interpolation="none")
     contours = axes[1].contour(line, line, heights, levels=np.arange(-12, 12, 0.5), colors=INK, linewidths=0.4)
     axes[1].clabel(contours, fontsize=7, fmt="%.1f")
-    view_from_above(axes[1], extent, "The ground itself, shaded; contour lines every 0.5 m")
+    top_view(axes[1], extent, "Ground surface, shaded; contour lines every 0.5 m")
     return figure
 
 
 def save(figure, name):
-    """As PNG with a palette, which takes a third of the space."""
+    """Writes a PNG with a palette, which reduces the file to a third."""
     IMAGES.mkdir(parents=True, exist_ok=True)
     path = IMAGES / f"surface-{name}.png"
     drawn = io.BytesIO()
     figure.savefig(drawn, dpi=100, format="png")
-    picture = Image.open(drawn).convert("RGB").quantize(128, dither=Image.Dither.NONE)
-    picture.save(path, optimize=True)
+    image = Image.open(drawn).convert("RGB").quantize(128, dither=Image.Dither.NONE)
+    image.save(path, optimize=True)
     print(f"{path.relative_to(ROOT)}: {path.stat().st_size // 1000} kB")
 
 
@@ -323,7 +327,7 @@ def main():
     )
     arguments = parser.parse_args()
     if not arguments.program.exists():
-        sys.exit(f"{arguments.program} is not built: `make surface-figures` builds it")
+        sys.exit(f"{arguments.program}: no such file (run `make surface-figures`)")
     matplotlib.rcParams.update({"font.size": 10, "axes.titlesize": 11, "axes.edgecolor": GREY})
     street = Stages(arguments.program, "steep_street", 1)
     save(draw_patches(street), "patches")

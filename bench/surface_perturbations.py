@@ -90,7 +90,7 @@ def with_ghosts(ghost_class):
 
 
 def ghosts_of(points, is_ground, random):
-    """Indices of points to reflect at the ground, and z of the reflections. The ground height is the mean per cell of 2 m."""
+    """Indices of points to reflect at the ground, and z of the reflections. The ground is the mean per cell of 2 m."""
     cell = np.floor(points[:, :2] / 2).astype(np.int64)
     key = (cell[:, 0] + 1000) * 2000 + cell[:, 1] + 1000
     keys, inverse = np.unique(key, return_inverse=True)

@@ -15,7 +15,7 @@
 namespace flagstone::performance {
 namespace {
 
-Point turned(const Point& p, float cosine, float sine) {
+Point rotated(const Point& p, float cosine, float sine) {
   return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z};
 }
 
@@ -54,16 +54,16 @@ Cloud resized(const Cloud& cloud, std::size_t count) {
     const auto cosine = static_cast<float>(std::cos(angle));
     const auto sine = static_cast<float>(std::sin(angle));
     for (std::size_t i = 0; i < cloud.size() && result.size() < count; ++i) {
-      result.push_back(turned(cloud[i], cosine, sine));
+      result.push_back(rotated(cloud[i], cosine, sine));
     }
   }
   return result;
 }
 
-Cloud turned(Cloud cloud, double angle) {
+Cloud rotated(Cloud cloud, double angle) {
   const auto cosine = static_cast<float>(std::cos(angle));
   const auto sine = static_cast<float>(std::sin(angle));
-  for (Point& p : cloud) p = turned(p, cosine, sine);
+  for (Point& p : cloud) p = rotated(p, cosine, sine);
   return cloud;
 }
 

@@ -16,18 +16,19 @@ using Cloud = std::vector<Point>;
 
 inline CloudView view_of(const Cloud& cloud) { return CloudView(std::span<const Point>(cloud)); }
 
-/// A street as a spinning sensor 1.73 m above it sees it, beam by beam: `beams` of them from +2 to
-/// -24.8 degrees, `columns` firings a turn, of which two thirds come back.
+/// A simulated scan of a street by a spinning sensor at 1.73 m: `beams` beams from +2 to -24.8
+/// degrees with `columns` firings per turn, one beam after another. About two thirds of the firings
+/// return.
 Cloud simulated_street(int beams, int columns, std::uint64_t seed);
 
-/// `count` points, evenly picked in their order; where there are fewer, as often as it takes, each
-/// time turned about z.
+/// `count` points, selected evenly and in order. If the cloud has fewer points, copies of it
+/// rotated about z are appended.
 Cloud resized(const Cloud& cloud, std::size_t count);
 
-/// The same turned about z by `angle`, radians.
-Cloud turned(Cloud cloud, double angle);
+/// The cloud rotated about z by `angle` radians.
+Cloud rotated(Cloud cloud, double angle);
 
-/// The same in random order.
+/// The points in random order.
 Cloud shuffled(Cloud cloud, Random& random);
 
 }  // namespace flagstone::performance

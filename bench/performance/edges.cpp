@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// What methods make of the ground on both sides of edges of known shape (kerbs, ditches, drops,
-// stairs of the simulated scenes `steps` and `drops`), and of ghosts below the ground. Prints
-// Markdown.
+// Measures the labels of ground on both sides of edges of known shape (kerbs, ditches, drops and
+// stairs of the simulated scenes `steps` and `drops`), and the labels of ghost points below the
+// ground. Prints Markdown.
 
 #include <fmt/format.h>
 
@@ -36,26 +36,26 @@
 namespace flagstone::performance {
 namespace {
 
-/// Upper ends of the bands of range, metres.
+/// Upper limits of the range bands, metres.
 constexpr std::array<double, 3> bands = {10, 20, 40};
 
-/// Ground within this of an edge is looked at, metres; behind a drop, which hides what lies at its
-/// foot, as far as that.
+/// Maximum distance of counted ground from an edge, metres. It is larger behind a drop, which hides
+/// the ground at its base.
 constexpr double beside_edge = 2;
 constexpr double behind_drop = 10;
 
-/// Ghosts that are added to every scan of the scenes with edges: as many, each so far below a point
-/// of the ground within so many metres of the sensor.
+/// Ghost points added to every scan of the scenes with edges: their number, their depth below a
+/// ground point, and the maximum range of that ground point; metres.
 constexpr std::size_t added_ghosts = 100;
-constexpr double least_depth = 0.3;
-constexpr double most_depth = 2.5;
+constexpr double min_depth = 0.3;
+constexpr double max_depth = 2.5;
 constexpr double ghost_range = 20;
 
-/// Where the points of edges are, in the order of the table's columns.
+/// Parts of an edge, in the order of the table columns.
 enum class Part : std::uint8_t { lower, face, upper };
 constexpr std::size_t part_count = 3;
 
-/// Points and what a method calls them.
+/// Number of points by label.
 struct Labelled {
   std::size_t points = 0, ground = 0, noise = 0;
 
@@ -64,13 +64,13 @@ struct Labelled {
     ground += static_cast<std::size_t>(label == Label::ground);
     noise += static_cast<std::size_t>(label == Label::noise);
   }
-  [[nodiscard]] std::string share_of(std::size_t part) const {
+  [[nodiscard]] std::string percent_of(std::size_t part) const {
     if (points == 0) return "-";
     return fmt::format("{:.1f}", 100 * static_cast<double>(part) / static_cast<double>(points));
   }
 };
 
-/// One kind of edge in one band of range.
+/// One kind of edge in one range band.
 using Edge = std::array<Labelled, part_count>;
 
 struct KindOfEdge {
@@ -79,12 +79,12 @@ struct KindOfEdge {
   std::array<Edge, bands.size()> by_range;
 };
 
-/// What one method makes of one scene.
+/// Results of one method in one scene.
 struct Findings {
   std::vector<KindOfEdge> kinds;
-  Labelled ghosts;      ///< of the simulator: beams that the ground mirrors
-  Labelled lone;        ///< the added ones
-  Labelled not_ground;  ///< points of everything that stands on the ground
+  Labelled ghosts;      ///< ghost points of the simulator: beams reflected by the ground
+  Labelled added;       ///< added ghost points
+  Labelled not_ground;  ///< points of objects on the ground
 
   KindOfEdge& kind_of(const sim::GroundStep& step) {
     const auto found = std::ranges::find(kinds, step.kind, &KindOfEdge::name);
@@ -94,7 +94,7 @@ struct Findings {
 };
 
 struct Method {
-  std::string name;  ///< as on the command line: METHOD, or patchwork/PRESET
+  std::string name;  ///< METHOD or patchwork/PRESET
   std::unique_ptr<Segmenter> segmenter;
   std::map<std::string_view, Findings> findings;  ///< by scene
 };
@@ -110,15 +110,15 @@ Method make_method(std::string_view name) {
   return {std::string(name), make_segmenter(method, config), {}};
 }
 
-/// The edge that a place of the world is nearest to, and where it lies there.
-struct EdgePlace {
+/// The edge closest to a position, and the part of it.
+struct EdgePosition {
   const sim::GroundStep* step = nullptr;
   Part part = Part::face;
 };
 
-EdgePlace nearest_edge(std::span<const sim::GroundStep> steps, sim::Vector3 world) {
-  EdgePlace nearest;
-  double least = behind_drop;
+EdgePosition nearest_edge(std::span<const sim::GroundStep> steps, sim::Vector3 world) {
+  EdgePosition nearest;
+  double min_distance = behind_drop;
   for (const sim::GroundStep& step : steps) {
     if (world.x < step.x_begin || world.x >= step.x_end) continue;
     const double outward = step.y_end > step.y_begin ? 1 : -1;
@@ -126,8 +126,8 @@ EdgePlace nearest_edge(std::span<const sim::GroundStep> steps, sim::Vector3 worl
     const double width = std::abs(step.y_end - step.y_begin);
     const double distance = std::max({-across, across - width, 0.0});
     const double reach = step.rise < 0 && across > width ? behind_drop : beside_edge;
-    if (distance >= std::min(least, reach)) continue;
-    least = distance;
+    if (distance >= std::min(min_distance, reach)) continue;
+    min_distance = distance;
     const bool up = step.rise > 0;
     nearest = {.step = &step, .part = Part::face};
     if (across < 0) nearest.part = up ? Part::lower : Part::upper;
@@ -136,13 +136,13 @@ EdgePlace nearest_edge(std::span<const sim::GroundStep> steps, sim::Vector3 worl
   return nearest;
 }
 
-/// A scan with ghosts at its end.
-struct HauntedScan {
+/// A scan followed by added ghost points.
+struct GhostScan {
   sim::SimulatedScan scan;
   std::size_t first_added = 0;
 };
 
-HauntedScan add_ghosts(sim::SimulatedScan scan, std::size_t count, std::uint64_t seed) {
+GhostScan add_ghosts(sim::SimulatedScan scan, std::size_t count, std::uint64_t seed) {
   std::vector<std::size_t> ground;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const bool near = std::hypot(scan.xyzi[4 * i], scan.xyzi[4 * i + 1]) < ghost_range;
@@ -155,7 +155,7 @@ HauntedScan add_ghosts(sim::SimulatedScan scan, std::size_t count, std::uint64_t
   for (std::size_t k = 0; k < count && !ground.empty(); ++k) {
     const double drawn = random.uniform() * static_cast<double>(ground.size());
     const std::size_t above = 4 * ground[static_cast<std::size_t>(drawn)];
-    const auto depth = static_cast<float>(random.uniform(least_depth, most_depth));
+    const auto depth = static_cast<float>(random.uniform(min_depth, max_depth));
     const std::array<float, 4> ghost = {scan.xyzi[above], scan.xyzi[above + 1],
                                         scan.xyzi[above + 2] - depth, 0};
     scan.xyzi.insert(scan.xyzi.end(), ghost.begin(), ghost.end());
@@ -164,35 +164,35 @@ HauntedScan add_ghosts(sim::SimulatedScan scan, std::size_t count, std::uint64_t
   return {std::move(scan), first};
 }
 
-/// Where the points of a scan lie: the same for all methods.
-std::vector<EdgePlace> places_of(const sim::SimulatedScan& scan, const sim::Frame& pose,
-                                 std::span<const sim::GroundStep> steps) {
-  std::vector<EdgePlace> places(scan.size());
+/// The edge position of each point of a scan.
+std::vector<EdgePosition> positions_of(const sim::SimulatedScan& scan, const sim::Frame& pose,
+                                       std::span<const sim::GroundStep> steps) {
+  std::vector<EdgePosition> positions(scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const float* const p = scan.xyzi.data() + 4 * i;
     if (std::hypot(p[0], p[1]) >= bands.back()) continue;
     if (!sim::is_ground(static_cast<sim::SemanticClass>(scan.classes[i]))) continue;
-    places[i] = nearest_edge(steps, pose.to_world({p[0], p[1], p[2]}));
+    positions[i] = nearest_edge(steps, pose.to_world({p[0], p[1], p[2]}));
   }
-  return places;
+  return positions;
 }
 
-void add_scan(const HauntedScan& haunted, std::span<const EdgePlace> places,
+void add_scan(const GhostScan& ghost_scan, std::span<const EdgePosition> positions,
               std::span<const Label> labels, Findings& findings) {
-  const sim::SimulatedScan& scan = haunted.scan;
+  const sim::SimulatedScan& scan = ghost_scan.scan;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const auto semantic = static_cast<sim::SemanticClass>(scan.classes[i]);
     if (labels[i] == Label::out_of_range || labels[i] == Label::invalid) continue;
     if (semantic == sim::SemanticClass::outlier) {
-      (i < haunted.first_added ? findings.ghosts : findings.lone).add(labels[i]);
+      (i < ghost_scan.first_added ? findings.ghosts : findings.added).add(labels[i]);
     } else if (!sim::is_ground(semantic)) {
       findings.not_ground.add(labels[i]);
-    } else if (places[i].step != nullptr) {
+    } else if (positions[i].step != nullptr) {
       const double range = std::hypot(scan.xyzi[4 * i], scan.xyzi[4 * i + 1]);
       const auto band =
           static_cast<std::size_t>(std::ranges::upper_bound(bands, range) - bands.begin());
-      Edge& edge = findings.kind_of(*places[i].step).by_range[band];
-      edge[static_cast<std::size_t>(places[i].part)].add(labels[i]);
+      Edge& edge = findings.kind_of(*positions[i].step).by_range[band];
+      edge[static_cast<std::size_t>(positions[i].part)].add(labels[i]);
     }
   }
 }
@@ -204,22 +204,22 @@ void survey(std::string_view scene_name, unsigned drives, std::vector<Method>& m
     const sim::Scene scene = drive.scene();
     const std::size_t added = drive.steps().empty() ? 0 : added_ghosts;
     for (int frame = 0; frame < sim::frames_per_drive; ++frame) {
-      say_on_terminal(fmt::format("{}, drive {}, scan {}", scene_name, seed, frame));
+      show_progress(fmt::format("{}, run {}, scan {}", scene_name, seed, frame));
       const auto index = static_cast<std::size_t>(frame);
-      const HauntedScan haunted = add_ghosts(drive.scan(scene, sim::Noise{}, frame), added,
-                                             seed * sim::frames_per_drive + index);
-      const CloudView cloud(haunted.scan.xyzi.data(), haunted.scan.size(), 4);
-      const std::vector<EdgePlace> places =
-          places_of(haunted.scan, drive.poses()[index], drive.steps());
+      const GhostScan ghost_scan = add_ghosts(drive.scan(scene, sim::Noise{}, frame), added,
+                                              seed * sim::frames_per_drive + index);
+      const CloudView cloud(ghost_scan.scan.xyzi.data(), ghost_scan.scan.size(), 4);
+      const std::vector<EdgePosition> positions =
+          positions_of(ghost_scan.scan, drive.poses()[index], drive.steps());
       for (Method& method : methods) {
         if (!method.segmenter->segment(cloud, result).ok()) {
           throw std::runtime_error("not enough memory");
         }
-        add_scan(haunted, places, result.labels(), method.findings[scene_name]);
+        add_scan(ghost_scan, positions, result.labels(), method.findings[scene_name]);
       }
     }
   }
-  say_on_terminal("");
+  show_progress("");
 }
 
 void print_edges(const Method& method, std::string_view scene) {
@@ -237,9 +237,9 @@ void print_edges(const Method& method, std::string_view scene) {
       const auto& [lower, face, upper] = kind.by_range[band];
       if (lower.points + face.points + upper.points > 0) {
         fmt::print("| {} | {:.0f}-{:.0f} | {} | {} | {} | {} | {} | {} | {} |\n", kind.name, from,
-                   bands[band], lower.points, lower.share_of(lower.ground),
-                   lower.share_of(lower.noise), face.points, face.share_of(face.ground),
-                   upper.points, upper.share_of(upper.ground));
+                   bands[band], lower.points, lower.percent_of(lower.ground),
+                   lower.percent_of(lower.noise), face.points, face.percent_of(face.ground),
+                   upper.points, upper.percent_of(upper.ground));
       }
       from = bands[band];
     }
@@ -248,16 +248,18 @@ void print_edges(const Method& method, std::string_view scene) {
 
 void print_rest(const std::vector<Method>& methods, std::span<const std::string_view> scenes) {
   fmt::print(
-      "\n| scene | method | ghosts | ground, % | noise, % | lone ghosts | ground, % | noise, % | "
-      "what stands: points | ground, % |\n|---|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+      "\n| scene | method | simulated ghost points | ground, % | noise, % | added ghost points | "
+      "ground, % | noise, % | "
+      "points of objects | ground, % |\n|---|---|--:|--:|--:|--:|--:|--:|--:|--:|\n");
   for (const std::string_view scene : scenes) {
     for (const Method& method : methods) {
       const Findings& found = method.findings.at(scene);
       fmt::print("| {} | `{}` | {} | {} | {} | {} | {} | {} | {} | {} |\n", scene, method.name,
-                 found.ghosts.points, found.ghosts.share_of(found.ghosts.ground),
-                 found.ghosts.share_of(found.ghosts.noise), found.lone.points,
-                 found.lone.share_of(found.lone.ground), found.lone.share_of(found.lone.noise),
-                 found.not_ground.points, found.not_ground.share_of(found.not_ground.ground));
+                 found.ghosts.points, found.ghosts.percent_of(found.ghosts.ground),
+                 found.ghosts.percent_of(found.ghosts.noise), found.added.points,
+                 found.added.percent_of(found.added.ground),
+                 found.added.percent_of(found.added.noise), found.not_ground.points,
+                 found.not_ground.percent_of(found.not_ground.ground));
     }
   }
 }
@@ -273,12 +275,12 @@ int run(std::string_view names, unsigned drives) {
                                                       "parked_cars"};
   for (const std::string_view scene : scenes) survey(scene, drives, methods);
   fmt::print(
-      "Ground within {} m of edges, behind drops within {} m; {} scans of each scene, seeds 1 to "
-      "{}. "
-      "To each scan of the scenes `steps` and `drops` {} lone ghosts "
-      "are added, {} to {} m below points of the ground within {} m.\n",
-      beside_edge, behind_drop, drives * sim::frames_per_drive, drives, added_ghosts, least_depth,
-      most_depth, ghost_range);
+      "Ground within {} m of edges, or {} m behind drops; {} scans of each scene, seeds 1 to {}. "
+      "{} ghost points "
+      "are added to each scan of the scenes `steps` and `drops`, {} to {} m below ground points "
+      "within {} m.\n",
+      beside_edge, behind_drop, drives * sim::frames_per_drive, drives, added_ghosts, min_depth,
+      max_depth, ghost_range);
   for (const Method& method : methods) {
     for (const std::string_view scene : {scenes[0], scenes[1]}) print_edges(method, scene);
   }
@@ -297,8 +299,10 @@ int main(int argc, char** argv) {
   const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), drives);
   const bool is_count = error == std::errc() && end == count.data() + count.size();
   if (argc > 3 || !is_count || drives < 1 || drives > 1000) {
-    std::fputs("usage: edges [METHOD[/PRESET],... [DRIVES]] (10 scans a drive, 1 to 1000)\n",
-               stderr);
+    std::fputs(
+        "usage: edges [METHOD[/PRESET],... [RUNS]]\nRUNS: 1 to 1000, 10 scans per run (default: "
+        "5)\n",
+        stderr);
     return 2;
   }
   try {

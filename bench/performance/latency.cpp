@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// How long Patchwork and surface take on 10,000 different scans, among them those meant to take
-// long, and which take longer than others of their size. Prints Markdown.
+// Measures the time of Patchwork and surface on 10,000 different scans, including adversarial
+// scans, and lists scans that are slow for their size. Prints Markdown.
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@
 namespace flagstone::performance {
 namespace {
 
-/// How many scans there are of a size; 10,000 together.
+/// The number of scans of one size; 10,000 in total.
 struct SizeClass {
   std::size_t points;
   std::size_t scans;
@@ -41,18 +41,18 @@ struct SizeClass {
 constexpr std::array<SizeClass, 4> size_classes = {
     {{1000, 3600}, {10000, 3600}, {120000, 2640}, {1000000, 160}}};
 
-/// A scan is segmented this often. What an input costs shows in the least of the times; the first
-/// one also has what else the machine does, and caches without the scan's working memory.
+/// Number of runs per scan. The fastest run is the cost of the input. The first run also includes
+/// other programs and cold caches.
 constexpr int repeats = 5;
 
-/// Scans slower than this many times the median of their kind are looked at again once all others
-/// are done, so that what the machine did at that moment is not put down to them.
+/// Scans that take more than this multiple of the median of their kind are measured again at the
+/// end, to exclude effects of other programs.
 constexpr double suspicious = 1.2;
 
 struct Times {
-  std::vector<double> first;  ///< of each scan, milliseconds
-  std::vector<double> least;
-  std::vector<std::size_t> scans;  ///< their numbers
+  std::vector<double> first;       ///< first run of each scan, milliseconds
+  std::vector<double> best;        ///< fastest run of each scan, milliseconds
+  std::vector<std::size_t> scans;  ///< numbers of the scans
 };
 
 /// Times by size class and kind.
@@ -72,12 +72,12 @@ class Bench {
       (kinds[k].ordinary ? ordinary_ : others_).push_back(k);
     }
     Random random(points);
-    for (const ScanKind& kind : kinds) {  // memory grows to this size
+    for (const ScanKind& kind : kinds) {  // allocates the buffers
       (void)segmenter_->segment(view_of(kind.draw(points, random)), result_);
     }
   }
 
-  /// Every other scan is an ordinary one.
+  /// The kind of a scan. Every other scan is ordinary.
   [[nodiscard]] std::size_t kind_of(std::size_t scan) const {
     const std::vector<std::size_t>& kinds = scan % 2 == 0 ? ordinary_ : others_;
     return kinds[scan / 2 % kinds.size()];
@@ -88,28 +88,28 @@ class Bench {
     const Cloud cloud = draw(scan);
     times.scans.push_back(scan);
     times.first.push_back(time_of_one(cloud));
-    times.least.push_back(times.first.back());
+    times.best.push_back(times.first.back());
     for (int repeat = 1; repeat < repeats; ++repeat) {
-      times.least.back() = std::min(times.least.back(), time_of_one(cloud));
+      times.best.back() = std::min(times.best.back(), time_of_one(cloud));
     }
   }
 
-  /// Measures those again that are suspicious.
+  /// Measures suspicious scans again.
   void measure_again(Times& times) {
-    const double limit = suspicious * quantile(times.least, 0.5);
+    const double limit = suspicious * quantile(times.best, 0.5);
     for (std::size_t i = 0; i < times.scans.size(); ++i) {
-      if (times.least[i] <= limit) continue;
+      if (times.best[i] <= limit) continue;
       const Cloud cloud = draw(times.scans[i]);
       for (int repeat = 0; repeat < 2 * repeats; ++repeat) {
-        times.least[i] = std::min(times.least[i], time_of_one(cloud));
+        times.best[i] = std::min(times.best[i], time_of_one(cloud));
       }
     }
   }
 
  private:
   Cloud draw(std::size_t scan) {
-    Random own = Random::stream(points_, scan);
-    return kinds_[kind_of(scan)].draw(points_, own);
+    Random random = Random::stream(points_, scan);
+    return kinds_[kind_of(scan)].draw(points_, random);
   }
 
   double time_of_one(const Cloud& cloud) {
@@ -135,12 +135,12 @@ Table measure(std::string_view method, const std::vector<ScanKind>& kinds) {
     std::vector<Times>& times = table.emplace_back(kinds.size());
     Bench bench(method, kinds, size_class.points);
     for (std::size_t scan = 0; scan < size_class.scans; ++scan, ++done) {
-      if (done % 100 == 0) say_on_terminal(fmt::format("{}: {} of 10000 scans", method, done));
+      if (done % 100 == 0) show_progress(fmt::format("{}: {} of 10000 scans", method, done));
       bench.measure(scan, times);
     }
     for (Times& of_kind : times) bench.measure_again(of_kind);
   }
-  say_on_terminal("");
+  show_progress("");
   return table;
 }
 
@@ -150,12 +150,12 @@ Times all_of(const std::vector<Times>& kinds, const std::vector<ScanKind>& names
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     if (only_ordinary && !names[k].ordinary) continue;
     all.first.insert(all.first.end(), kinds[k].first.begin(), kinds[k].first.end());
-    all.least.insert(all.least.end(), kinds[k].least.begin(), kinds[k].least.end());
+    all.best.insert(all.best.end(), kinds[k].best.begin(), kinds[k].best.end());
   }
   return all;
 }
 
-/// | median | 99 % | 99.9 % | greatest | 99.9 % / median |
+/// | median | 99 % | 99.9 % | maximum | 99.9 % / median |
 std::string cells(const std::vector<double>& times) {
   const double median = quantile(times, 0.5);
   const double high = quantile(times, 0.999);
@@ -165,7 +165,7 @@ std::string cells(const std::vector<double>& times) {
 
 void print_by_size(const Table& table, const std::vector<ScanKind>& kinds) {
   fmt::print(
-      "| points, scans, time | median, ms | 99 % | 99.9 % | greatest | 99.9 % / median |\n"
+      "| points, scans, time | median, ms | 99 % | 99.9 % | maximum | 99.9 % / median |\n"
       "|---|---:|---:|---:|---:|---:|\n");
   for (std::size_t s = 0; s < table.size(); ++s) {
     for (const bool ordinary : {true, false}) {
@@ -173,8 +173,8 @@ void print_by_size(const Table& table, const std::vector<ScanKind>& kinds) {
       const std::string title =
           fmt::format("| {}, {} {}", size_classes[s].points, times.first.size(),
                       ordinary ? "ordinary" : "of all kinds");
-      fmt::print("{}, least |{}\n", title, cells(times.least));
-      fmt::print("{}, first |{}\n", title, cells(times.first));
+      fmt::print("{}, best of 5 |{}\n", title, cells(times.best));
+      fmt::print("{}, first run |{}\n", title, cells(times.first));
     }
   }
 }
@@ -182,25 +182,25 @@ void print_by_size(const Table& table, const std::vector<ScanKind>& kinds) {
 void print_by_kind(const Table& table, const std::vector<ScanKind>& kinds) {
   constexpr std::size_t usual = 2;  // 120,000 points
   fmt::print(
-      "\n| kind, {} points, least | median, ms | 99 % | 99.9 % | greatest | 99.9 % / median "
+      "\n| kind, {} points, best of {} | median, ms | 99 % | 99.9 % | maximum | 99.9 % / median "
       "| median / ordinary |\n|---|---:|---:|---:|---:|---:|---:|\n",
       size_classes[usual].points, repeats);
-  const double ordinary = quantile(all_of(table[usual], kinds, true).least, 0.5);
+  const double ordinary = quantile(all_of(table[usual], kinds, true).best, 0.5);
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const std::vector<double>& times = table[usual][k].least;
+    const std::vector<double>& times = table[usual][k].best;
     fmt::print("| {} |{} {:.2f} |\n", kinds[k].name, cells(times), quantile(times, 0.5) / ordinary);
   }
 }
 
-/// Nanoseconds by n log2 n.
+/// Nanoseconds per n log2 n.
 double cost(double milliseconds, std::size_t points) {
   const auto n = static_cast<double>(points);
   return milliseconds * 1e6 / (n * std::log2(n));
 }
 
-/// The last column tells a time that grows faster than points * log(points): from the second size
-/// to the last it would rise.
-void print_growth(const Table& table, const std::vector<ScanKind>& kinds) {
+/// The last column is the ratio of the costs of the last and the second size. It exceeds 1 if the
+/// time grows faster than n log n.
+void print_scaling(const Table& table, const std::vector<ScanKind>& kinds) {
   fmt::print("\n| slowest scan, ns / (n log2 n) |");
   for (const SizeClass& size_class : size_classes) fmt::print(" {} |", size_class.points);
   fmt::print(" last / {} |\n|---|", size_classes[1].points);
@@ -209,7 +209,7 @@ void print_growth(const Table& table, const std::vector<ScanKind>& kinds) {
     fmt::print("\n| {} |", kinds[k].name);
     std::vector<double> costs;
     for (std::size_t s = 0; s < table.size(); ++s) {
-      costs.push_back(cost(quantile(table[s][k].least, 1), size_classes[s].points));
+      costs.push_back(cost(quantile(table[s][k].best, 1), size_classes[s].points));
       fmt::print(" {:.3f} |", costs.back());
     }
     fmt::print(" {:.2f} |", costs.back() / costs[1]);
@@ -219,12 +219,12 @@ void print_growth(const Table& table, const std::vector<ScanKind>& kinds) {
 
 /// Kinds with a scan more than three times as slow as ordinary scans of its size.
 void print_slow(const Table& table, const std::vector<ScanKind>& kinds) {
-  fmt::print("\nSlower than 3 times the median of ordinary scans of the size:\n\n");
+  fmt::print("\nScans that take more than 3 times the median of ordinary scans of their size:\n\n");
   bool any = false;
   for (std::size_t s = 0; s < table.size(); ++s) {
-    const double ordinary = quantile(all_of(table[s], kinds, true).least, 0.5);
+    const double ordinary = quantile(all_of(table[s], kinds, true).best, 0.5);
     for (std::size_t k = 0; k < kinds.size(); ++k) {
-      const double ratio = quantile(table[s][k].least, 1) / ordinary;
+      const double ratio = quantile(table[s][k].best, 1) / ordinary;
       if (ratio <= 3) continue;
       fmt::print("- {} points, {}: {:.2f}\n", size_classes[s].points, kinds[k].name, ratio);
       any = true;
@@ -234,7 +234,7 @@ void print_slow(const Table& table, const std::vector<ScanKind>& kinds) {
 }
 
 int run(const std::vector<std::string_view>& methods) {
-  say_on_terminal("simulating");
+  show_progress("simulating");
   const Sources sources = load_sources();
   const std::vector<ScanKind> kinds = scan_kinds(sources);
   std::size_t real_count = sources.voxel_means.size();
@@ -246,7 +246,7 @@ int run(const std::vector<std::string_view>& methods) {
                real_count);
     print_by_size(table, kinds);
     print_by_kind(table, kinds);
-    print_growth(table, kinds);
+    print_scaling(table, kinds);
     print_slow(table, kinds);
     fmt::print("\n");
     std::fflush(stdout);
@@ -262,8 +262,8 @@ int main(int argc, char** argv) {
   for (const std::string_view method : methods) {
     if (method == "patchwork" || method == "surface") continue;
     std::fputs(
-        "usage: latency [patchwork] [surface], both by default (FLAGSTONE_DATA names the folder of "
-        "real scans)\n",
+        "usage: latency [patchwork] [surface]\n"
+        "Default: both. FLAGSTONE_DATA is the directory of real scans.\n",
         stderr);
     return 2;
   }

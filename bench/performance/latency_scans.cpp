@@ -32,22 +32,22 @@ Point polar(double range, double angle, double z) {
   return point(range * std::cos(angle), range * std::sin(angle), z);
 }
 
-// Numbers from 0 to `count` in an order that makes std::nth_element of this standard library,
-// asked for one of the lowest, the `nth`, work hard. Where `fixed(i)` the number is `count`, the
-// greatest.
+// Numbers from 0 to `count` in an order that is slow for std::nth_element of this standard library
+// when it selects the `nth` number, one of the lowest. If `fixed(i)`, number i is `count`, the
+// maximum.
 //
-// M. D. McIlroy, "A Killer Adversary for Quicksort", Software: Practice and Experience 29(4),
-// 1999: numbers are decided while they are being compared, here each time so that the pivot is
-// high and next to nothing is left out for the next round.
+// M. D. McIlroy, "A Killer Adversary for Quicksort", Software: Practice and Experience 29(4), 1999:
+// the numbers are chosen during the comparisons, so that each pivot is high and each round excludes
+// almost no numbers.
 std::vector<double> adverse_to_selection(std::size_t count, std::size_t nth,
                                          bool (*fixed)(std::size_t)) {
-  const auto greatest = static_cast<double>(count);
+  const auto maximum = static_cast<double>(count);
   constexpr double undecided = 0;
   std::vector<double> numbers(count, undecided);
   for (std::size_t i = 0; i < count; ++i) {
-    if (fixed(i)) numbers[i] = greatest;
+    if (fixed(i)) numbers[i] = maximum;
   }
-  double next = greatest - 1;
+  double next = maximum - 1;
   std::size_t candidate = 0;  // an undecided number that is probably the pivot
   const auto less = [&](std::size_t a, std::size_t b) {
     if (numbers[a] == undecided && numbers[b] == undecided) {
@@ -57,22 +57,22 @@ std::vector<double> adverse_to_selection(std::size_t count, std::size_t nth,
     if (numbers[b] == undecided) candidate = b;
     return numbers[a] < numbers[b];
   };
-  std::vector<std::size_t> places(count);
-  std::iota(places.begin(), places.end(), std::size_t{0});
-  std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(nth), places.end(),
-                   less);
+  std::vector<std::size_t> indices(count);
+  std::iota(indices.begin(), indices.end(), std::size_t{0});
+  std::nth_element(indices.begin(), indices.begin() + static_cast<std::ptrdiff_t>(nth),
+                   indices.end(), less);
   return numbers;
 }
 
 struct NamedPath {
-  std::string set;  ///< the folder in FLAGSTONE_DATA
+  std::string set;  ///< subdirectory of FLAGSTONE_DATA
   std::filesystem::path path;
 };
 
-/// One of the scans, cut to size, turned, and measured anew with an error of up to 2 cm.
+/// A random scan of `scans`, resized, rotated, and with noise of up to 2 cm.
 Cloud variant(const std::vector<Cloud>& scans, std::size_t count, Random& random) {
   Cloud cloud =
-      turned(resized(scans[random.bits() % scans.size()], count), random.uniform(0, two_pi));
+      rotated(resized(scans[random.bits() % scans.size()], count), random.uniform(0, two_pi));
   for (Point& p : cloud) {
     for (float* coordinate : {&p.x, &p.y, &p.z}) {
       *coordinate += static_cast<float>(random.uniform(-0.02, 0.02));
@@ -81,7 +81,7 @@ Cloud variant(const std::vector<Cloud>& scans, std::size_t count, Random& random
   return cloud;
 }
 
-/// Every point drawn by itself.
+/// A cloud of `count` points returned by `draw`.
 template <class Draw>
 Cloud drawn(std::size_t count, const Draw& draw) {
   Cloud cloud;
@@ -90,7 +90,7 @@ Cloud drawn(std::size_t count, const Draw& draw) {
   return cloud;
 }
 
-/// Groups of `length` points on the ground, each group anywhere: runs of that many points.
+/// Groups of `length` points at random positions on the ground: runs of `length` points.
 Cloud short_runs(std::size_t count, std::size_t length, Random& random) {
   double range = 0;
   double angle = 0;
@@ -103,9 +103,9 @@ Cloud short_runs(std::size_t count, std::size_t length, Random& random) {
   });
 }
 
-/// Groups of 64 points around places on the ground, `length` metres long and 5 cm across. Balls
-/// have no direction flatter than another; of needles the two smaller eigenvalues are equal, where
-/// the search for the smallest takes most steps.
+/// Groups of 64 points on the ground, `length` metres long and 5 cm wide. In balls, all eigenvalues
+/// are equal. In needles, the two smaller ones are equal, which is the slowest case of the search
+/// for the smallest.
 Cloud clusters(std::size_t count, double length, Random& random) {
   double x = 0;
   double y = 0;
@@ -139,13 +139,13 @@ Cloud corrupted(Cloud cloud, Random& random) {
   return cloud;
 }
 
-/// What of a bin lies well within it: ranges, metres, and angles, radians.
+/// The interior of a bin, away from its edges: ranges in metres, angles in radians.
 struct Bin {
   double inner, outer;
   double begin, end;
 };
 
-/// One of the preset `default`.
+/// A random bin of the preset `default`.
 Bin some_bin(Random& random) {
   const PatchworkConfig config;
   std::vector<std::pair<double, int>> rings = {{config.min_range, 0}};  // outer radius, sectors
@@ -164,9 +164,9 @@ Bin some_bin(Random& random) {
           .end = begin + 0.95 * width};
 }
 
-/// All points in one bin, as heights that are hardest to find the 20 lowest among. The bound that
-/// the lowest of each of sixteen lanes give lets all of them through, because seven lanes hold
-/// nothing but the greatest.
+/// All points in one bin, with the slowest order of heights for selecting the 20 lowest. The bound
+/// given by the lowest height of each of sixteen lanes excludes nothing, because seven lanes
+/// contain only the maximum.
 Cloud hard_to_select(std::size_t count, Random& random) {
   constexpr std::size_t seeds = 20;  // N_seed of the preset `default`
   static std::map<std::size_t, std::vector<double>> known;
@@ -181,7 +181,7 @@ Cloud hard_to_select(std::size_t count, Random& random) {
   });
 }
 
-/// Numbers of about 1e-39 wherever they can be: processors take a long way round to such numbers.
+/// Coordinates of about 1e-39, because CPUs are slow with denormal numbers.
 Cloud denormal(std::size_t count, Random& random) {
   return drawn(count, [&](std::size_t) {
     const double tiny = random.uniform(-9e-39, 9e-39);
@@ -191,7 +191,7 @@ Cloud denormal(std::size_t count, Random& random) {
   });
 }
 
-/// As many zeros as can be, with heights whose squares are denormal.
+/// A flat circle, with heights whose squares are denormal.
 Cloud small_heights(std::size_t count, Random& random) {
   const double range = random.uniform(3, 79);
   return drawn(count, [&](std::size_t i) {
@@ -201,12 +201,13 @@ Cloud small_heights(std::size_t count, Random& random) {
 }
 
 std::vector<NamedPath> real_scan_paths() {
-  const char* folder = std::getenv("FLAGSTONE_DATA");  // NOLINT(concurrency-mt-unsafe): one thread
+  const char* directory =
+      std::getenv("FLAGSTONE_DATA");  // NOLINT(concurrency-mt-unsafe): one thread
   std::vector<NamedPath> paths;
-  if (folder == nullptr || !std::filesystem::is_directory(folder)) return paths;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    const std::string set = entry.path().lexically_relative(folder).begin()->string();
-    // The airborne scans are no sensor's: none of their points is in range.
+  if (directory == nullptr || !std::filesystem::is_directory(directory)) return paths;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory)) {
+    const std::string set = entry.path().lexically_relative(directory).begin()->string();
+    // The airborne scans are not in a sensor frame: none of their points is in range.
     if (entry.is_regular_file() && io::is_scan_name(entry.path()) && set != "airborne") {
       paths.push_back({.set = set, .path = entry.path()});
     }
@@ -215,7 +216,7 @@ std::vector<NamedPath> real_scan_paths() {
   return paths;
 }
 
-/// None where the file cannot be read.
+/// The finite points of a file; empty if the file cannot be read.
 Cloud finite_points(const std::filesystem::path& path) {
   Cloud cloud;
   io::Cloud file;
@@ -227,7 +228,7 @@ Cloud finite_points(const std::filesystem::path& path) {
   return cloud;
 }
 
-std::vector<ScanKind> made_up_kinds() {
+std::vector<ScanKind> adversarial_kinds() {
   std::vector<ScanKind> kinds;
   const auto add = [&](const char* name, auto draw) {
     kinds.push_back({.name = name, .ordinary = false, .draw = std::move(draw)});
@@ -247,18 +248,18 @@ std::vector<ScanKind> made_up_kinds() {
       return polar(range, angle, ground + slope * range);
     });
   });
-  add("all the same", [](std::size_t count, Random& random) {
+  add("all points equal", [](std::size_t count, Random& random) {
     return Cloud(count, polar(random.uniform(3, 79), random.uniform(0, two_pi), ground));
   });
   add("each in another bin", [](std::size_t count, Random& random) {
-    const double turn = random.uniform(0, two_pi);
+    const double start = random.uniform(0, two_pi);
     return drawn(count, [&](std::size_t i) {
       const double around = std::fmod(static_cast<double>(i) * std::numbers::phi, 1);
       const double out = std::fmod(static_cast<double>(i) * std::numbers::sqrt2, 1);
-      return polar(3 + 76 * out, turn + two_pi * around, ground + random.uniform(-0.05, 0.05));
+      return polar(3 + 76 * out, start + two_pi * around, ground + random.uniform(-0.05, 0.05));
     });
   });
-  // Ground in every cell of surface's grids, and in every patch.
+  // Ground in every cell and every patch of surface.
   add("evenly on a plain", [](std::size_t count, Random& random) {
     return drawn(count, [&](std::size_t) {
       return polar(100 * std::sqrt(random.uniform(0, 1)), random.uniform(0, two_pi),
@@ -281,7 +282,7 @@ std::vector<ScanKind> made_up_kinds() {
       return polar(random.uniform(81, 1e4), random.uniform(0, two_pi), ground);
     });
   });
-  add("any bits", [](std::size_t count, Random& random) {
+  add("arbitrary bit patterns", [](std::size_t count, Random& random) {
     return drawn(count, [&](std::size_t) {
       Point p{};
       for (float* coordinate : {&p.x, &p.y, &p.z}) {
@@ -314,7 +315,7 @@ std::vector<ScanKind> scan_kinds(const Sources& sources) {
                      }});
   };
   add_variants("simulated", sources.simulated);
-  kinds.push_back({.name = "simulated, a quarter without echo",
+  kinds.push_back({.name = "simulated, a quarter without return",
                    .ordinary = false,
                    .draw = [&sources](std::size_t count, Random& random) {
                      Cloud cloud = variant(sources.simulated, count, random);
@@ -331,7 +332,7 @@ std::vector<ScanKind> scan_kinds(const Sources& sources) {
                        return variant(sources.voxel_means, count, random);
                      }});
   }
-  for (ScanKind& kind : made_up_kinds()) kinds.push_back(std::move(kind));
+  for (ScanKind& kind : adversarial_kinds()) kinds.push_back(std::move(kind));
   return kinds;
 }
 

@@ -12,26 +12,26 @@
 
 namespace flagstone::performance {
 
-/// A kind of scan: ordinary ones, and those that somebody would send who wants a scan to take long.
+/// A kind of scan: ordinary or adversarial.
 struct ScanKind {
   std::string name;
-  bool ordinary;  ///< sensors deliver such scans in this order
-  /// Draws a scan of that many points.
+  bool ordinary;  ///< real or simulated scans in sensor order
+  /// Creates a random scan with `count` points.
   std::function<Cloud(std::size_t count, Random& random)> draw;
 };
 
-/// Scans to make others from.
+/// Scans from which others are made.
 struct Sources {
   std::vector<Cloud> simulated;
-  std::map<std::string, std::vector<Cloud>> real;  ///< by sensor, in its order
-  std::vector<Cloud> voxel_means;                  ///< real, in no sensor's order
+  std::map<std::string, std::vector<Cloud>> real;  ///< by data set, in sensor order
+  std::vector<Cloud> voxel_means;                  ///< real, not in sensor order
 };
 
-/// Simulated streets, and the scans in FLAGSTONE_DATA without points that are not finite, as far as
-/// that is set and there.
+/// Simulated streets, and the finite points of the scans in FLAGSTONE_DATA if it is set.
 Sources load_sources();
 
-/// All kinds; those of real scans are left out where there are none. `sources` must outlive them.
+/// All kinds. Kinds of real scans are omitted without real scans. `sources` must outlive the
+/// result.
 std::vector<ScanKind> scan_kinds(const Sources& sources);
 
 }  // namespace flagstone::performance

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// How sharp the surface of a method shows steps of known shape: kerbs, ditches, drops, stairs of
-// the simulated scene `steps`. Prints Markdown.
+// Measures the height and width of steps of known shape in the surface of a method: kerbs, ditches,
+// drops and stairs of the simulated scene `steps`. Prints Markdown.
 
 #include <fmt/format.h>
 
@@ -32,23 +32,24 @@
 namespace flagstone::performance {
 namespace {
 
-/// Upper ends of the bands of range, metres.
+/// Upper limits of the range bands, metres.
 constexpr std::array<double, 3> bands = {10, 20, 40};
 
-/// Views of steps, with the truth in the same places.
+/// Observations of steps, with the ground truth at the same positions.
 struct Views {
-  std::size_t places = 0;
-  std::size_t known = 0;  ///< the surface has a height on both sides
-  std::size_t found = 0;  ///< it shows half of the rise or more
-  std::vector<double> true_rise, rise, true_width, width;  ///< metres; widths where it is found
+  std::size_t positions = 0;
+  std::size_t known = 0;  ///< positions with a surface height on both sides
+  std::size_t found = 0;  ///< positions with at least half of the true rise
+  std::vector<double> true_rise, rise, true_width,
+      width;  ///< metres; widths of steps that were found
 };
 using ViewsByRange = std::array<Views, bands.size()>;
 
 struct KindOfStep {
   std::string_view name;
   double rise;             ///< metres
-  ViewsByRange seen;       ///< the scan has points of the ground on both sides
-  ViewsByRange half_seen;  ///< on the nearer side alone
+  ViewsByRange seen;       ///< with ground points on both sides
+  ViewsByRange half_seen;  ///< with ground points on the near side only
 };
 
 double median(std::vector<double> values) {
@@ -66,7 +67,7 @@ std::vector<float> ground_points(const sim::SimulatedScan& scan) {
   return points;
 }
 
-/// Looks at all steps around the stops of drives.
+/// Measures all steps around the sensor positions of simulated runs.
 class StepSurvey {
  public:
   explicit StepSurvey(std::string_view method)
@@ -76,17 +77,18 @@ class StepSurvey {
     const sim::Drive drive(*sim::find_scene_kind("steps"), Sensor::named("hdl-64e"), seed);
     const sim::Scene scene = drive.scene();
     for (int frame = 0; frame < sim::frames_per_drive; ++frame) {
-      say_on_terminal(fmt::format("drive {}, scan {}", seed, frame));
+      show_progress(fmt::format("run {}, scan {}", seed, frame));
       const sim::SimulatedScan scan = drive.scan(scene, sim::Noise{}, frame);
       if (!segmenter_->segment(CloudView(scan.xyzi.data(), scan.size(), 4), result_).ok()) {
         throw std::runtime_error("not enough memory");
       }
       if (result_.surface().empty()) {
-        throw std::invalid_argument(fmt::format("method {} makes no surface", method_));
+        throw std::invalid_argument(
+            fmt::format("{}: this method does not compute a surface", method_));
       }
       add_scan(drive, scene, drive.poses()[static_cast<std::size_t>(frame)], ground_points(scan));
     }
-    say_on_terminal("");
+    show_progress("");
   }
 
   void print(ViewsByRange KindOfStep::* views) const {
@@ -95,13 +97,13 @@ class StepSurvey {
       return std::pair(std::abs(kind.rise), kind.name);
     });
     fmt::print(
-        "| step | range, m | places | known, % | found, % | rise, cm: true | surface | "
+        "| step | range, m | positions | known, % | found, % | rise, cm: true | surface | "
         "width, m: true | surface |\n|---|---|--:|--:|--:|--:|--:|--:|--:|\n");
     for (const KindOfStep& kind : kinds) {
       double from = 0;
       for (std::size_t band = 0; band < bands.size(); ++band) {
         const Views& in_band = (kind.*views)[band];
-        if (in_band.places > 0) print_row(kind.name, from, bands[band], in_band);
+        if (in_band.positions > 0) print_row(kind.name, from, bands[band], in_band);
         from = bands[band];
       }
     }
@@ -137,7 +139,7 @@ class StepSurvey {
   }
 
   static void add(const sim::StepView& truth, const sim::StepView& found, Views& views) {
-    ++views.places;
+    ++views.positions;
     if (std::isnan(found.rise)) return;
     ++views.known;
     views.true_rise.push_back(truth.rise);
@@ -151,7 +153,7 @@ class StepSurvey {
 
   static void print_row(std::string_view name, double from, double to, const Views& views) {
     const auto percent = [&](std::size_t part) {
-      return 100 * static_cast<double>(part) / static_cast<double>(views.places);
+      return 100 * static_cast<double>(part) / static_cast<double>(views.positions);
     };
     const auto middle = [](const std::vector<double>& values, double unit, int digits) {
       return values.empty() ? std::string("-")
@@ -159,7 +161,7 @@ class StepSurvey {
     };
     constexpr double centimetres = 100;
     fmt::print("| {} | {:.0f}-{:.0f} | {} | {:.0f} | {:.0f} | {} | {} | {} | {} |\n", name, from,
-               to, views.places, percent(views.known), percent(views.found),
+               to, views.positions, percent(views.known), percent(views.found),
                middle(views.true_rise, centimetres, 1), middle(views.rise, centimetres, 1),
                middle(views.true_width, 1, 2), middle(views.width, 1, 2));
   }
@@ -167,7 +169,7 @@ class StepSurvey {
   std::string method_;
   std::unique_ptr<Segmenter> segmenter_;
   Segmentation result_;
-  std::vector<KindOfStep> kinds_;  // in the order in which they are met
+  std::vector<KindOfStep> kinds_;  // in order of first occurrence
 };
 
 int run(const std::string& method, unsigned drives) {
@@ -175,11 +177,15 @@ int run(const std::string& method, unsigned drives) {
   for (std::uint64_t seed = 1; seed <= drives; ++seed) survey.add_drive(seed);
   fmt::print(
       "Steps in the surface of `{}`, {} scans of the scene `steps`, seeds 1 to {}. Rise: from {} m "
-      "before to {} m behind the step; width: from 10 to 90 % of it, where half of it or more is "
-      "found; medians.\n\nPlaces with points of the ground that near on both sides:\n\n",
+      "before to {} m "
+      "behind the step. Width: from 10 to 90 % of the rise, if at least half of it is found. All "
+      "values are "
+      "medians.\n\nPositions with ground points on both sides within that distance:\n\n",
       method, drives * sim::frames_per_drive, drives, sim::beside_step, sim::beside_step);
   survey.print(&KindOfStep::seen);
-  fmt::print("\nOn the nearer side alone, what lies behind is hidden or falls between beams:\n\n");
+  fmt::print(
+      "\nPositions with ground points on the near side only; the far side is hidden or between "
+      "beams:\n\n");
   survey.print(&KindOfStep::half_seen);
   return 0;
 }
@@ -195,7 +201,8 @@ int main(int argc, char** argv) {
   const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), drives);
   const bool is_count = error == std::errc() && end == count.data() + count.size();
   if (argc > 3 || !is_count || drives < 1 || drives > 1000) {
-    std::fputs("usage: sharpness [METHOD [DRIVES]] (10 scans a drive, 1 to 1000 drives)\n", stderr);
+    std::fputs("usage: sharpness [METHOD [RUNS]]\nRUNS: 1 to 1000, 10 scans per run (default: 5)\n",
+               stderr);
     return 2;
   }
   try {

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Does a segmenter hold its memory? Segments SCANS different scans (100,000) by one segmenter into
-// one result, turned and cut to size at random and with faults in one of three, and prints as JSON
-// how much memory the process held over time. Ends with 1 where memory grew after the first tenth.
+// Measures whether the memory of a segmenter stays constant. Segments SCANS different scans
+// (default: 100,000) with one segmenter and one result, and prints the memory of the process over
+// time as JSON. The scans are rotated and cut to random sizes, and every third one is corrupted.
+// The exit code is 1 if the memory grew after the first tenth.
 //
 //   soak METHOD [SCANS]
 
@@ -34,24 +35,24 @@
 namespace flagstone::performance {
 namespace {
 
-constexpr std::size_t rows = 100;  ///< of the table of memory over time
-/// What counts as growth after the first tenth, bytes: a leak of 10 bytes a scan is as much in
-/// 100,000.
+constexpr std::size_t rows = 100;  ///< samples of the memory
+/// Allowed increase after the first tenth of the scans, bytes. A leak of about 10 bytes per scan
+/// reaches it after 100,000 scans.
 constexpr long allowed_growth = 1 << 20;
 
 std::unique_ptr<Segmenter> make(std::string_view method) {
   if (method == "surface") return std::make_unique<Surface>();
   if (method == "patchwork") return std::make_unique<Patchwork>();
-  throw std::invalid_argument("METHOD is patchwork or surface");
+  throw std::invalid_argument("METHOD must be patchwork or surface");
 }
 
-/// Bytes of the process that lie in memory.
+/// Resident memory of the process, bytes.
 long resident_bytes() {
   std::ifstream file("/proc/self/statm");
   long pages = 0;
   long resident = 0;
   file >> pages >> resident;
-  if (!file) throw std::runtime_error("/proc/self/statm cannot be read");
+  if (!file) throw std::runtime_error("/proc/self/statm: cannot be read");
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
@@ -59,8 +60,8 @@ std::size_t below(Random& random, std::size_t count) {
   return static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
 }
 
-/// Points with coordinates that no sensor should deliver, in a tenth of the cloud.
-void spoil(Cloud& cloud, Random& random) {
+/// Replaces a tenth of the points by points with invalid coordinates.
+void corrupt(Cloud& cloud, Random& random) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float huge = std::numeric_limits<float>::max();
   const Point faults[] = {{nan, 0, 0},   {1, 2, huge},   {0, 0, 0},        {-huge, huge, nan},
@@ -69,7 +70,7 @@ void spoil(Cloud& cloud, Random& random) {
   for (std::size_t i = 0; i < cloud.size() / 10; ++i) cloud[below(random, cloud.size())] = fault;
 }
 
-/// Draws scan after scan into the same memory.
+/// Creates random scans in one buffer.
 class Scans {
  public:
   Scans() {
@@ -78,13 +79,14 @@ class Scans {
     for (const Cloud& source : sources_) scan_.reserve(source.size());
   }
 
-  /// Size, turn and height differ from scan to scan; one in fifty is empty.
+  /// A scan of random size, rotation and height. One scan in fifty is empty.
   const Cloud& draw(Random& random) {
     const Cloud& source = sources_[below(random, sources_.size())];
-    const double share = random.uniform();
+    const double fraction = random.uniform();
     const auto count =
-        share < 0.02 ? 0
-                     : static_cast<std::size_t>(share * share * static_cast<double>(source.size()));
+        fraction < 0.02
+            ? 0
+            : static_cast<std::size_t>(fraction * fraction * static_cast<double>(source.size()));
     const double angle = 6.283185307179586 * random.uniform();
     const auto cosine = static_cast<float>(std::cos(angle));
     const auto sine = static_cast<float>(std::sin(angle));
@@ -95,7 +97,7 @@ class Scans {
       const Point& p = source[first + i];
       scan_[i] = {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z + raised};
     }
-    if (!scan_.empty() && random.uniform() < 1.0 / 3) spoil(scan_, random);
+    if (!scan_.empty() && random.uniform() < 1.0 / 3) corrupt(scan_, random);
     return scan_;
   }
 
@@ -112,20 +114,21 @@ int soak(const std::string& method, std::size_t count) {
   nlohmann::ordered_json memory = nlohmann::ordered_json::array();
   std::size_t points = 0;
   long after_warm_up = 0;
-  long most = 0;
+  long maximum = 0;
   for (std::size_t done = 1; done <= count; ++done) {
     const Cloud& scan = scans.draw(random);
     const Status status = segmenter->segment(view_of(scan), result);
     if (!status.ok()) throw std::runtime_error(status.message());
-    if (result.labels().size() != scan.size()) throw std::runtime_error("not one label a point");
+    if (result.labels().size() != scan.size())
+      throw std::runtime_error("number of labels differs from number of points");
     points += scan.size();
     if (done % (count / rows) != 0) continue;
     const long bytes = resident_bytes();
     memory.push_back({{"scans", done}, {"bytes", bytes}});
     if (memory.size() == rows / 10) after_warm_up = bytes;
-    if (memory.size() > rows / 10) most = std::max(most, bytes);
+    if (memory.size() > rows / 10) maximum = std::max(maximum, bytes);
   }
-  const long growth = most - after_warm_up;
+  const long growth = maximum - after_warm_up;
   const nlohmann::ordered_json results = {
       {"method", method},       {"machine", eval::machine_name()},
       {"scans", count},         {"points", points},
@@ -140,7 +143,7 @@ std::size_t count_of(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (error != std::errc() || end != text.data() + text.size() || count < rows ||
       count > 1000000000) {
-    throw std::invalid_argument("SCANS is 100 to 1,000,000,000");
+    throw std::invalid_argument("SCANS must be 100 to 1,000,000,000");
   }
   return count;
 }

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// What each stage of the method `surface` makes of one simulated scan, as files for
-// bench/surface_figures.py: points, patches, grids level by level, what cells observe, the truth.
+// Writes the result of each stage of the method `surface` for one simulated scan: points, patches,
+// the grids of all levels, cell observations, true ground. bench/surface_figures.py draws these
+// files.
 
 #include <algorithm>
 #include <array>
@@ -42,14 +43,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 using surface::OccupiedCell;
 
-/// The true ground is written within this, every so many metres.
+/// Half width and cell size of the grid of the true ground, metres.
 constexpr double truth_extent = 24;
 constexpr double truth_cell = 0.1;
 
-/// A place on disk for what is shown.
-class Folder {
+/// The output directory.
+class OutputDirectory {
  public:
-  explicit Folder(std::filesystem::path path) : path_(std::move(path)) {
+  explicit OutputDirectory(std::filesystem::path path) : path_(std::move(path)) {
     std::filesystem::create_directories(path_);
   }
 
@@ -84,7 +85,7 @@ struct OwnGrid {
   }
 
   OwnGrid(const OwnGrid&) = delete;
-  OwnGrid(OwnGrid&&) = default;  // vectors that are moved stay where they are in memory
+  OwnGrid(OwnGrid&&) = default;  // moving a vector does not move its elements
   OwnGrid& operator=(const OwnGrid&) = delete;
   OwnGrid& operator=(OwnGrid&&) = delete;
   ~OwnGrid() = default;
@@ -102,7 +103,7 @@ Segmentation segment(const sim::SimulatedScan& scan, SurfaceConfig config, int l
   return result;
 }
 
-void write_points(const Folder& folder, const sim::SimulatedScan& scan,
+void write_points(const OutputDirectory& output, const sim::SimulatedScan& scan,
                   const Segmentation& result) {
   std::vector<float> rows;
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -110,7 +111,7 @@ void write_points(const Folder& folder, const sim::SimulatedScan& scan,
     rows.insert(rows.end(), {p[0], p[1], p[2], static_cast<float>(scan.classes[i]),
                              static_cast<float>(result.labels()[i]), result.heights()[i]});
   }
-  folder.write("points", rows, std::array{scan.size(), std::size_t{6}});
+  output.write("points", rows, std::array{scan.size(), std::size_t{6}});
 }
 
 Json patches_json(const Segmentation& result, const SurfaceConfig& config) {
@@ -130,8 +131,8 @@ Json patches_json(const Segmentation& result, const SurfaceConfig& config) {
   return patches;
 }
 
-/// A scan's points as the method sorts them: cell by cell, so that the points of every level's
-/// cells lie together.
+/// The points of a scan sorted by cell, as in the method: the points of a cell of any level are
+/// contiguous.
 class SortedPoints {
  public:
   SortedPoints(const sim::SimulatedScan& scan, const SurfaceConfig& config)
@@ -150,7 +151,7 @@ class SortedPoints {
     return groups_.points(0, cells_.cell_count());
   }
 
-  /// The cells of a grid that hold three points or more.
+  /// The cells of a grid with at least three points.
   [[nodiscard]] std::vector<OccupiedCell> cells_of(const surface::Grid& grid) const {
     std::vector<OccupiedCell> found;
     const std::span<const plane_fits::MovedPoint> points = all();
@@ -168,7 +169,7 @@ class SortedPoints {
   }
 
  private:
-  /// Its place; row and column are too large outside of the grid.
+  /// The cell of a point. Outside the grid, row and column are the width of the grid.
   static OccupiedCell cell_around(const plane_fits::MovedPoint& point, const surface::Grid& grid) {
     const auto outside = static_cast<std::uint32_t>(grid.width);
     const bool inside = std::max(std::abs(point.x), std::abs(point.y)) < grid.extent();
@@ -179,15 +180,16 @@ class SortedPoints {
   }
   static bool is_in(const plane_fits::MovedPoint& point, const OccupiedCell& cell,
                     const surface::Grid& grid) {
-    const OccupiedCell its = cell_around(point, grid);
-    return its.row == cell.row && its.column == cell.column;
+    const OccupiedCell own = cell_around(point, grid);
+    return own.row == cell.row && own.column == cell.column;
   }
 
   surface::SquareCells cells_;
   plane_fits::BinGroups groups_;
 };
 
-/// The surface that a level starts from: what the levels before it made, on its own grid.
+/// The surface at the start of a level: the result of the previous levels on the grid of this
+/// level.
 OwnGrid surface_before(const Segmentation& before, int level) {
   OwnGrid coarse(before.surface().grids().back());
   if (level == 0) return coarse;
@@ -197,8 +199,9 @@ OwnGrid surface_before(const Segmentation& before, int level) {
   return fine;
 }
 
-/// What the cells of a level say about the surface that the levels before it made.
-void write_observations(const Folder& folder, const SortedPoints& points,
+/// Writes the observations of the cells of a level: corrections of the surface of the previous
+/// levels.
+void write_observations(const OutputDirectory& output, const SortedPoints& points,
                         const Segmentation& before, const SurfaceConfig& config, int level) {
   const OwnGrid below = surface_before(before, level);
   const surface::Grid& grid = below.grid;
@@ -223,11 +226,11 @@ void write_observations(const Folder& folder, const SortedPoints& points,
   std::vector<float> all = std::move(corrections);
   all.insert(all.end(), weights.begin(), weights.end());
   all.insert(all.end(), occupied.begin(), occupied.end());
-  folder.write("observed-" + std::to_string(level), all,
+  output.write("observed-" + std::to_string(level), all,
                std::array{std::size_t{3}, grid.width, grid.width});
 }
 
-void write_truth(const Folder& folder, const sim::Scene& scene, const sim::Frame& pose) {
+void write_truth(const OutputDirectory& output, const sim::Scene& scene, const sim::Frame& pose) {
   const sim::HeightAt height = sim::true_heights(scene.ground(), pose);
   const auto width = static_cast<std::size_t>(std::lround(2 * truth_extent / truth_cell));
   std::vector<float> heights;
@@ -239,14 +242,14 @@ void write_truth(const Folder& folder, const sim::Scene& scene, const sim::Frame
       heights.push_back(static_cast<float>(height(metres(column), metres(row))));
     }
   }
-  folder.write("truth", heights, std::array{width, width});
+  output.write("truth", heights, std::array{width, width});
 }
 
-void write_stages(const Folder& folder, std::string_view scene_name, std::uint64_t seed) {
+void write_stages(const OutputDirectory& output, std::string_view scene_name, std::uint64_t seed) {
   const sim::SceneKind* const kind = sim::find_scene_kind(scene_name);
   if (kind == nullptr) {
-    throw std::invalid_argument("no scene " + std::string(scene_name) +
-                                "; `flagstone simulate --help` lists them");
+    throw std::invalid_argument("unknown scene " + std::string(scene_name) +
+                                " (`flagstone simulate --help` lists the scenes)");
   }
   const sim::Drive drive(*kind, Sensor::named("hdl-64e"), sim::drive_seed(seed, 0));
   const sim::Scene scene = drive.scene();
@@ -260,18 +263,18 @@ void write_stages(const Folder& folder, std::string_view scene_name, std::uint64
     const GroundSurface::Grid& finest = result.surface().grids().back();
     std::vector<float> all = finest.heights;
     all.insert(all.end(), finest.confidences.begin(), finest.confidences.end());
-    folder.write("grid-" + std::to_string(levels), all,
+    output.write("grid-" + std::to_string(levels), all,
                  std::array{std::size_t{2}, finest.width, finest.width});
     grids.push_back({{"cell", finest.cell}, {"width", finest.width}});
     if (levels < config.refinement.levels) {
-      write_observations(folder, points, result, config, levels);
+      write_observations(output, points, result, config, levels);
     } else {
-      write_points(folder, scan, result);
-      folder.write("patches", patches_json(result, config));
+      write_points(output, scan, result);
+      output.write("patches", patches_json(result, config));
     }
   }
-  write_truth(folder, scene, drive.poses().front());
-  folder.write("stages", Json{{"scene", scene_name},
+  write_truth(output, scene, drive.poses().front());
+  output.write("stages", Json{{"scene", scene_name},
                               {"seed", seed},
                               {"sensor_height", config.sensor_height},
                               {"lower_bound_weight", config.refinement.lower_bound_weight},
@@ -290,11 +293,12 @@ int main(int argc, char** argv) {
   const std::string_view text = argc == 4 ? argv[2] : "";
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
   if (argc != 4 || error != std::errc() || end != text.data() + text.size()) {
-    std::fputs("usage: surface_stages SCENE SEED FOLDER\n", stderr);
+    std::fputs("usage: surface_stages SCENE SEED DIR\n", stderr);
     return 2;
   }
   try {
-    flagstone::performance::write_stages(flagstone::performance::Folder(argv[3]), argv[1], seed);
+    flagstone::performance::write_stages(flagstone::performance::OutputDirectory(argv[3]), argv[1],
+                                         seed);
     return 0;
   } catch (const std::exception& error_of_run) {
     std::fprintf(stderr, "surface_stages: %s\n", error_of_run.what());

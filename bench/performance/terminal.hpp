@@ -9,8 +9,9 @@
 
 namespace flagstone::performance {
 
-/// What is being measured, on the last line of a terminal; nothing where standard error is none.
-inline void say_on_terminal(const std::string& text) {
+/// Shows `text` on the last line of the terminal, in place of the previous text. Does nothing if
+/// standard error is not a terminal.
+inline void show_progress(const std::string& text) {
   if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
 }
 

@@ -9,30 +9,29 @@
 
 namespace flagstone::performance {
 
-/// The percentile of 100 * `share` (0 to 1); the values keep their order.
-inline double quantile(std::vector<double> values, double share) {
-  return percentile(values, 100 * share);
+/// The `fraction` quantile of the values, from 0 (minimum) to 1 (maximum).
+inline double quantile(std::vector<double> values, double fraction) {
+  return percentile(values, 100 * fraction);
 }
 
-/// How long something takes, milliseconds.
+/// Duration of an operation, milliseconds.
 struct Duration {
   double median = 0;
-  double least = 0;
+  double minimum = 0;
 };
 
-/// Does `work` twice to warm up and then again and again: for `budget` milliseconds, 5 times at
-/// least.
+/// Calls `work` twice as a warm-up, then repeatedly for `budget` milliseconds, at least 5 times.
 template <class Work>
 Duration time_of(const Work& work, double budget = 250) {
   work();
   work();
   std::vector<double> times;
-  for (double spent = 0; times.size() < 5 || spent < budget; spent += times.back()) {
+  for (double elapsed = 0; times.size() < 5 || elapsed < budget; elapsed += times.back()) {
     Stopwatch stopwatch;
     work();
     times.push_back(stopwatch.lap());
   }
-  return {.median = quantile(times, 0.5), .least = quantile(times, 0)};
+  return {.median = quantile(times, 0.5), .minimum = quantile(times, 0)};
 }
 
 }  // namespace flagstone::performance

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Segments scans on demand, for bench/compare.py: one round over all scans for each line of
-// standard input, whose times it prints in nanoseconds. Uses what every revision of the library
-// has, and the method surface where there is one.
+// Segments scans on demand for bench/compare.py. For each line of standard input, it segments all
+// scans once and prints the times in nanoseconds. It uses only the API that every revision of the
+// library has, and the method surface if the revision has it.
 //
-//     segment_loop METHOD FILE...    patchwork or surface; KITTI's .bin: x, y, z and intensity as
-//                                    32-bit floats
+//     segment_loop METHOD FILE...    METHOD: patchwork or surface
+//                                    FILE: KITTI .bin with x, y, z and intensity as 32-bit floats
 
 #include <chrono>
 #include <cstddef>
@@ -21,7 +21,7 @@
 
 namespace {
 
-constexpr std::size_t floats_a_point = 4;
+constexpr std::size_t floats_per_point = 4;
 
 std::vector<float> read_floats(const char* path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
@@ -33,7 +33,7 @@ std::vector<float> read_floats(const char* path) {
   return floats;
 }
 
-/// Null where this revision has no such method.
+/// Null if this revision does not have the method.
 std::unique_ptr<flagstone::Segmenter> make_segmenter(const std::string& method) {
   if (method == "patchwork") return std::make_unique<flagstone::Patchwork>();
 #if __has_include(<flagstone/surface_segmenter.hpp>)  // its name in revisions up to 2026-11-21
@@ -44,7 +44,7 @@ std::unique_ptr<flagstone::Segmenter> make_segmenter(const std::string& method) 
   return nullptr;
 }
 
-/// FNV-1a of the labels: equal wherever the labels are.
+/// FNV-1a hash of the labels.
 std::uint64_t hash_of(const flagstone::Segmentation& result) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const flagstone::Label label : result.labels()) {
@@ -55,7 +55,7 @@ std::uint64_t hash_of(const flagstone::Segmentation& result) {
 
 }  // namespace
 
-/// By this name callgrind is told to count here alone.
+/// Separate function with a fixed name, so that callgrind can count its instructions alone.
 extern "C" [[gnu::noinline]] void segment_measured(flagstone::Segmenter& segmenter,
                                                    const flagstone::CloudView& cloud,
                                                    flagstone::Segmentation& result) {
@@ -66,23 +66,24 @@ int main(int argc, char** argv) {
   const std::string method = argc < 2 ? "" : argv[1];
   const std::unique_ptr<flagstone::Segmenter> segmenter = make_segmenter(method);
   if (segmenter == nullptr) {
-    std::cerr << "this revision has no method \"" << method << "\" to time\n";
+    std::cerr << "method \"" << method << "\" does not exist in this revision\n";
     return 1;
   }
   std::vector<std::vector<float>> scans;
   for (int i = 2; i < argc; ++i) {
     scans.push_back(read_floats(argv[i]));
-    if (scans.back().size() < floats_a_point) {
-      std::cerr << argv[i] << ": holds no points of four 32-bit floats; give KITTI's .bin files\n";
+    if (scans.back().size() < floats_per_point) {
+      std::cerr << argv[i]
+                << ": no points (expected a KITTI .bin file with four 32-bit floats per point)\n";
       return 1;
     }
   }
   flagstone::Segmentation result;
   const auto view_of = [](const std::vector<float>& scan) {
-    return flagstone::CloudView(scan.data(), scan.size() / floats_a_point, floats_a_point);
+    return flagstone::CloudView(scan.data(), scan.size() / floats_per_point, floats_per_point);
   };
 
-  // Twice to warm up; then what the labels are.
+  // Two warm-up rounds, then a round that prints the hashes of the labels.
   for (int round = 0; round < 2; ++round) {
     for (const std::vector<float>& scan : scans) (void)segmenter->segment(view_of(scan), result);
   }
@@ -93,7 +94,7 @@ int main(int argc, char** argv) {
   std::cout << '\n' << std::flush;
 
   for (std::string line; std::getline(std::cin, line);) {
-    // Another program had the core in between: the first scan is not to pay for the caches.
+    // Another program used the core in between: one untimed scan warms the caches.
     (void)segmenter->segment(view_of(scans.back()), result);
     for (const std::vector<float>& scan : scans) {
       const flagstone::CloudView cloud = view_of(scan);
