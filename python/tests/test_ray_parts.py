@@ -287,6 +287,21 @@ class TestUsage:
         assert error.count("\n") == 1
         assert not (scan / "out").exists()
 
+    def test_help_starts_with_examples_and_groups_the_options(self) -> None:
+        text = command.make_parser().format_help()
+        parts = [
+            "Examples:",
+            "Arguments:",
+            "Input:",
+            "Method and settings:",
+            "Output:",
+            "Cluster:",
+            "Other:",
+            "Exit codes:",
+        ]
+        positions = [text.index(part) for part in parts]
+        assert positions == sorted(positions)
+
     @pytest.mark.parametrize("word", ["estimate", "track"])
     def test_estimated_heights_are_rejected(self, scan: Path, word: str) -> None:
         with pytest.raises(ValueError, match=f"sensor_height: '{word}' is not supported here"):

@@ -16,15 +16,18 @@ from flagstone.ray.summary import Interrupted
 
 SUCCESS, SOME_FAILED, USAGE_ERROR = 0, 1, 2
 
-EXAMPLES = """\
-examples:
+DESCRIPTION = """\
+Label every point of all scans in a directory or bucket, on this machine or on a Ray cluster.
+
+Examples:
   flagstone-ray scans/ --output labels/
   flagstone-ray s3://bucket/scans --output s3://bucket/labels --address auto
   flagstone-ray scans/ --in-place --method patchwork --sensor hdl-32e --set distance_margin=0.1
-
+"""
+EPILOG = """\
 Run the same command again to resume an interrupted run or to retry failed scans.
 
-exit codes: 0, success; 1, some scans failed; 2, usage error.
+Exit codes: 0, success; 1, some scans failed; 2, usage error.
 """
 
 
@@ -32,52 +35,70 @@ def make_parser() -> argparse.ArgumentParser:
     """Returns a parser whose options have the names and meanings of those of `flagstone segment`."""
     parser = argparse.ArgumentParser(
         prog="flagstone-ray",
-        description="Label every point of all scans in a directory or bucket, on this machine or on a Ray cluster.",
-        epilog=EXAMPLES,
+        usage="flagstone-ray [OPTIONS] SOURCE (--output DIR | --in-place)",
+        description=DESCRIPTION,
+        epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
+        add_help=False,
     )
-    parser.add_argument("source", help="directory of scans, or one scan: a path, or a URL such as s3://bucket/scans")
-    where = parser.add_mutually_exclusive_group(required=True)
-    where.add_argument(
-        "-o", "--output", metavar="DIR", help="directory or URL for the labels, with the subdirectories of the source"
+    arguments = parser.add_argument_group("Arguments")
+    arguments.add_argument(
+        "source", metavar="SOURCE", help="directory of scans, or one scan: a path, or a URL such as s3://bucket/scans"
     )
-    where.add_argument("--in-place", action="store_true", help="write the labels next to the scans")
-    parser.add_argument("--method", default="surface", metavar="NAME", help="segmentation method (default: surface)")
-    parser.add_argument("--preset", default="default", metavar="NAME", help="preset for patchwork and czm+...")
-    parser.add_argument("--sensor", metavar="NAME|FILE", help="derive settings from a sensor")
-    parser.add_argument("--config", metavar="FILE", help="read settings from a TOML file (see `flagstone config`)")
-    parser.add_argument(
+
+    reading = parser.add_argument_group("Input")
+    reading.add_argument(
+        "--columns", type=int, metavar="N", help="floats per point in .bin files (default: 5 for .pcd.bin, otherwise 4)"
+    )
+
+    method = parser.add_argument_group("Method and settings")
+    method.add_argument("--method", default="surface", metavar="NAME", help="segmentation method (default: surface)")
+    method.add_argument("--preset", default="default", metavar="NAME", help="preset for patchwork and czm+...")
+    method.add_argument("--sensor", metavar="NAME|FILE", help="derive settings from a sensor")
+    method.add_argument("--config", metavar="FILE", help="read settings from a TOML file (see 'flagstone config')")
+    method.add_argument(
         "--set",
         action="append",
         default=[],
         metavar="KEY=VALUE",
         help="override one setting, e.g. point.margin=0.2 (repeatable)",
     )
-    parser.add_argument(
+    method.add_argument(
         "--sensor-height", type=float, metavar="M", help="height of the sensor above the ground, metres"
     )
-    parser.add_argument("--tilt", metavar="X,Y,Z", help="up direction of a tilted sensor, in the sensor frame")
-    parser.add_argument(
+    method.add_argument("--tilt", metavar="X,Y,Z", help="up direction of a tilted sensor, in the sensor frame")
+
+    writing = parser.add_argument_group("Output")
+    where = writing.add_mutually_exclusive_group(required=True)
+    where.add_argument(
+        "-o", "--output", metavar="DIR", help="directory or URL for the labels, with the subdirectories of the source"
+    )
+    where.add_argument("--in-place", action="store_true", help="write the labels next to the scans")
+    writing.add_argument(
         "--format",
         default="label",
-        metavar="label|u8",
-        help="one uint32 per point, or one uint8 per point as a NumPy array (default: label)",
+        metavar="FORMAT",
+        help="label: one uint32 per point; u8: one uint8 per point, as a NumPy array (default: label)",
     )
-    parser.add_argument(
+    writing.add_argument(
         "--label-map",
         default="flagstone",
-        metavar="flagstone|semantic-kitti",
-        help="codes in the label files (default: flagstone)",
+        metavar="NAME",
+        help="codes in the label files: flagstone (0 to 4), or semantic-kitti (40 for ground, 0 otherwise)",
     )
-    parser.add_argument(
-        "--columns", type=int, metavar="N", help="floats per point in .bin files (default: 5 for .pcd.bin, otherwise 4)"
+    writing.add_argument("--overwrite", action="store_true", help="label all scans again, including finished ones")
+
+    cluster = parser.add_argument_group("Cluster")
+    cluster.add_argument(
+        "--address",
+        metavar="ADDRESS",
+        help="Ray cluster to join (default: RAY_ADDRESS, otherwise Ray is started on this machine)",
     )
-    parser.add_argument("--overwrite", action="store_true", help="label all scans again, including finished ones")
-    parser.add_argument(
-        "--address", help="Ray cluster to join (default: RAY_ADDRESS, otherwise Ray is started on this machine)"
-    )
-    parser.add_argument("--workers", type=int, metavar="N", help="number of cores to use (default: all)")
-    parser.add_argument("--version", action="version", version=flagstone.__version__)
+    cluster.add_argument("--workers", type=int, metavar="N", help="number of cores to use (default: all)")
+
+    other = parser.add_argument_group("Other")
+    other.add_argument("--version", action="version", version=flagstone.__version__, help="show the version")
+    other.add_argument("-h", "--help", action="help", help="show this help")
     return parser
 
 
