@@ -51,7 +51,7 @@ bool ContinuousPlanes::is_continuous(const Plane& plane, const Plane& previous, 
                                      double y) const noexcept {
   const double cosine = plane.normal[0] * previous.normal[0] +
                         plane.normal[1] * previous.normal[1] + plane.normal[2] * previous.normal[2];
-  const bool is_level_enough = cosine >= min_cosine_ && plane.normal[2] > 0;  // not if NaN
+  const bool is_level_enough = cosine >= min_cosine_ && plane.normal[2] > 0;  // false for NaN
   if (!is_level_enough) return false;
   return std::abs(height_at(plane, x, y) - height_at(previous, x, y)) <= max_height_change_;
 }

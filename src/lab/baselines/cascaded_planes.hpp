@@ -33,7 +33,7 @@ class ContinuousPlanes {
                                    double y) const noexcept;
 
   double sensor_height_;
-  double min_cosine_;  ///< of the angle between one plane and the next
+  double min_cosine_;  ///< cosine of the maximum angle between consecutive planes
   double max_height_change_;
   RansacConfig search_;
 };

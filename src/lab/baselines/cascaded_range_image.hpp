@@ -52,7 +52,7 @@ class RangeImage {
 
   std::size_t rings_;
   float min_object_height_;
-  std::vector<Cell> cells_;  ///< column by column, in each the lowest ring first
+  std::vector<Cell> cells_;  ///< column by column, lowest ring first
 };
 
 }  // namespace flagstone::baselines

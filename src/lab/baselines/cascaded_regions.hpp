@@ -56,7 +56,8 @@ class Regions {
     return begins_[region + 1] - begins_[region];
   }
 
-  std::vector<float> outer_radii_;   ///< of each section, ascending; the last is infinite
+  std::vector<float>
+      outer_radii_;  ///< outer radius of each section, ascending; the last is infinite
   std::vector<std::size_t> begins_;  ///< index of the first point of each region, and the end
   std::vector<std::size_t> next_;    ///< index for the next point of each region
   Buffer<float> x_, y_, z_;

@@ -222,11 +222,11 @@ HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, con
 
   const FloatVector fewest = hn::Set(d, fewest_points);
   const auto has_mode = hn::And(hn::Ge(gated, fewest), hn::Ge(at_surface, fewest));
-  const auto something_stands = hn::Gt(above, hn::Mul(hn::Set(d, o.max_clutter_ratio), at_surface));
-  const auto is_mode = hn::And(hn::AndNot(something_stands, has_mode),
+  const auto has_obstacle = hn::Gt(above, hn::Mul(hn::Set(d, o.max_clutter_ratio), at_surface));
+  const auto is_mode = hn::And(hn::AndNot(has_obstacle, has_mode),
                                hn::Le(below, hn::Mul(hn::Set(d, most_below), at_surface)));
   const auto only_below = hn::And(hn::Lt(gated, fewest), hn::Lt(bound, gate_below));
-  const auto is_bound = hn::And(hn::And(hn::Or(only_below, hn::And(has_mode, something_stands)),
+  const auto is_bound = hn::And(hn::And(hn::Or(only_below, hn::And(has_mode, has_obstacle)),
                                         hn::Ge(seen, hn::Set(d, fewest_for_lower_bound))),
                                 hn::Lt(bound, hn::Set(d, -least_lowering)));
 

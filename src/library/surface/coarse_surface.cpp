@@ -109,7 +109,7 @@ constexpr float full_weight = 0.5f / (least_deviation * least_deviation);
 constexpr double least_spread = 30;
 
 /// Weight of the expected height below the sensor.
-constexpr float foot_weight = 0.1f / (least_deviation * least_deviation);
+constexpr float expected_weight = 0.1f / (least_deviation * least_deviation);
 
 }  // namespace
 
@@ -162,7 +162,7 @@ void CoarseSurface::add(const Plane& plane, float size) noexcept {
 }
 
 Trend CoarseSurface::trend() const noexcept {
-  if (means_.weight <= 0) return {.height = foot_, .slope_x = 0, .slope_y = 0};
+  if (means_.weight <= 0) return {.height = expected_height_, .slope_x = 0, .slope_y = 0};
   const auto mean = [&](double sum) { return sum / means_.weight; };
   const double x = mean(means_.x);
   const double y = mean(means_.y);
@@ -184,8 +184,8 @@ void CoarseSurface::finish(PullPush& pull_push) noexcept {
   const std::size_t half = grid_.width / 2;
   for (const std::size_t row : {half - 1, half}) {
     for (const std::size_t column : {half - 1, half}) {
-      grid_.heights[row * grid_.width + column] += foot_weight * foot_;
-      grid_.confidences[row * grid_.width + column] += foot_weight;
+      grid_.heights[row * grid_.width + column] += expected_weight * expected_height_;
+      grid_.confidences[row * grid_.width + column] += expected_weight;
     }
   }
   const Trend along = trend();

@@ -23,7 +23,8 @@ class CoarseSurface {
  public:
   /// Writes to the cells of `grid`. The ground below the sensor is expected at height
   /// `-sensor_height`.
-  CoarseSurface(Grid grid, float sensor_height) noexcept : grid_(grid), foot_(-sensor_height) {}
+  CoarseSurface(Grid grid, float sensor_height) noexcept
+      : grid_(grid), expected_height_(-sensor_height) {}
 
   /// Removes all patches.
   void clear() noexcept;
@@ -38,8 +39,8 @@ class CoarseSurface {
   /// The least-squares plane through the means of the patches.
   [[nodiscard]] Trend trend() const noexcept;
 
-  Grid grid_;   ///< before finish(): sums of weighted heights, and sums of weights
-  float foot_;  ///< expected height of the ground below the sensor, metres
+  Grid grid_;              ///< before finish(): sums of weighted heights, and sums of weights
+  float expected_height_;  ///< expected height of the ground below the sensor, metres
 
   /// Weighted sums over the means of the patches, for the trend.
   struct WeightedSums {

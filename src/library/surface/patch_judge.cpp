@@ -34,7 +34,7 @@ struct NeighbourSums {
 };
 
 /// Factor by which predictions reduce slopes.
-inline constexpr float believed_slope = 0.75f;
+inline constexpr float slope_factor = 0.75f;
 
 }  // namespace flagstone::surface
 #endif
@@ -108,15 +108,15 @@ void sum_neighbours(const PatchColumns& columns, const FittedPatch& patch, float
       const FloatVector nearness = hn::Add(one, squared);
       const FloatVector weight = hn::IfThenElseZero(
           near, hn::Div(hn::Load(d, columns.trust + i), hn::Mul(nearness, nearness)));
-      const FloatVector theirs = hn::Add(hn::Mul(dx, hn::Load(d, columns.slope_x + i)),
-                                         hn::Mul(dy, hn::Load(d, columns.slope_y + i)));
-      const FloatVector its =
+      const FloatVector neighbour_rise = hn::Add(hn::Mul(dx, hn::Load(d, columns.slope_x + i)),
+                                                 hn::Mul(dy, hn::Load(d, columns.slope_y + i)));
+      const FloatVector own_rise =
           hn::Add(hn::Mul(dx, hn::Set(d, patch.slope_x)), hn::Mul(dy, hn::Set(d, patch.slope_y)));
       const FloatVector z = hn::Load(d, columns.z + i);
-      const FloatVector believed = hn::Set(d, believed_slope);
-      const FloatVector straight = hn::Add(z, hn::Mul(believed, theirs));
+      const FloatVector factor = hn::Set(d, slope_factor);
+      const FloatVector straight = hn::Add(z, hn::Mul(factor, neighbour_rise));
       const FloatVector bent =
-          hn::Add(z, hn::Mul(hn::Mul(hn::Set(d, 0.5f), believed), hn::Add(theirs, its)));
+          hn::Add(z, hn::Mul(hn::Mul(hn::Set(d, 0.5f), factor), hn::Add(neighbour_rise, own_rise)));
       trust = hn::Add(trust, weight);
       continued = hn::Add(continued, hn::Mul(weight, straight));
       curved = hn::Add(curved, hn::Mul(weight, bent));

@@ -23,7 +23,7 @@ inline constexpr float overhang = 2.5f;
 
 /// Marks of obstacles in cells of 0.5 m. Each cell has two bytes: the first is 1 if it contains a
 /// point above `low`, the second if it contains a point above `high`.
-struct StandingCells {
+struct ObstacleCells {
   std::uint32_t* words;  ///< two cells per word
   std::int32_t width;    ///< cells along a side
   float edge;            ///< cells from the sensor to the edge
@@ -111,23 +111,23 @@ HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables
 
 /// The 0.5 m cells of points within the extent. Points with `there` false get the cell next to the
 /// sensor.
-HWY_INLINE IntVector standing_cell(FloatMask there, FloatVector x, FloatVector y,
-                                   const StandingCells& standing) {
+HWY_INLINE IntVector obstacle_cell(FloatMask there, FloatVector x, FloatVector y,
+                                   const ObstacleCells& obstacles) {
   const FloatTag d;
   const IntTag di;
   const FloatVector two = hn::Set(d, 2.0f);
-  const FloatVector edge = hn::Set(d, standing.edge);
+  const FloatVector edge = hn::Set(d, obstacles.edge);
   const IntVector column = whole_part(hn::Add(hn::IfThenElseZero(there, hn::Mul(x, two)), edge));
   const IntVector row = whole_part(hn::Add(hn::IfThenElseZero(there, hn::Mul(y, two)), edge));
-  return hn::Add(hn::Mul(row, hn::Set(di, standing.width)), column);
+  return hn::Add(hn::Mul(row, hn::Set(di, obstacles.width)), column);
 }
 
 void measure_points(const MeasuredPoints& points, const GridTables& tables,
-                    const SquareCells& cells, const StandingCells& standing) {
+                    const SquareCells& cells, const ObstacleCells& obstacles) {
   const FloatTag d;
   const IntTag di;
   const FloatVector unknown = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
-  auto* const marks = reinterpret_cast<std::uint8_t*>(standing.words);
+  auto* const marks = reinterpret_cast<std::uint8_t*>(obstacles.words);
   HWY_ALIGN std::array<std::int32_t, 2 * lanes> marked;
   HWY_ALIGN std::array<float, lanes> rest;
   for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
@@ -145,13 +145,13 @@ void measure_points(const MeasuredPoints& points, const GridTables& tables,
       hn::Store(height, d, rest.data());
       std::copy_n(rest.data(), points.count - i, points.heights + i);
     }
-    const auto stands =
-        hn::And(hn::Gt(height, hn::Set(d, standing.low)), hn::Lt(height, hn::Set(d, overhang)));
-    if (hn::AllFalse(d, stands)) continue;
-    const auto is_high = hn::RebindMask(di, hn::Gt(height, hn::Set(d, standing.high)));
+    const auto is_obstacle =
+        hn::And(hn::Gt(height, hn::Set(d, obstacles.low)), hn::Lt(height, hn::Set(d, overhang)));
+    if (hn::AllFalse(d, is_obstacle)) continue;
+    const auto is_high = hn::RebindMask(di, hn::Gt(height, hn::Set(d, obstacles.high)));
     const IntVector byte =
-        increment_if(is_high, hn::ShiftLeft<1>(standing_cell(stands, x, y, standing)));
-    const std::size_t count = compress_store(byte, hn::RebindMask(di, stands), marked.data());
+        increment_if(is_high, hn::ShiftLeft<1>(obstacle_cell(is_obstacle, x, y, obstacles)));
+    const std::size_t count = compress_store(byte, hn::RebindMask(di, is_obstacle), marked.data());
     for (std::size_t k = 0; k < count; ++k) {
       // Other threads may set the same mark.
       std::atomic_ref<std::uint8_t>(marks[marked[k]]).store(1, std::memory_order_relaxed);
@@ -160,7 +160,7 @@ void measure_points(const MeasuredPoints& points, const GridTables& tables,
 }
 
 void label_points(const MeasuredPoints& points, const PointRule& rule, const SquareCells& cells,
-                  const StandingCells& standing, std::uint8_t* labels,
+                  const ObstacleCells& obstacles, std::uint8_t* labels,
                   std::array<std::size_t, label_count>& totals) {
   const FloatTag d;
   const IntTag di;
@@ -190,9 +190,9 @@ void label_points(const MeasuredPoints& points, const PointRule& rule, const Squ
     if (HWY_UNLIKELY(!whole)) there = hn::FirstN(d, points.count - i);
     const auto good = hn::And(is_good(x, y, z, cells), there);
 
-    const IntVector cell = standing_cell(good, x, y, standing);
+    const IntVector cell = obstacle_cell(good, x, y, obstacles);
     const IntVector word = hn::GatherIndex(
-        di, reinterpret_cast<const std::int32_t*>(standing.words), hn::ShiftRight<1>(cell));
+        di, reinterpret_cast<const std::int32_t*>(obstacles.words), hn::ShiftRight<1>(cell));
     const IntVector shift = hn::ShiftLeft<4>(hn::And(cell, hn::Set(di, 1)));
     const IntVector bytes = hn::And(hn::Shr(word, shift), hn::Set(di, 0x101));
     FloatVector margin = hn::IfThenElse(hn::RebindMask(d, hn::Eq(bytes, hn::Zero(di))),
@@ -244,14 +244,14 @@ HWY_EXPORT(measure_points);
 HWY_EXPORT(label_points);
 
 /// Number of 0.5 m cells along one side.
-std::size_t standing_width(const SquareCells& cells) {
+std::size_t obstacle_width(const SquareCells& cells) {
   return static_cast<std::size_t>(4 * cells.extent());
 }
 
 /// The two limits are a quarter below and a quarter above `height`.
-StandingCells standing_cells(const SquareCells& cells, std::uint32_t* words, float height) {
+ObstacleCells obstacle_cells(const SquareCells& cells, std::uint32_t* words, float height) {
   return {.words = words,
-          .width = static_cast<std::int32_t>(standing_width(cells)),
+          .width = static_cast<std::int32_t>(obstacle_width(cells)),
           .edge = 2 * cells.extent(),
           .low = 0.75f * height,
           .high = 1.25f * height};
@@ -271,13 +271,13 @@ MeasuredPoints chunk_of(const plane_fits::ScanPoints& scan, std::size_t chunk, s
 
 PointHeights::PointHeights(const SurfaceConfig& config, const SquareCells& cells)
     : cells_(&cells), rule_(config.point) {
-  const std::size_t width = standing_width(cells);
-  standing_words_ = width * width / 2 + 1;
-  standing_.reserve(standing_words_);
+  const std::size_t width = obstacle_width(cells);
+  obstacle_words_ = width * width / 2 + 1;
+  obstacles_.reserve(obstacle_words_);
 }
 
 void PointHeights::set_surface(std::span<const Grid> grids) noexcept {
-  std::fill_n(standing_.data(), standing_words_, 0);
+  std::fill_n(obstacles_.data(), obstacle_words_, 0);
   tables_.count = grids.size();
   tables_.heights = grids.front().heights;
   for (std::size_t i = 0; i < grids.size(); ++i) {
@@ -296,7 +296,7 @@ void PointHeights::measure(const plane_fits::ScanPoints& scan, std::size_t chunk
                            std::span<float> heights) noexcept {
   HWY_DYNAMIC_DISPATCH(measure_points)
   (chunk_of(scan, chunk, heights.size(), heights.data()), tables_, *cells_,
-   standing_cells(*cells_, standing_.data(), rule_.obstacle_height));
+   obstacle_cells(*cells_, obstacles_.data(), rule_.obstacle_height));
 }
 
 void PointHeights::label(const plane_fits::ScanPoints& scan, std::size_t chunk,
@@ -304,7 +304,7 @@ void PointHeights::label(const plane_fits::ScanPoints& scan, std::size_t chunk,
                          LabelTotals& totals) noexcept {
   HWY_DYNAMIC_DISPATCH(label_points)
   (chunk_of(scan, chunk, heights.size(), heights.data()), rule_, *cells_,
-   standing_cells(*cells_, standing_.data(), rule_.obstacle_height),
+   obstacle_cells(*cells_, obstacles_.data(), rule_.obstacle_height),
    reinterpret_cast<std::uint8_t*>(labels.data()) + chunk * plane_fits::chunk_size, totals);
 }
 

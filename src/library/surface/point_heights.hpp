@@ -53,8 +53,9 @@ class PointHeights {
   const SquareCells* cells_;
   PointRule rule_;
   GridTables tables_{};
-  Buffer<std::uint32_t> standing_;  ///< obstacle marks, two bytes per 0.5 m cell; see StandingCells
-  std::size_t standing_words_ = 0;
+  Buffer<std::uint32_t>
+      obstacles_;  ///< obstacle marks, two bytes per 0.5 m cell; see ObstacleCells
+  std::size_t obstacle_words_ = 0;
 };
 
 }  // namespace flagstone::surface

@@ -218,7 +218,7 @@ TEST_P(CellObservations, SeveralPointsBelowTheModeGiveNoObservation) {
 }
 
 TEST_P(CellObservations, PointsExactlyAtTheLimitAreNotBelowTheMode) {
-  heights_are_z_ = true;  // exactly
+  heights_are_z_ = true;  // so that heights are exact
   std::vector<float> heights(20, 0.0f);
   heights.insert(heights.end(), 2, -0.144f);
 
@@ -226,7 +226,7 @@ TEST_P(CellObservations, PointsExactlyAtTheLimitAreNotBelowTheMode) {
 }
 
 TEST_P(CellObservations, PointsExactlyAtTheLimitAreNotAnObstacle) {
-  heights_are_z_ = true;  // exactly
+  heights_are_z_ = true;  // so that heights are exact
   std::vector<float> heights(20, 0.0f);
   heights.insert(heights.end(), 11, 0.18f);
 
@@ -241,7 +241,7 @@ TEST_P(CellObservations, ABushAboveTheSurfaceGivesNoObservation) {
 
 TEST_P(CellObservations, PointsTooFarAboveAreIgnored) {
   std::vector<float> heights(12, 0.0f);
-  heights.insert(heights.end(), 18, 1.6f);  // a car's door or leaves
+  heights.insert(heights.end(), 18, 1.6f);  // a car door or foliage
 
   EXPECT_EQ(observed(heights).weight, 1);
 }

@@ -92,7 +92,7 @@ TEST_P(SlabCountsOn, MatchCountingPointsOneByOne) {
     std::uint32_t above = 0;
     for (std::size_t i = 0; i < size; ++i) {
       const double distance =
-          static_cast<double>(random() % 2000) / 1000 - 0.4997;  // never a limit
+          static_cast<double>(random() % 2000) / 1000 - 0.4997;  // never exactly a limit
       distances.push_back(distance);
       if (std::abs(distance) < 0.125) ++within;
       if (distance > 0.1875 && distance < 0.8875) ++above;
