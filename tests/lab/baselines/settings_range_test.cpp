@@ -92,7 +92,7 @@ TEST(EverySetting, RejectsAnIntegerOutOfRange) {
         static_cast<int>(setting.allowed.low) - 1, static_cast<int>(setting.allowed.high) + 1,
         std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
     for (const int number : numbers) {
-      const std::string complaint =
+      const std::string error =
           error_of(method, i, [&](Setting& spoilt) { *std::get<int*>(spoilt.value) = number; });
       EXPECT_THAT(error, AllOf(HasSubstr(std::string(setting.key) + " = "),
                                HasSubstr("allowed: " + to_string(setting.allowed))))
