@@ -9,7 +9,7 @@
 # [Open3D](https://www.open3d.org). It compares lines of code, time, accuracy and the behaviour for invalid input.
 # Packages that are not installed are skipped.
 #
-#     pip install flagstone[pandas,plot] pypatchworkpp open3d
+#     pip install '.[plot]' pypatchworkpp open3d
 #     python side_by_side.py                                         # print the tables
 #     python side_by_side.py --quick                                 # use fewer scans and rounds
 #     python side_by_side.py --write docs/benchmarks/side-by-side.md     # update the page and its plot

@@ -182,8 +182,8 @@ class Mesh(NamedTuple):
 def surface_mesh(result: Segmentation) -> Mesh:
     """Mesh of the known part of the surface, as fine as its grids; empty if there is no surface.
 
-    The mesh lines pass through the centres of the cells and extend over the whole grid, so the mesh has no gaps or
-    steps where grids meet.
+    The mesh lines pass through the centres of the cells and extend over the whole grid. The mesh therefore has no gaps
+    or steps where grids meet.
     """
     ground = result.surface
     if not ground:

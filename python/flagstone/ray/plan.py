@@ -66,9 +66,9 @@ class Finished(NamedTuple):
 def finished_scans(scans: Scans, destination: Location, format: str, made_with: dict[str, Any]) -> Finished:
     """The finished scans. Also removes temporary files of killed runs.
 
-    Scans are finished if the statistics contain their row, without an error and with their current size, and their
-    label file has the size for their number of points. They are also finished if a killed run lost their row: then
-    their labels were written after the latest run started, and after the scan.
+    Scans are finished if the statistics contain their row and their label file has the size for their number of points.
+    The row must have no error and the current size of the scan. Scans are also finished if a killed run lost their row:
+    then their labels were written after the latest run started, and after the scan.
 
     Raises:
         ValueError: The labels in the destination were written with other settings.
