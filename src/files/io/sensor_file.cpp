@@ -18,6 +18,7 @@
 
 #include "files/io/load_bytes.hpp"
 #include "files/io/message.hpp"
+#include "library/core/did_you_mean.hpp"
 
 namespace flagstone::io {
 namespace {
@@ -35,8 +36,10 @@ class Fields {
   Fields(const toml::table& table, std::string_view source) : table_(table), source_(source) {
     for (const auto& [key, node] : table) {
       if (std::ranges::find(keys, key.str()) != keys.end()) continue;
-      refuse(node, fmt::format("{} is not a key of a sensor (expected one of {})", quote(key.str()),
-                               fmt::join(keys, ", ")));
+      const std::string_view closest = closest_name(key.str(), keys);
+      const std::string hint = closest.empty() ? "" : fmt::format("; did you mean '{}'?", closest);
+      refuse(node, fmt::format("{} is not a key of a sensor (expected one of {}{})",
+                               quote(key.str()), fmt::join(keys, ", "), hint));
     }
   }
 

@@ -33,7 +33,7 @@ struct Landscape {
 /// A ground and the objects on it, ready for ray casting.
 class Scene {
  public:
-  /// `objects` are without the ground, whose triangles are added here.
+  /// `objects` must not contain the ground, whose triangles are added here.
   Scene(Ground ground, Mesh objects)
       : ground_(std::move(ground)), caster_(with_ground(ground_, std::move(objects))) {}
 

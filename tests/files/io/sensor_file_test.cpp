@@ -103,7 +103,7 @@ TEST(SensorFile, AcceptsASingleBeam) {
 TEST(SensorFile, ErrorsReportPositionKeyAndExpectedValue) {
   EXPECT_THAT(refusal_of(robot + "beems = 3\n"),
               AllOf(StartsWith("robot.toml: line 5, column 9: 'beems' is not a key of a sensor"),
-                    HasSubstr("elevations")));
+                    HasSubstr("elevations"), HasSubstr("did you mean 'beams'?")));
   EXPECT_THAT(refusal_of(robot + "max_range = \"far\"\n"),
               StartsWith("robot.toml: line 5, column 13: max_range must be a number"));
   EXPECT_THAT(refusal_of(robot + "max_range = -1\n"),
