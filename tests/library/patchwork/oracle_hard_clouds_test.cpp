@@ -207,7 +207,7 @@ TEST_P(OracleOnHardClouds, SensorsOnTheGroundAndFarAboveIt) {
     std::vector<Point> cloud = random_cloud(60000, 25);
     std::mt19937 random(13);
     for (Point& p : cloud) p.z += 1.73f - sensor_height + 0.4f * unit(random);
-    expect_agreement_on("sensor " + std::to_string(sensor_height) + " m up", cloud);
+    expect_agreement_on("sensor height " + std::to_string(sensor_height) + " m", cloud);
   }
 }
 

@@ -66,7 +66,7 @@ TEST_P(Oracle, AgreesOnRandomClouds) {
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
     total += compare(tests::view_of(tests::random_cloud(20000, seed)), config);
   }
-  expect_agreement("preset " + preset + ", 10 made-up clouds", total);
+  expect_agreement("preset " + preset + ", 10 random clouds", total);
 }
 
 TEST_P(Oracle, AgreesOnCorruptedClouds) {
