@@ -76,7 +76,7 @@ TEST(EverySetting, RejectsANumberOutOfRangeWithItsNameAndRange) {
         *std::get<float*>(spoilt.value) = static_cast<float>(number);
       });
       EXPECT_THAT(error, AllOf(HasSubstr(std::string(setting.key) + " = "),
-                               HasSubstr("allowed: " + to_string(setting.allowed))))
+                               HasSubstr("expected " + to_string(setting.allowed))))
           << number;
       ++rejected;
     }
@@ -95,7 +95,7 @@ TEST(EverySetting, RejectsAnIntegerOutOfRange) {
       const std::string error =
           error_of(method, i, [&](Setting& spoilt) { *std::get<int*>(spoilt.value) = number; });
       EXPECT_THAT(error, AllOf(HasSubstr(std::string(setting.key) + " = "),
-                               HasSubstr("allowed: " + to_string(setting.allowed))))
+                               HasSubstr("expected " + to_string(setting.allowed))))
           << number;
       ++rejected;
     }
