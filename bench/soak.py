@@ -53,7 +53,7 @@ def table(results):
     lines = [
         f"{results['date']}, {results['machine']}.",
         "",
-        "| method | scans | points, 10⁹ | after the first tenth, MiB | maximum after it, MiB | increase, KiB"
+        "| method | scans | points, billions | after the first tenth, MiB | maximum after it, MiB | increase, KiB"
         " | allowed, KiB |",
         "|---|---:|---:|---:|---:|---:|---:|",
     ]
