@@ -498,8 +498,8 @@ def measure_true_heights(study):
     found = {}
     for number, scene in enumerate(SCENES):
         show_progress(f"errors by height, {scene}")
-        directory = study.work / "simulated" / "sequences" / f"{number:02}"
-        scans = sorted((directory / "velodyne").glob("*0.bin"))  # the first of each simulated run
+        sequence = study.work / "simulated" / "sequences" / f"{number:02}"
+        scans = sorted((sequence / "velodyne").glob("*0.bin"))  # the first of each simulated run
         bands = np.zeros(len(TRUE_HEIGHT_BANDS) + 1)
         ground_points = missed = 0
         with tempfile.TemporaryDirectory(prefix="flagstone-errors-") as directory:
@@ -507,14 +507,14 @@ def measure_true_heights(study):
             study.call(f"flagstone segment {files} --method surface{set_options(study)} --output {directory}")
             for scan in scans:
                 height = np.fromfile(scan, "<f4").reshape(-1, 4)[:, 2]
-                height = height - np.load(directory / "ground" / f"{scan.stem}.ground.npy")
-                truth = np.fromfile(directory / "labels" / f"{scan.stem}.label", "<u4")
-                ours = np.fromfile(pathlib.Path(directory) / f"{scan.stem}.label", "<u4") == 1
+                height = height - np.load(sequence / "ground" / f"{scan.stem}.ground.npy")
+                truth = np.fromfile(sequence / "labels" / f"{scan.stem}.label", "<u4")
+                labelled = np.fromfile(pathlib.Path(directory) / f"{scan.stem}.label", "<u4") == 1
                 is_ground = np.isin(truth & 0xFFFF, (40, 44, 48, 49, 60, 72))
-                taken = ours & ~is_ground & np.isfinite(height)
+                taken = labelled & ~is_ground & np.isfinite(height)
                 bands += np.bincount(np.searchsorted(TRUE_HEIGHT_BANDS, height[taken]), minlength=len(bands))
                 ground_points += int(is_ground.sum())
-                missed += int((is_ground & ~ours).sum())
+                missed += int((is_ground & ~labelled).sum())
         found[scene] = {"taken": (bands / ground_points).tolist(), "missed": missed / ground_points}
     return found
 
