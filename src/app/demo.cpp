@@ -34,9 +34,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr float picture_range = 50;  // metres to the sides; the same for all, to lay side by side
+constexpr float picture_range = 50;  // metres to each side; the same in all images
 
-/// Where the demo writes; laid out as a SemanticKITTI sequence.
+/// The files of the demo, in the layout of a SemanticKITTI sequence.
 struct DemoFiles {
   explicit DemoFiles(const fs::path& folder)
       : scan(folder / "velodyne" / "000000.bin"),
@@ -53,7 +53,7 @@ void must(const Status& status) {
   if (!status.ok()) throw std::runtime_error(status.message());
 }
 
-/// Median time of segmenting the scan again and again, milliseconds.
+/// Median time of segmenting the scan, milliseconds.
 double median_time(Segmenter& method, CloudView cloud, Segmentation& result) {
   std::vector<double> times(21);
   for (double& time : times) {
@@ -69,14 +69,14 @@ void write_files(const DemoFiles& files, const sim::SimulatedScan& scan, const i
   std::error_code error;
   if (fs::exists(files.scan, error) && !fs::exists(files.labels, error)) {
     throw std::invalid_argument(fmt::format(
-        "{}: is not of an earlier demo, which would overwrite it (choose another --output)",
+        "{}: was not written by a demo and would be overwritten (choose another --output)",
         io::printable(files.scan)));
   }
   for (const fs::path& file : {files.scan, files.truth, files.labels}) {
     fs::create_directories(file.parent_path(), error);
     if (error) {
       throw std::runtime_error(
-          fmt::format("{}: cannot be made: {}", file.parent_path().string(), error.message()));
+          fmt::format("{}: cannot be created: {}", file.parent_path().string(), error.message()));
     }
   }
   must(io::write_cloud(files.scan, cloud));
@@ -94,10 +94,9 @@ void draw_pictures(const DemoFiles& files, const io::Cloud& cloud, const Segment
   must(render::draw_birds_eye(files.picture, cloud.view(), result, options));
   options.reference = truth;
   must(render::draw_birds_eye(files.comparison, cloud.view(), result, options));
-  must(render::draw_surface(files.surface, result.surface(),
-                            {.title = "The same street: the ground itself",
-                             .subtitle = heights,
-                             .range = picture_range}));
+  must(render::draw_surface(
+      files.surface, result.surface(),
+      {.title = "Simulated street, ground surface", .subtitle = heights, .range = picture_range}));
 }
 
 }  // namespace
@@ -126,9 +125,9 @@ std::string run_demo(const DemoRequest& request) {
   write_files(files, scan, cloud, result);
   const Status rendering_available = render::rendering_available();
   if (rendering_available.ok()) {
-    draw_pictures(files, cloud, result, truth, scores,
-                  fmt::format("median error {:.1f} cm within 20 m, where the ground was seen",
-                              100 * heights.median));
+    draw_pictures(
+        files, cloud, result, truth, scores,
+        fmt::format("median error {:.1f} cm at ground points within 20 m", 100 * heights.median));
   }
 
   const double share =
@@ -143,19 +142,22 @@ std::string run_demo(const DemoRequest& request) {
   print("  patches      {}, {} of them ground\n", result.patches().size(), ground_patches);
   print("  precision    {:.2f} %\n", 100 * score.precision());
   print("  recall       {:.2f} %\n", 100 * score.recall());
-  print("  F1           {:.2f} %   (every point, against the simulated truth)\n", 100 * score.f1());
-  print("  heights      {:.1f} cm   (median error of ground within 20 m, 95 % below {:.1f} cm)\n",
-        100 * heights.median, 100 * heights.percentile95);
+  print("  F1           {:.2f} %   (all points, against the simulated ground truth)\n",
+        100 * score.f1());
+  print(
+      "  heights      {:.1f} cm   (median error at ground points within 20 m; 95 % below {:.1f} "
+      "cm)\n",
+      100 * heights.median, 100 * heights.percentile95);
   print("  time         {:.2f} ms  (one core, median of 21 runs)\n\n", ms);
   if (rendering_available.ok()) {
-    print("  picture      {}\n", io::printable(files.picture));
+    print("  image        {}\n", io::printable(files.picture));
     print("  compared     {}\n", io::printable(files.comparison));
     print("  surface      {}\n", io::printable(files.surface));
   } else {
-    print("  pictures     none: {}\n", rendering_available.message());
+    print("  images       none: {}\n", rendering_available.message());
   }
   print("  labels       {}\n", io::printable(files.labels));
-  print("  scan, truth  {}, {}\n", io::printable(files.scan), io::printable(files.truth));
+  print("  input        {}, {}\n", io::printable(files.scan), io::printable(files.truth));
   return text;
 }
 

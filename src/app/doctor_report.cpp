@@ -17,6 +17,7 @@
 #include "app/doctor/examination.hpp"
 #include "app/doctor/summary.hpp"
 #include "app/scan_files.hpp"
+#include "app/wrapped.hpp"
 #include "files/io/atomic_file.hpp"
 #include "files/io/message.hpp"
 #include "files/io/read_cloud.hpp"
@@ -33,37 +34,15 @@ constexpr std::array<Severity, 3> most_severe_first{Severity::fix, Severity::not
 constexpr std::size_t id_width = 17;
 constexpr std::size_t line_width = 100;
 
-/// `text`, which begins at `column`, with a line break and `indent` spaces wherever a line would
-/// grow longer than line_width.
-std::string wrapped(std::string_view text, std::size_t column, std::size_t indent) {
-  std::string lines;
-  bool is_first = true;
-  while (!text.empty()) {
-    const std::string_view word = text.substr(0, text.find(' '));
-    text.remove_prefix(std::min(word.size() + 1, text.size()));
-    if (!is_first && column + 1 + word.size() > line_width) {
-      lines += '\n' + std::string(indent, ' ');
-      column = indent;
-    } else if (!is_first) {
-      lines += ' ';
-      ++column;
-    }
-    lines += word;
-    column += word.size();
-    is_first = false;
-  }
-  return lines;
-}
-
 std::string block_of(const Finding& finding, bool bold) {
   constexpr std::size_t indent = 6 + id_width;
+  constexpr TextBox box{.column = indent, .indent = indent, .width = line_width};
   const bool matters = finding.severity != Severity::fine;
   const std::string severity = fmt::format("{:<6}", doctor::to_string(finding.severity));
   std::string block = bold && matters ? "\033[1m" + severity + "\033[0m" : severity;
-  block +=
-      fmt::format("{:<{}}{}\n", finding.id, id_width, wrapped(finding.sentence, indent, indent));
+  block += fmt::format("{:<{}}{}\n", finding.id, id_width, wrapped(finding.sentence, box));
   if (!finding.remedy.empty()) {
-    block += std::string(indent, ' ') + wrapped(finding.remedy, indent, indent) + '\n';
+    block += std::string(indent, ' ') + wrapped(finding.remedy, box) + '\n';
   }
   return block + (matters ? "\n" : "");
 }
@@ -73,18 +52,18 @@ std::size_t count(const DoctorReport& report, Severity severity) {
       std::ranges::count(report.diagnosis.findings, severity, &Finding::severity));
 }
 
-std::string verdict_of(const DoctorReport& report) {
+std::string conclusion_of(const DoctorReport& report) {
   const std::size_t fixes = count(report, Severity::fix);
   const std::size_t notes = count(report, Severity::note);
   std::string text = fixes == 0   ? std::string("Nothing to fix")
                      : fixes == 1 ? std::string("One thing to fix")
                                   : fmt::format("{} things to fix", fixes);
   if (notes > 0) text += notes == 1 ? ", one to note" : fmt::format(", {} to note", notes);
-  return text + (report.diagnosis.advice ? ". These settings fit:\n"
-                                         : ". No settings help as long as it stands.\n");
+  return text + (report.diagnosis.advice ? ". Recommended settings:\n"
+                                         : ". No settings can fix these scans.\n");
 }
 
-/// Files as named; of a folder at most `most`, spread over it evenly.
+/// The named files, and at most `most` scans per directory, evenly spaced.
 std::vector<std::string> chosen_scans(const std::vector<std::string>& paths, std::size_t most,
                                       const RunCallbacks& callbacks) {
   std::vector<std::string> chosen;
@@ -162,8 +141,8 @@ std::string text_of(const DoctorReport& report, bool bold) {
       }
     }
   }
-  if (!plain.empty()) text += wrapped(plain, 0, 6) + '\n';
-  return text + '\n' + verdict_of(report);
+  if (!plain.empty()) text += wrapped(plain, {.indent = 6, .width = line_width}) + '\n';
+  return text + '\n' + conclusion_of(report);
 }
 
 std::string json_of(const DoctorReport& report) {
@@ -198,7 +177,7 @@ std::string json_of(const DoctorReport& report) {
 
 std::string toml_of(const DoctorReport& report) {
   if (!report.diagnosis.advice) {
-    return "# 'flagstone doctor' found no settings that fit these scans\n";
+    return "# 'flagstone doctor' found no settings for these scans\n";
   }
   return doctor::to_toml(*report.diagnosis.advice);
 }

@@ -13,18 +13,18 @@
 
 namespace flagstone::app {
 
-/// Which scans to examine, and the settings to compare them with.
+/// The scans to examine, and the settings to compare them with.
 struct DoctorRequest {
-  std::vector<std::string> scans;  ///< files, and folders of them
-  std::size_t max_scans = 5;       ///< of each folder, spread over it evenly
+  std::vector<std::string> scans;  ///< files and directories
+  std::size_t max_scans = 5;       ///< per directory, evenly spaced
   std::string method;
   MethodConfig config;
   int columns = 0;
-  std::string output{};  ///< file for the settings that fit; empty for none
-  OutputPlan plan{};     ///< the files that settings came from
+  std::string output{};  ///< file for the recommended settings; empty for none
+  OutputPlan plan{};     ///< with the files that settings come from
 };
 
-/// What the doctor saw and says.
+/// Findings and recommended settings.
 struct DoctorReport {
   /// A scan that cannot be read.
   struct Failure {
@@ -32,29 +32,29 @@ struct DoctorReport {
     std::string error;  ///< one line
   };
 
-  std::vector<std::string> files{};  ///< those that were read
+  std::vector<std::string> files{};  ///< the scans that were read
   std::vector<Failure> failures{};
-  std::string method{};  ///< whose settings the scans were compared with
+  std::string method{};  ///< the scans are compared with its settings
   doctor::Diagnosis diagnosis{};
   bool interrupted = false;
 
-  /// Is every scan examined, with nothing to fix?
+  /// True if all scans were examined and no finding has severity `fix`.
   [[nodiscard]] bool ok() const;
 };
 
-/// Examines scans and writes the settings that fit. Without a readable scan, and if interrupted,
+/// Examines scans and writes the recommended settings. If no scan can be read, or if interrupted,
 /// there is no diagnosis. Throws std::invalid_argument if the output would overwrite an input,
 /// std::runtime_error if it cannot be written.
 DoctorReport examine_files(const DoctorRequest& request, const RunCallbacks& callbacks);
 
-/// A block a finding, what is to fix first, then notes, then what is fine; ends with how many there
-/// are of each. `bold`: with the codes of a terminal for what matters.
+/// One block per finding: first severity `fix`, then `note`, then `fine`. The last line counts the
+/// findings. `bold`: emphasise `fix` and `note` with terminal escape codes.
 std::string text_of(const DoctorReport& report, bool bold);
 
 /// One object; docs/reference/doctor-json.md lists its keys.
 std::string json_of(const DoctorReport& report);
 
-/// The settings that fit, for a configuration file. Where there are none, a comment that says so.
+/// The recommended settings as TOML; a comment if there are none.
 std::string toml_of(const DoctorReport& report);
 
 }  // namespace flagstone::app

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What cannot be written is not the user's mistake in the way a wrong option is.
+/// A usage error is std::invalid_argument (exit code 2); a full disk is not (exit code 1).
 void throw_if_bad(const Status& status) {
   if (status.ok()) return;
   if (status.code() == StatusCode::unwritable || status.code() == StatusCode::out_of_memory) {
@@ -43,7 +43,7 @@ void check_limits(const EvaluationOptions& options) {
   }
 }
 
-/// The last folder of a path, "kitti" for "data/kitti/".
+/// The last directory of a path: "kitti" for "data/kitti/".
 std::string dataset_name(const std::string& path) {
   const fs::path clean = fs::path(path).lexically_normal();
   const fs::path name = clean.has_filename() ? clean.filename() : clean.parent_path().filename();
@@ -65,14 +65,14 @@ std::vector<eval::LabelledScan> list_scans(const EvaluationOptions& options) {
   std::ranges::sort(names);
   if (const auto twice = std::ranges::adjacent_find(names); twice != names.end()) {
     throw std::invalid_argument(fmt::format(
-        "scan {} is listed twice; name every dataset and sequence once, and evaluate datasets of "
-        "the same name apart",
+        "{}: this scan is listed twice (name each data set and sequence once, and evaluate data "
+        "sets of the same name separately)",
         *twice));
   }
   return scans;
 }
 
-/// nuScenes' ids mean other things than SemanticKITTI's, and all would look wrong.
+/// nuScenes and SemanticKITTI use different class ids; mixing them up gives wrong scores.
 void check_ids(const eval::Protocol& protocol, const std::vector<eval::LabelledScan>& scans) {
   for (const eval::LabelledScan& scan : scans) {
     const bool are_lidarseg = scan.labels.extension() == ".bin";
@@ -81,7 +81,7 @@ void check_ids(const eval::Protocol& protocol, const std::vector<eval::LabelledS
         eval::known_protocols(), [&](const auto* known) { return known->name == protocol.name; });
     if (is_known && are_lidarseg != wants_lidarseg) {
       throw std::invalid_argument(
-          fmt::format("{}: protocol {} is for {}; use --protocol {}", scan.labels.string(),
+          fmt::format("{}: protocol {} is for {} (expected --protocol {})", scan.labels.string(),
                       protocol.name, wants_lidarseg ? "nuScenes-lidarseg ids" : "SemanticKITTI ids",
                       are_lidarseg ? "lidarseg" : "patchwork or patchwork++"));
     }
@@ -91,8 +91,8 @@ void check_ids(const eval::Protocol& protocol, const std::vector<eval::LabelledS
 eval::Method labels_made_elsewhere(const std::string& entry, io::LabelMap map) {
   const std::size_t equals = entry.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == entry.size()) {
-    throw std::invalid_argument(
-        fmt::format("--labels {}: allowed: NAME=DIR, e.g. --labels other=out/other", entry));
+    throw std::invalid_argument(fmt::format(
+        "--labels {}: is not NAME=DIR (expected e.g. --labels other=out/other)", entry));
   }
   eval::Method method;
   method.name = entry.substr(0, equals);
@@ -101,7 +101,7 @@ eval::Method labels_made_elsewhere(const std::string& entry, io::LabelMap map) {
   method.label_map = map;
   if (!fs::is_directory(method.labels)) {
     throw std::invalid_argument(
-        fmt::format("--labels {}: {}: no such folder", entry, method.labels.string()));
+        fmt::format("--labels {}: {} is not a directory", entry, method.labels.string()));
   }
   return method;
 }
@@ -119,11 +119,11 @@ std::vector<eval::Method> methods_to_evaluate(const config::MethodChoice& choice
     methods.push_back(labels_made_elsewhere(entry, label_map));
   }
   if (methods.empty())
-    throw std::invalid_argument("no method to evaluate; see --methods, --labels");
+    throw std::invalid_argument("no method to evaluate (set --methods or --labels)");
   std::map<std::string, int> count;
   for (const eval::Method& method : methods) {
     if (++count[method.name] == 2) {
-      throw std::invalid_argument(fmt::format("two methods are called {}", method.name));
+      throw std::invalid_argument(fmt::format("{}: two methods have this name", method.name));
     }
   }
   return methods;
@@ -156,7 +156,7 @@ Evaluation::Evaluation(EvaluationOptions options, std::vector<eval::Method> meth
   }
   if (options_.resume && checkpoint_.empty()) {
     throw std::invalid_argument(
-        "--resume needs the results file that the interrupted run had: --json, --csv or --html");
+        "--resume: needs the results file of the interrupted run (set --json, --csv or --html)");
   }
   check_files();
 }
@@ -201,7 +201,8 @@ std::string Evaluation::fingerprint() const {
             : fmt::format("{} {}", method.labels.string(), static_cast<int>(method.label_map)));
   }
   text += fmt::format("\ncolumns {}", options_.columns);
-  for (const std::string& dataset : options_.datasets) {  // scans of two may share their names
+  for (const std::string& dataset :
+       options_.datasets) {  // scans of two data sets may have the same names
     std::error_code ignored;
     text += fmt::format("\n{}", fs::canonical(dataset, ignored).string());
   }
@@ -247,14 +248,14 @@ eval::Results Evaluation::run(const RunCallbacks& callbacks) {
 
   was_interrupted_ = run.done < left.size();
   if (was_interrupted_) {
-    callbacks.say(fmt::format("interrupted, {} of {} scans are done; {}",
+    callbacks.say(fmt::format("interrupted: {} of {} scans are done ({})",
                               scans_.size() - left.size() + run.done, scans_.size(),
                               checkpoint_.empty()
-                                  ? "with --json FILE the next run could continue from here"
-                                  : "the same command with --resume continues from here"));
+                                  ? "only runs with --json, --csv or --html can be resumed"
+                                  : "run the same command with --resume for the rest"));
   }
   eval::Results results = eval::gather(methods_, scans_, outcomes);
-  if (results.scans == 0) remove_checkpoint();  // it holds nothing to go on from
+  if (results.scans == 0) remove_checkpoint();  // there is nothing to resume
   results.protocol = protocol_.name;
   results.threads = static_cast<unsigned>(std::min<std::size_t>(
       threads_or_cores(options_.threads), std::max<std::size_t>(scans_.size(), 1)));

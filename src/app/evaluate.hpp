@@ -20,30 +20,29 @@
 
 namespace flagstone::app {
 
-/// Files that results are written to; empty for none.
+/// Result files to write; empty for none.
 struct ResultFiles {
   std::string json{}, csv{}, html{};
 
-  /// The file that keeps finished scans while a run lasts: next to the first of the files; empty
-  /// for none.
+  /// The checkpoint file, which stores finished scans during a run: next to the first result file;
+  /// empty if there is none.
   [[nodiscard]] std::filesystem::path checkpoint() const;
 };
 
-/// Writes `text` to a result file, if it is named; says whether it was. Throws std::runtime_error
-/// with one line.
+/// Writes `text` to `file` and returns true; returns false if `file` is empty. Throws
+/// std::runtime_error, one line, if the file cannot be written.
 bool write_result(const std::string& file, const std::function<std::string()>& text);
 
-/// Takes one scan in 1 to this many of each sequence.
+/// Upper limit of EvaluationOptions::every.
 inline constexpr std::size_t max_every = 1000000;
 
-/// The methods of a choice in their order, then those whose labels other programs made: `labels`
-/// has NAME=DIR, `label_map` says what their codes mean. Throws std::invalid_argument with one
-/// line.
+/// The chosen methods in their order, then one method per entry of `labels`: NAME=DIR, with labels
+/// of another program in the codes of `label_map`. Throws std::invalid_argument with one line.
 std::vector<eval::Method> methods_to_evaluate(const config::MethodChoice& choice,
                                               const std::vector<std::string>& labels,
                                               io::LabelMap label_map);
 
-/// On what methods are evaluated and how.
+/// The scans to evaluate on, and how.
 struct EvaluationOptions {
   std::vector<std::string> datasets;
   std::vector<std::string> sequences{};  ///< "05"; empty for all
@@ -53,23 +52,23 @@ struct EvaluationOptions {
   unsigned threads = 0;                  ///< scans processed in parallel; 0: all cores
   bool resume = false;                   ///< continue with the checkpoint of an interrupted run
   ResultFiles files{};
-  std::vector<std::string> settings_files{};  ///< that methods were made from: never overwritten
+  std::vector<std::string> settings_files{};  ///< inputs that must not be overwritten
 };
 
-/// Runs methods over the scans of datasets: in parallel, and so that it can be stopped and resumed.
+/// Runs methods on the scans of data sets, in parallel. A run can be stopped and resumed.
 class Evaluation {
  public:
-  /// Creates the directories of the result files. Throws std::invalid_argument with one line that
-  /// says what is wrong with options, methods or datasets, std::runtime_error if a directory cannot
-  /// be created.
+  /// Creates the directories of the result files. Throws std::invalid_argument, one line, if the
+  /// options, methods or data sets are invalid, and std::runtime_error if a directory cannot be
+  /// created.
   Evaluation(EvaluationOptions options, std::vector<eval::Method> methods);
 
-  /// Evaluates every scan that the checkpoint does not have. Errors of scans go to
-  /// `callbacks.message` and into the results. If stopped, results are of the scans done so far.
-  /// Throws std::runtime_error if the checkpoint cannot be written.
+  /// Evaluates every scan that is not in the checkpoint. Errors of scans are passed to
+  /// `callbacks.message` and stored in the results. If stopped, the results cover the finished
+  /// scans. Throws std::runtime_error if the checkpoint cannot be written.
   eval::Results run(const RunCallbacks& callbacks);
 
-  /// Did `callbacks.stop` end the run before all scans were done? The message says so then.
+  /// True if `callbacks.stop` ended the run before all scans were done; a message reports it.
   [[nodiscard]] bool was_interrupted() const noexcept { return was_interrupted_; }
 
   [[nodiscard]] const std::vector<eval::Method>& methods() const noexcept { return methods_; }
@@ -77,7 +76,7 @@ class Evaluation {
   [[nodiscard]] const eval::Protocol& protocol() const noexcept { return protocol_; }
   [[nodiscard]] io::ReadOptions read_options() const noexcept;
 
-  /// Removes the checkpoint: the results are written.
+  /// Removes the checkpoint. Call it after the results are written.
   void remove_checkpoint() const;
 
  private:

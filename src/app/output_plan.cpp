@@ -31,7 +31,7 @@ std::optional<Identity> identity_of(const fs::path& file) {
   return Identity(status.st_dev, status.st_ino);
 }
 
-/// Canonical paths of files, many of which lie in one folder.
+/// Canonical paths of files; remembers the directory, which most files share.
 class CanonicalPaths {
  public:
   fs::path of(const fs::path& file) {
@@ -53,12 +53,12 @@ class CanonicalPaths {
   fs::path folder_, canonical_folder_;
 };
 
-/// May an earlier run have left this file below a dataset?
+/// Could this file in a dataset be the result of an earlier run?
 bool is_result(const fs::path& file) {
-  constexpr std::array<std::string_view, 5> endings{".json", ".csv", ".html", ".png",
-                                                    ".checkpoint"};
+  constexpr std::array<std::string_view, 5> extensions{".json", ".csv", ".html", ".png",
+                                                       ".checkpoint"};
   return file.filename() != "scene.json" &&
-         std::ranges::find(endings, file.extension().string()) != endings.end();
+         std::ranges::find(extensions, file.extension().string()) != extensions.end();
 }
 
 void refuse(const fs::path& output, const fs::path& input) {
@@ -110,7 +110,7 @@ void OutputPlan::check() const {
   for (const fs::path& output : outputs_) {
     if (const auto identity = identity_of(output)) existing.emplace(*identity, &output);
   }
-  if (existing.empty()) return;  // nothing can be lost
+  if (existing.empty()) return;  // nothing can be overwritten
 
   const auto compare = [&](const fs::path& input) {
     const auto identity = identity_of(input);

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// How everything that takes long runs: over many files, on several threads, with progress, and so
-// that the caller can stop it.
+// Runs long work: over many files, on several threads, with progress, and stoppable by the caller.
 #pragma once
 
 #include <chrono>
@@ -20,22 +19,22 @@
 
 namespace flagstone::app {
 
-/// How far a run is.
+/// Progress of a run.
 struct Progress {
   std::size_t done = 0;
   std::size_t total = 0;
   std::string_view unit = "scans";
-  std::optional<double> seconds_left{};  ///< unknown before anything is done
+  std::optional<double> seconds_left{};  ///< unknown until the first job is done
 };
 
-/// "40 of 100 scans, 12 s left", with a bar before it if there is room: at most `columns` wide.
+/// "40 of 100 scans, 12 s left", after a bar if there is room; at most `columns` wide.
 std::string to_text(const Progress& progress, std::size_t columns);
 
-/// What a run calls, from one thread at a time. Each may be empty.
+/// Functions that a run calls, from one thread at a time. Each may be empty.
 struct RunCallbacks {
   std::function<void(const Progress&)> progress{};         ///< called first with nothing done
-  std::function<void(const std::string& line)> message{};  ///< a problem, or what was decided
-  std::function<bool()> stop{};  ///< true: finish the scans in hand and return; thread-safe
+  std::function<void(const std::string& line)> message{};  ///< a problem, or a decision
+  std::function<bool()> stop{};  ///< true: finish the jobs in progress and return; thread-safe
 
   void show(const Progress& at) const {
     if (progress) progress(at);
@@ -46,8 +45,8 @@ struct RunCallbacks {
   [[nodiscard]] bool stopped() const { return stop && stop(); }
 };
 
-/// Turns a number of finished jobs into Progress; the time left assumes that the rest takes as long
-/// per job.
+/// Computes Progress from the number of finished jobs. The time left assumes that the remaining
+/// jobs take as long per job.
 class ProgressMeter {
  public:
   explicit ProgressMeter(std::size_t total, std::string_view unit = "scans")
@@ -61,17 +60,17 @@ class ProgressMeter {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// How a run went.
+/// Outcome of a run.
 struct RunOutcome {
   std::size_t done = 0;  ///< jobs; fewer than all if the caller stopped it
   std::size_t workers = 0;
 };
 
 /// Runs the jobs 0 to `count` - 1 on `threads` threads (0: all cores), see parallel_for.
-/// `make_worker()` is called in each thread, and its result with the number of each job; what that
-/// returns, a report, goes to `deliver(job, report)`: in the order of the jobs, from one thread at
-/// a time, soon where jobs take long and ten times a second where thousands are done in it.
-/// callbacks.progress follows each batch of reports.
+/// Each thread calls `make_worker()` once and the worker with the number of each job. The report
+/// that the worker returns goes to `deliver(job, report)`: in the order of the jobs, from one
+/// thread at a time, in batches at most ten times per second. callbacks.progress follows each
+/// batch.
 template <class MakeWorker, class Deliver>
 RunOutcome run_in_order(std::size_t count, unsigned threads, std::string_view unit,
                         const RunCallbacks& callbacks, const MakeWorker& make_worker,
@@ -80,8 +79,8 @@ RunOutcome run_in_order(std::size_t count, unsigned threads, std::string_view un
   constexpr std::chrono::milliseconds pause{100};
   const ProgressMeter meter(count, unit);
   std::mutex mutex;
-  std::map<std::size_t, Report> waiting;  // for reports of earlier jobs
-  std::size_t next = 0;                   // job to be delivered
+  std::map<std::size_t, Report> waiting;  // until the reports of earlier jobs are delivered
+  std::size_t next = 0;                   // job to deliver next
   std::size_t done = 0;
   bool delivering = false;
   std::chrono::steady_clock::time_point next_delivery;
@@ -95,7 +94,7 @@ RunOutcome run_in_order(std::size_t count, unsigned threads, std::string_view un
       ready.emplace_back(first.key(), std::move(first.mapped()));
     }
     const std::size_t done_now = done;
-    lock.unlock();  // the others go on meanwhile
+    lock.unlock();  // so that other threads can continue
     for (auto& [job, report] : ready) deliver(job, std::move(report));
     callbacks.show(meter.at(done_now));
     lock.lock();

@@ -25,12 +25,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Names of arrays that segment and simulate write, which are not scans: is it one all the same?
-bool is_scan_with_such_a_name(const fs::path& file) {
-  constexpr std::array<std::string_view, 4> endings{".label.npy", ".heights.npy", ".surface.npy",
-                                                    ".ground.npy"};
+/// Is this file a scan although its name is that of an array of labels or heights?
+bool is_scan_despite_name(const fs::path& file) {
+  constexpr std::array<std::string_view, 4> extensions{".label.npy", ".heights.npy", ".surface.npy",
+                                                       ".ground.npy"};
   const std::string_view name = io::file_name(file);
-  if (std::ranges::none_of(endings, [&](auto end) { return io::ends_with(name, end); })) {
+  if (std::ranges::none_of(extensions, [&](auto end) { return io::ends_with(name, end); })) {
     return false;
   }
   std::array<char, 1024> start{};
@@ -42,7 +42,7 @@ bool is_scan_with_such_a_name(const fs::path& file) {
   return header.is_structured || (header.shape.size() == 2 && header.shape[1] >= 3);
 }
 
-/// The scans below a folder by name, and which of them segment wrote beside others.
+/// The scans in a directory and below; knows which of them `segment` wrote.
 class Folder {
  public:
   explicit Folder(const fs::path& path) {
@@ -51,15 +51,14 @@ class Folder {
                                           error);
     for (; !error && walk != fs::recursive_directory_iterator(); walk.increment(error)) {
       const fs::path& file = walk->path();
-      if (walk->is_regular_file(error) &&
-          (io::is_scan_name(file) || is_scan_with_such_a_name(file))) {
+      if (walk->is_regular_file(error) && (io::is_scan_name(file) || is_scan_despite_name(file))) {
         files_.insert(file);
         stems_.insert(without_scan_extension(file));
       }
     }
     if (error) {
       throw std::invalid_argument(
-          fmt::format("{}: cannot be walked: {}", io::printable(path), error.message()));
+          fmt::format("{}: cannot be searched: {}", io::printable(path), error.message()));
     }
   }
 
@@ -96,9 +95,10 @@ std::vector<ScanInput> scans_below(const fs::path& path, const RunCallbacks& cal
     scans.push_back({file, without_scan_extension(file.lexically_relative(path))});
   }
   if (scans.empty()) {
-    throw std::invalid_argument(fmt::format(
-        "{}: no scan in this folder or below it; scans end in .bin, .pcd.bin, .pcd, .ply or .npy",
-        io::printable(path)));
+    throw std::invalid_argument(
+        fmt::format("{}: no scan in this directory or below (expected .bin, .pcd.bin, .pcd, .ply "
+                    "or .npy files)",
+                    io::printable(path)));
   }
   if (const std::size_t skipped = folder.files().size() - scans.size(); skipped > 0) {
     callbacks.say(fmt::format(
@@ -149,8 +149,8 @@ std::vector<ScanInput> list_scans(const std::vector<std::string>& paths,
     const auto [other, is_new] = taken.emplace(scan.output_stem, scan.file);
     if (!is_new) {
       throw std::invalid_argument(fmt::format(
-          "{} and {} would both write to {}.*; name a folder above both, or run them "
-          "apart",
+          "{} and {} would both write to {}.* (name a directory above both, or use separate "
+          "runs)",
           io::printable(other->second), io::printable(scan.file), io::printable(scan.output_stem)));
     }
   }

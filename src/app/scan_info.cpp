@@ -24,7 +24,7 @@ std::string line(const std::string& name, std::size_t count, std::size_t most, s
                      100.0 * static_cast<double>(count) / static_cast<double>(all));
 }
 
-/// 1, 2 or 5 times a power of ten, not below `width`.
+/// The smallest of 1, 2 and 5 times a power of ten that is at least `width`.
 double round_up(double width) {
   const double power = std::pow(10, std::floor(std::log10(width)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -33,10 +33,10 @@ double round_up(double width) {
   return 10 * power;
 }
 
-/// Counts and values of the points that have a place.
+/// Counts of points, and ranges and heights of the valid ones.
 struct Survey {
   std::size_t not_finite = 0;
-  std::size_t zero = 0;  ///< all three coordinates 0: no echo
+  std::size_t zero = 0;  ///< all three coordinates 0: missing returns
   std::vector<float> ranges;
   std::vector<float> heights;
 };
@@ -72,7 +72,7 @@ std::string field_text(const io::Cloud& cloud, const io::Field& field) {
                                ? std::string(io::to_string(field.type))
                                : fmt::format("{}[{}]", io::to_string(field.type), field.count);
   const std::string bounds =
-      low <= high ? fmt::format("{:g} .. {:g}", low, high) : "no finite value";
+      low <= high ? fmt::format("{:g} .. {:g}", low, high) : "no finite values";
   return fmt::format("  {:<18} {:<10} {}\n", io::printable(field.name), type, bounds);
 }
 
@@ -103,7 +103,7 @@ std::string histogram_text(std::span<const float> values, std::span<const float>
     text +=
         line(fmt::format("{:g} .. {:g} m", edges[i], edges[i + 1]), counts[i], most, values.size());
   }
-  if (outside > 0) text += line("beyond", outside, most, values.size());
+  if (outside > 0) text += line("outside", outside, most, values.size());
   return text;
 }
 
@@ -114,7 +114,7 @@ std::vector<float> round_edges(std::span<const float> values, std::size_t count)
   const std::size_t skip = sorted.size() / 1000;
   const double low = sorted[skip];
   const double high = sorted[sorted.size() - 1 - skip];
-  // A wide enough class to tell its edges apart as floats, however large the values.
+  // Bins must be wide enough that their edges differ as floats, however large the values are.
   const double size = std::max(std::abs(low), std::abs(high));
   const double spread = std::max({high - low, 0.01, 1e-4 * size});
   const double width = round_up(spread / static_cast<double>(count));
@@ -132,7 +132,7 @@ std::string info_text(const std::string& file, const io::Cloud& cloud) {
   std::string text = fmt::format("{}\n{:<20} {}, {} bytes each\n", io::printable(file), "points",
                                  cloud.size(), cloud.stride());
   text += count_text("not finite", found.not_finite, cloud.size());
-  text += count_text("all zero (no echo)", found.zero, cloud.size());
+  text += count_text("missing returns", found.zero, cloud.size());
   text += "\nfields               type       bounds\n";
   for (const io::Field& field : cloud.fields()) {
     if (!field.is_padding()) text += field_text(cloud, field);
@@ -140,7 +140,7 @@ std::string info_text(const std::string& file, const io::Cloud& cloud) {
   constexpr std::array range_edges = {0.0f,  2.0f,  5.0f,  10.0f, 20.0f,
                                       30.0f, 40.0f, 60.0f, 80.0f, 120.0f};
   text += "\nrange from the sensor, in the x-y plane\n" + histogram_text(found.ranges, range_edges);
-  text += "\nheight z above the sensor\n" +
+  text += "\nz, height above the sensor\n" +
           histogram_text(found.heights, round_edges(found.heights, 16)) + "\n";
   return text;
 }

@@ -68,7 +68,7 @@ std::string scores_text(std::span<const ScanReport> reports) {
         "protocol {:<12} precision {:>6}  recall {:>6}  F1 {:>6}  (mean of {} scans", protocol,
         mean(scores.precision), mean(scores.recall), mean(scores.f1), with_ground);
     if (const std::size_t others = scores.f1.size() - with_ground; others > 0) {
-      text += fmt::format(", {} without ground in the ground truth left out", others);
+      text += fmt::format(", without {} that have no ground", others);
     }
     text += ", %)\n";
   }
@@ -86,8 +86,8 @@ std::string hint_of(const ScanReport& report) {
   const std::size_t beyond = report.counts[static_cast<std::size_t>(Label::out_of_range)];
   if (2 * beyond <= report.points) return {};
   return {
-      "most points are out of range (expected metres, origin in the sensor; 'flagstone doctor' "
-      "finds the cause)"};
+      "most points are out of range (expected metres and an origin at the sensor; 'flagstone "
+      "doctor' finds the cause)"};
 }
 
 std::string text_line(const ScanReport& report) {
@@ -100,7 +100,7 @@ std::string text_line(const ScanReport& report) {
     line += fmt::format("; F1 {} % ({})", eval::percent_text(confusion.f1()), protocol);
   }
   if (report.mount && report.mount_is_own) {
-    line += fmt::format("; sensor taken for {:.2f} m high: {}", report.mount->mount.sensor_height,
+    line += fmt::format("; sensor height {:.2f} m: {}", report.mount->mount.sensor_height,
                         to_sentence(report.mount->decision));
   }
   if (const std::string hint = hint_of(report); !hint.empty()) line += "; " + hint;
@@ -138,11 +138,11 @@ std::string summary_text(std::span<const ScanReport> reports) {
   }
   std::string text = scores_text(reports);
   text += fmt::format("{} of {} scans segmented, {} points", times.size(), reports.size(), points);
-  if (!times.empty()) text += fmt::format(", median {:.2f} ms a scan", median(times));
+  if (!times.empty()) text += fmt::format(", median {:.2f} ms per scan", median(times));
   return text + "\n";
 }
 
-std::string throughput_text(std::span<const ScanReport> reports, const CrewTime& time) {
+std::string throughput_text(std::span<const ScanReport> reports, const RunTime& time) {
   double scans = 0;
   double bytes = 0;
   double read_ms = 0;
@@ -161,16 +161,16 @@ std::string throughput_text(std::span<const ScanReport> reports, const CrewTime&
   const double all_ms = 1000 * time.seconds * static_cast<double>(time.workers);
   const double files_ms = read_ms + write_ms;
   const double other_ms = std::max(0.0, all_ms - files_ms - segment_ms);
-  const char* const what_binds = other_ms > std::max(files_ms, segment_ms) ? "neither binds"
-                                 : files_ms > segment_ms ? "reading and writing bind"
-                                                         : "segmenting binds";
+  const char* const bottleneck = other_ms > std::max(files_ms, segment_ms) ? "neither"
+                                 : files_ms > segment_ms                   ? "file I/O"
+                                                                           : "segmentation";
   return fmt::format(
-      "{:.1f} scans a second, {:.1f} MB/s read; time of {} {}: {:.0f} % reading, {:.0f} % "
-      "segmenting, {:.0f} % writing, {:.0f} % other; {}: {:.3f} ms of files, {:.3f} ms of "
-      "segmenting a scan\n",
+      "{:.1f} scans per second, {:.1f} MB/s read; {} {}: {:.0f} % reading, {:.0f} % segmenting, "
+      "{:.0f} % writing, {:.0f} % other; bottleneck: {} (per scan {:.3f} ms file I/O, {:.3f} ms "
+      "segmentation)\n",
       scans / time.seconds, bytes / 1e6 / time.seconds, time.workers,
       time.workers == 1 ? "worker" : "workers", 100 * read_ms / all_ms, 100 * segment_ms / all_ms,
-      100 * write_ms / all_ms, 100 * other_ms / all_ms, what_binds, files_ms / scans,
+      100 * write_ms / all_ms, 100 * other_ms / all_ms, bottleneck, files_ms / scans,
       segment_ms / scans);
 }
 

@@ -16,22 +16,22 @@
 
 namespace flagstone::app {
 
-/// Labels compared with a reference under one protocol.
+/// Result of comparing labels with the ground truth under one protocol.
 struct Score {
   std::string protocol;
   eval::Confusion confusion;
 };
 
-/// How the sensor was taken to stand.
+/// The mounting pose that was used for a scan.
 struct MountReport {
-  Mount mount;             ///< what the scan was segmented with
-  MountDecision decision;  ///< what was found out, by this scan or by the one that told the mount
+  Mount mount;             ///< used to segment the scan
+  MountDecision decision;  ///< for this scan, or for the scan that determined the mount
 };
 
-/// What became of one scan.
+/// Outcome of one scan.
 struct ScanReport {
   std::filesystem::path file;
-  std::optional<std::string> error;  ///< one line; the rest is not filled then
+  std::optional<std::string> error;  ///< one line; if set, the rest is not filled in
 
   std::size_t points = 0;
   std::array<std::size_t, label_count> counts{};
@@ -39,38 +39,37 @@ struct ScanReport {
   std::size_t file_size = 0;  ///< bytes read
   double read_ms = 0;
   double segment_ms = 0;
-  double write_ms = 0;    ///< labels or clouds, without the picture
-  double picture_ms = 0;  ///< 0 without a picture
+  double write_ms = 0;    ///< labels or clouds, without images
+  double picture_ms = 0;  ///< 0 without images
   std::vector<Score> scores;
-  std::optional<MountReport> mount;  ///< where it was to be found out
-  bool mount_is_own = false;         ///< by this scan: the line for people says so
+  std::optional<MountReport> mount;  ///< if it was estimated
+  bool mount_is_own = false;         ///< estimated from this scan; text_line() says so
   std::vector<std::filesystem::path> outputs;
 
   [[nodiscard]] double ground_share() const noexcept;
 };
 
-/// What may be wrong if most points are out of range, and how to find out; empty otherwise.
+/// A hint for the user if most points are out of range; otherwise empty.
 std::string hint_of(const ScanReport& report);
 
-/// One line for people.
+/// One line of text.
 std::string text_line(const ScanReport& report);
 
 /// One JSON object, without line breaks.
 std::string json_line(const ScanReport& report);
 
-/// The last lines for people: how many scans, the median time, mean scores.
+/// Lines of text for the end of a run: number of scans, median time, mean scores.
 std::string summary_text(std::span<const ScanReport> reports);
 
-/// How long a crew was at work, and how many they were.
-struct CrewTime {
+/// Duration of a run, and its number of workers.
+struct RunTime {
   double seconds = 0;
   std::size_t workers = 1;
 };
 
-/// A line for people: scans and megabytes (10^6 bytes) per second, what the workers spent their
-/// time on, and which of files and segmenting takes more of it. "Other" is all that is neither:
-/// pictures, scores, printing, waiting for one another. Failed scans do not count. Empty where none
-/// is left.
-std::string throughput_text(std::span<const ScanReport> reports, const CrewTime& time);
+/// One line of text: scans and megabytes (10^6 bytes) per second, how the workers spent their time,
+/// and whether file I/O or segmentation is the bottleneck. "Other" is images, scores, printing and
+/// waiting. Failed scans do not count. Empty if no scan is left.
+std::string throughput_text(std::span<const ScanReport> reports, const RunTime& time);
 
 }  // namespace flagstone::app

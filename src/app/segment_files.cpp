@@ -20,8 +20,8 @@ namespace {
 void check_tint(const ScanJob& job) {
   if (!job.tint_patches || job.config.get_if<PatchworkConfig>() != nullptr) return;
   throw std::invalid_argument(
-      fmt::format("--color-patches: method {} has no zones to tint; --method patchwork has, r_gpf "
-                  "and czm+... too",
+      fmt::format("--color-patches: method {} has no zones (expected --method patchwork, r_gpf or "
+                  "czm+...)",
                   job.method));
 }
 
@@ -30,17 +30,18 @@ void check_surface(const ScanJob& job) {
   for (const auto& [asked, option] :
        {std::pair{job.heights, "--heights"}, std::pair{job.surface, "--surface"}}) {
     if (!asked) continue;
-    throw std::invalid_argument(
-        fmt::format("{}: method {} makes no surface; --method surface does", option, job.method));
+    throw std::invalid_argument(fmt::format(
+        "{}: method {} computes no surface (expected --method surface)", option, job.method));
   }
 }
 
-/// Of the surface only the map is a picture: its grid is written all the same.
+/// Without rendering, --surface still writes the grid, but not the map.
 void check_pictures(const ScanJob& job, const RunCallbacks& callbacks) {
   const Status rendering_available = render::rendering_available();
   if (rendering_available.ok()) return;
   if (job.picture) throw std::invalid_argument("--image: " + rendering_available.message());
-  if (job.surface) callbacks.say("--surface: grids without maps: " + rendering_available.message());
+  if (job.surface)
+    callbacks.say("--surface: writes grids without maps: " + rendering_available.message());
 }
 
 void check_label_map(const SegmentRequest& request) {
@@ -49,7 +50,7 @@ void check_label_map(const SegmentRequest& request) {
     return;
   }
   throw std::invalid_argument(
-      "--label-map: only label files have codes (expected --format label or u8)");
+      "--label-map: this format has no codes (expected --format label or u8)");
 }
 
 void refuse_to_overwrite(const SegmentRequest& request, std::span<const ScanInput> scans) {
@@ -78,16 +79,16 @@ FoundMount find_mount(std::span<const ScanInput> scans, const MountSettings& set
   io::Cloud cloud;
   for (const ScanInput& input : scans.first(std::min(scans.size(), most_scans_asked))) {
     if (callbacks.stopped()) break;
-    if (!io::read_cloud(input.file, read, cloud).ok()) continue;  // it is reported in its turn
+    if (!io::read_cloud(input.file, read, cloud).ok()) continue;  // reported when it is segmented
     found.decision = estimator.estimate(cloud.view());
     found.scan = input.file;
     ++found.asked;
     if (!found.decision.accepted()) continue;
-    const Mount& told = found.decision.mount;
+    const Mount& estimate = found.decision.mount;
     if (settings.height != HeightSource::fixed) {
-      found.settings.mount.sensor_height = told.sensor_height;
+      found.settings.mount.sensor_height = estimate.sensor_height;
     }
-    if (settings.tilt == TiltSource::estimate) found.settings.mount.up = told.up;
+    if (settings.tilt == TiltSource::estimate) found.settings.mount.up = estimate.up;
     break;
   }
   return found;
@@ -95,15 +96,15 @@ FoundMount find_mount(std::span<const ScanInput> scans, const MountSettings& set
 
 std::string to_text(const FoundMount& found) {
   if (found.decision.accepted()) {
-    return fmt::format("mount: {}; told by {}", to_sentence(found.decision),
+    return fmt::format("mount: {} (estimated from {})", to_sentence(found.decision),
                        io::printable(found.scan));
   }
   MountDecision given;
   given.mount = found.settings.mount;
   if (found.scan.empty()) {
-    return fmt::format("mount: {}; no scan to ask could be read", to_sentence(given));
+    return fmt::format("mount: {} (no scan could be read to estimate it)", to_sentence(given));
   }
-  return fmt::format("mount: {}; told by none of the first {} scans, the last, {}: {}",
+  return fmt::format("mount: {} (the first {} scans do not determine it; {}: {})",
                      to_sentence(given), found.asked, io::printable(found.scan),
                      to_sentence(found.decision));
 }
@@ -137,7 +138,7 @@ SegmentOutcome segment_files(SegmentRequest request, const SegmentCallbacks& cal
       scans.size(), threads, "scans", callbacks.run,
       [&] {
         return [&, worker = ScanWorker(job)](std::size_t index) mutable {
-          const std::size_t later = index + threads;  // a scan for each worker
+          const std::size_t later = index + threads;  // one scan ahead per worker
           return worker.run(scans[index], later < scans.size() ? &scans[later] : nullptr);
         };
       },

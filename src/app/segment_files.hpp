@@ -20,33 +20,34 @@
 
 namespace flagstone::app {
 
-/// How the sensor of a run is mounted, found from one of its scans.
+/// The mounting pose of the sensor of a run, estimated from one of its scans.
 struct FoundMount {
-  MountSettings settings;      ///< what all scans are segmented with: fixed
-  MountDecision decision;      ///< of the scan that determines it, or of the last examined
+  MountSettings settings;      ///< for all scans: height and tilt are fixed
+  MountDecision decision;      ///< for the scan that determined it, or the last one examined
   std::filesystem::path scan;  ///< that scan; empty if none can be read
   std::size_t asked = 0;       ///< scans examined
 };
 
-/// Examines at most this many scans.
+/// find_mount() examines at most this many scans.
 inline constexpr std::size_t most_scans_asked = 20;
 
-/// Examines the scans in order, before any is segmented, so that the labels do not depend on how
-/// many are segmented at once. If no scan determines the mount, the given one applies. Scans that
-/// cannot be read are skipped. `settings.height` or `tilt` is `estimate`.
+/// Estimates the mounting pose from the first scan that determines it. If no scan does, the
+/// configured pose is used. Scans that cannot be read are skipped. Call it before any scan is
+/// segmented, so that the labels do not depend on the number of threads. `settings.height` or
+/// `tilt` must be `estimate`.
 FoundMount find_mount(std::span<const ScanInput> scans, const MountSettings& settings,
                       const io::ReadOptions& read, const RunCallbacks& callbacks = {});
 
-/// What was decided and why, one line.
+/// The decision and its reason, on one line.
 std::string to_text(const FoundMount& found);
 
-/// Which scans to segment, and how.
+/// The scans to segment, and how.
 struct SegmentRequest {
-  std::vector<std::string> scans;  ///< files, and folders of them
+  std::vector<std::string> scans;  ///< files and directories
   ScanJob job;
-  bool label_map_given = false;  ///< only label files have codes
+  bool label_map_given = false;  ///< is an error if the format has no codes
   unsigned threads = 0;          ///< 0: all cores
-  OutputPlan plan{};             ///< the files that settings came from
+  OutputPlan plan{};             ///< with the files that settings come from
 };
 
 struct SegmentCallbacks {
@@ -57,16 +58,16 @@ struct SegmentCallbacks {
 
 struct SegmentOutcome {
   std::size_t scans = 0;
-  std::vector<ScanReport> reports;  ///< of the scans that are done
-  CrewTime time;
+  std::vector<ScanReport> reports;  ///< one per finished scan
+  RunTime time;
 
-  /// Is every scan done, without an error?
+  /// True if every scan is done without an error.
   [[nodiscard]] bool ok() const;
 };
 
-/// Segments scans and writes their labels, clouds, heights, surfaces and pictures. A scan that
-/// fails costs its own outputs only. Throws std::invalid_argument with one line before anything is
-/// written if the request does not fit together, or if an output would overwrite an input.
+/// Segments scans and writes their labels, clouds, heights, surfaces and images. A scan that fails
+/// does not affect the others. Throws std::invalid_argument, before anything is written, if options
+/// contradict each other or if an output would overwrite an input.
 SegmentOutcome segment_files(SegmentRequest request, const SegmentCallbacks& callbacks);
 
 }  // namespace flagstone::app

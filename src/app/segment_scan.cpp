@@ -29,13 +29,13 @@ bool is_lidarseg(const fs::path& labels) {
   return labels.filename().string().ends_with("_lidarseg.bin");
 }
 
-/// The protocols that fit the ids of a label file; pictures show the first.
+/// The protocols for the class ids of a label file; images use the first.
 std::vector<const eval::Protocol*> protocols_for(const fs::path& labels) {
   if (is_lidarseg(labels)) return {&eval::lidarseg_protocol()};
   return {&eval::patchwork_protocol(), &eval::patchwork_plusplus_protocol()};
 }
 
-/// The same on every run: the time taken would make pictures differ.
+/// Without times, so that images are the same on every run.
 std::string subtitle(const ScanReport& report) {
   if (report.scores.empty()) {
     return fmt::format("{:.1f} % ground, {} patches", 100 * report.ground_share(), report.patches);
@@ -158,7 +158,7 @@ Status ScanWorker::write(const ScanInput& input, const ScanOutputs& outputs, Sca
   fs::create_directories(folder, error);
   if (error) {
     return Status(StatusCode::unwritable,
-                  fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
+                  fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
   }
   Status status;
   if (job_.format != OutputFormat::split) report.outputs = {outputs.labels};
@@ -213,7 +213,7 @@ Status ScanWorker::write_heights(const ScanOutputs& outputs, ScanReport& report)
 Status ScanWorker::write_surface(const ScanInput& input, ScanReport& report) {
   if (result_.surface().empty()) {
     return Status(StatusCode::invalid_argument,
-                  fmt::format("{}: no surface can be made of it, {} points", input.file.string(),
+                  fmt::format("{}: no surface can be estimated from {} points", input.file.string(),
                               report.points));
   }
   const SurfaceFiles files = surface_files(job_, input);
@@ -252,9 +252,9 @@ Status ScanWorker::draw(const ScanInput& input, const ScanOutputs& outputs,
     report.outputs.push_back(outputs.picture);
   }
   if (job_.surface && render::rendering_available().ok()) {
-    Status status = render::draw_surface(
-        outputs.surface_picture, result_.surface(),
-        {.title = title, .subtitle = "ground as a surface; " + subtitle(report)});
+    Status status =
+        render::draw_surface(outputs.surface_picture, result_.surface(),
+                             {.title = title, .subtitle = "ground surface; " + subtitle(report)});
     if (!status.ok()) return status;
     report.outputs.push_back(outputs.surface_picture);
   }

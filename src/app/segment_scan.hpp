@@ -19,35 +19,36 @@
 
 namespace flagstone::app {
 
-/// What is written for a scan.
+/// The output for a scan.
 enum class OutputFormat {
   label,  ///< STEM.label, one uint32 per point
   u8,     ///< STEM.label.npy, one uint8 per point
-  npy,    ///< STEM.npy, the cloud with a field `label`, with heights also `height`
-  pcd,    ///< STEM.pcd, likewise
-  ply,    ///< STEM.ply, likewise
+  npy,    ///< STEM.npy, the cloud with a field `label`, and `height` with heights
+  pcd,    ///< STEM.pcd, with the same fields
+  ply,    ///< STEM.ply, with the same fields
   split,  ///< STEM.ground.EXT and STEM.nonground.EXT in the format of the input
 };
 
-/// What to do with every scan.
+/// The work to do for every scan.
 struct ScanJob {
   std::string method;
   MethodConfig config;
   MountSettings mount;
-  std::optional<MountDecision> told;  ///< how the mount was found out before, if it was
+  std::optional<MountDecision> told;  ///< of find_mount(), if it was called
   io::ReadOptions read;
   std::filesystem::path output;
   OutputFormat format = OutputFormat::label;
   io::LabelMap label_map = io::LabelMap::flagstone;
   bool picture = false;
   bool tint_patches = false;
-  bool heights = false;             ///< STEM.heights.npy, and a field `height` in labelled clouds
-  bool surface = false;             ///< STEM.surface.npy, .json and .png
-  double surface_resolution = 0;    ///< metres a cell of STEM.surface.npy; 0: the surface's finest
-  std::filesystem::path reference;  ///< a label file, or a folder of them; empty for none
+  bool heights = false;  ///< STEM.heights.npy, and a field `height` in labelled clouds
+  bool surface = false;  ///< STEM.surface.npy, .json and .png
+  double surface_resolution =
+      0;  ///< cell size of STEM.surface.npy, metres; 0: the finest of the surface
+  std::filesystem::path reference;  ///< a label file or a directory; empty for none
 };
 
-/// The files that a job writes for a scan; empty for those it does not.
+/// The files that a job writes for a scan. Empty paths are not written.
 struct ScanOutputs {
   std::filesystem::path labels;  ///< or the labelled cloud
   std::filesystem::path ground, nonground;
@@ -63,7 +64,8 @@ struct ScanOutputs {
   }
 };
 
-/// Reads, segments and writes one scan after another, reusing its memory. One per thread.
+/// Reads, segments and writes one scan after another and reuses its buffers. Not thread-safe: use
+/// one instance per thread.
 class ScanWorker {
  public:
   explicit ScanWorker(const ScanJob& job)
@@ -72,8 +74,8 @@ class ScanWorker {
         runner_(job.config, job.mount),
         label_writer_(job.label_map) {}
 
-  /// Never throws: what goes wrong with this scan is in the report. The file of `later`, a scan
-  /// whose turn comes soon, is fetched meanwhile; null for none.
+  /// Never throws: errors of this scan are in the report. `later`: a scan that comes soon, whose
+  /// file is read ahead; null for none.
   ScanReport run(const ScanInput& input, const ScanInput* later = nullptr) noexcept;
 
  private:
@@ -95,8 +97,8 @@ class ScanWorker {
   io::LabelWriter label_writer_;
 };
 
-/// The label file of a scan: `reference` itself, or in that folder the scan's stem with .label,
-/// _lidarseg.bin or .label.npy. Where there is none, the first name that was tried.
+/// The label file of a scan: `reference` itself, or the file in that directory with the scan's stem
+/// and .label, _lidarseg.bin or .label.npy. If there is none, the first name that was tried.
 std::filesystem::path reference_file(const std::filesystem::path& reference,
                                      const ScanInput& input);
 

@@ -3,7 +3,6 @@
 #include "app/simulate.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -22,32 +21,33 @@
 #include "lab/sim/drive.hpp"
 #include "lab/sim/noise.hpp"
 #include "lab/sim/scene.hpp"
+#include "library/core/did_you_mean.hpp"
 
 namespace flagstone::app {
 namespace {
 
 constexpr std::size_t drive_length = sim::frames_per_drive;
 
-/// An error that names those there are, each of which has a `name`.
-std::invalid_argument no_such(std::string_view option, std::string_view name, const auto& all) {
+/// An error that lists the names of `all` and suggests the closest one.
+std::invalid_argument unknown_name(std::string_view option, std::string_view kind,
+                                   std::string_view name, const auto& all) {
   std::vector<std::string_view> names;
   for (const auto& each : all) names.push_back(each.name);
-  return std::invalid_argument(
-      fmt::format("{}: there is no '{}'; choose {}", option, name, fmt::join(names, ", ")));
+  return std::invalid_argument(fmt::format("{}: {}", option, no_such(kind, name, names)));
 }
 
 const sim::SceneKind& scene_named(const std::string& name) {
   if (const sim::SceneKind* scene = sim::find_scene_kind(name)) return *scene;
-  throw no_such("--scene", name, sim::scene_kinds());
+  throw unknown_name("--scene", "scene", name, sim::scene_kinds());
 }
 
-// SemanticKITTI's folders have two digits.
+// SemanticKITTI directories have two digits.
 void check_sequence(const std::string& name) {
   const bool digits =
       std::ranges::all_of(name, [](char letter) { return letter >= '0' && letter <= '9'; });
   if (name.size() != 2 || !digits) {
     throw std::invalid_argument(
-        fmt::format("--sequence: '{}' is no name of a sequence; give two digits, 00 to 99", name));
+        fmt::format("--sequence: '{}' is not a sequence (expected two digits, 00 to 99)", name));
   }
 }
 
@@ -55,7 +55,7 @@ sim::Mounting mounting_of(const SimulateOptions& options, const Sensor& sensor) 
   sim::Mounting mounting{.height = sensor.height};
   if (options.sensor_height) mounting.height = *options.sensor_height;
   const bool is_allowed = mounting.height >= 0 && mounting.height <= max_simulated_height;
-  if (!is_allowed) {  // nor if it is NaN
+  if (!is_allowed) {  // out of range, or NaN
     throw std::invalid_argument(
         fmt::format("--sensor-height: {} is out of range (expected 0 to {} m)", mounting.height,
                     max_simulated_height));
@@ -69,7 +69,7 @@ sim::Mounting mounting_of(const SimulateOptions& options, const Sensor& sensor) 
   if (!has_roll || bad_roll != std::errc() || rest != end || !(std::abs(mounting.pitch) <= most) ||
       !(std::abs(mounting.roll) <= most)) {
     throw std::invalid_argument(fmt::format(
-        "--tilt: '{}' is not PITCH,ROLL; give two numbers of degrees, -90 to 90, such as 15,-5",
+        "--tilt: '{}' is not PITCH,ROLL (expected two angles in degrees, -90 to 90, e.g. 15,-5)",
         text));
   }
   return mounting;
@@ -86,11 +86,13 @@ Sensor sensor_found(const std::string& name_or_file) {
 SequenceOrigin origin_of(const SimulateOptions& options) {
   const Sensor sensor = sensor_found(options.sensor);
   const sim::NoiseLevel* level = sim::find_noise_level(options.noise);
-  if (level == nullptr) throw no_such("--noise", options.noise, sim::noise_levels());
+  if (level == nullptr) {
+    throw unknown_name("--noise", "noise level", options.noise, sim::noise_levels());
+  }
   sim::Noise noise = level->noise;
   for (const std::string& name : options.weather) {
     const sim::Weather* weather = sim::find_weather(name);
-    if (weather == nullptr) throw no_such("--weather", name, sim::weathers());
+    if (weather == nullptr) throw unknown_name("--weather", "weather", name, sim::weathers());
     weather->add_to(noise);
   }
   return {.scene = options.scene,
@@ -104,8 +106,8 @@ SequenceOrigin origin_of(const SimulateOptions& options) {
           .frames = options.frames};
 }
 
-/// Simulates the missing frames of a sequence on several threads. A frame depends on nothing but
-/// the origin and its number.
+/// Simulates the missing frames of a sequence on several threads. A frame depends only on the
+/// origin and its number.
 class SequenceRun {
  public:
   SequenceRun(const SimulatedSequence& files, const sim::SceneKind& scene,
@@ -124,8 +126,8 @@ class SequenceRun {
   [[nodiscard]] std::size_t missing() const noexcept { return missing_.size(); }
 
   RunOutcome run(unsigned threads, const RunCallbacks& callbacks) {
-    // Each thread begins with another drive, so that worlds are built side by side, and goes on
-    // with a frame of it; all help with the last drives.
+    // Each thread starts with a different drive, so that environments are built in parallel. All
+    // threads share the last drives.
     const std::size_t side_by_side = threads_or_cores(threads);
     std::ranges::sort(missing_, {}, [&](std::size_t frame) {
       const std::size_t drive = frame / drive_length;
@@ -142,7 +144,7 @@ class SequenceRun {
         [](std::size_t, bool) {});
   }
 
-  /// Of the sensor in the world of its drive, for every frame.
+  /// Pose of the sensor in the environment of its drive, for every frame.
   [[nodiscard]] std::vector<sim::Frame> poses() const {
     std::vector<sim::Frame> poses;
     for (std::size_t index = 0; index < worlds_.size(); ++index) {
@@ -154,7 +156,8 @@ class SequenceRun {
   }
 
  private:
-  /// Built by the first thread that needs it, taken down after the last of its frames.
+  /// The environment of a drive: built by the first thread that needs it, freed after its last
+  /// frame.
   struct World {
     std::once_flag built;
     std::unique_ptr<sim::Drive> drive;
@@ -212,8 +215,9 @@ Simulation simulate(const SimulateOptions& options, const RunCallbacks& callback
                         .kept = options.frames - sequence.missing(),
                         .interrupted = run.done < sequence.missing()};
   if (simulation.interrupted) {
-    callbacks.say(fmt::format("interrupted, {} of {} frames are done; run it again for the rest",
-                              simulation.kept + simulation.simulated, options.frames));
+    callbacks.say(
+        fmt::format("interrupted: {} of {} frames are done (run the command again for the rest)",
+                    simulation.kept + simulation.simulated, options.frames));
   } else {
     files.write_poses(sequence.poses());
   }

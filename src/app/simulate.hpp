@@ -35,20 +35,20 @@ struct SimulateOptions {
   unsigned threads = 0;         ///< 0: all cores
 };
 
-/// What became of a simulation.
+/// Outcome of a simulation.
 struct Simulation {
   std::filesystem::path folder;  ///< OUTPUT/sequences/NN
   std::string sensor;            ///< name
   std::size_t drives = 0;
   std::size_t simulated = 0;  ///< frames
-  std::size_t kept = 0;       ///< frames that were there already
-  bool interrupted = false;   ///< the message says so; the same call continues
+  std::size_t kept = 0;       ///< frames that already existed
+  bool interrupted = false;   ///< a message reports it; the same call resumes
 };
 
 /// Writes a sequence of simulated scans with exact ground truth, see SimulatedSequence. Frames that
-/// are there already are kept. The same options give the same bytes with any number of threads.
-/// Throws std::invalid_argument with one line for wrong options and for a directory that contains
-/// something else, std::runtime_error if a file cannot be written.
+/// already exist are kept. The output does not depend on the number of threads. Throws
+/// std::invalid_argument, one line, if an option is invalid or the directory contains other data,
+/// and std::runtime_error if a file cannot be written.
 Simulation simulate(const SimulateOptions& options, const RunCallbacks& callbacks);
 
 }  // namespace flagstone::app

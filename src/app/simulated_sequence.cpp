@@ -31,7 +31,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view elsewhere = "choose another --output or --sequence, or remove it";
+constexpr std::string_view remedy =
+    "choose another --output or --sequence, or remove the directory";
 
 void must(const Status& status) {
   if (!status.ok()) throw std::runtime_error(status.message());
@@ -73,7 +74,7 @@ Json noise_json(const SequenceOrigin& origin) {
           {"block_loss_rate", noise.block_loss_rate}};
 }
 
-// What decides about the bytes of every frame.
+// Everything that determines the bytes of a frame.
 Json origin_json(const SequenceOrigin& origin) {
   const sim::Mounting& mount = origin.mounting;
   return {{"scene", origin.scene},
@@ -86,7 +87,7 @@ Json origin_json(const SequenceOrigin& origin) {
           {"sensor", sensor_json(origin.sensor)}};
 }
 
-// What the codes in label files mean.
+// The meaning of the codes in label files.
 Json class_json() {
   Json classes = {{"0", "unlabeled"}};
   for (int code = 1; code < 256; ++code) {
@@ -96,7 +97,7 @@ Json class_json() {
   return classes;
 }
 
-// What the codes in return files mean.
+// The meaning of the codes in return files.
 Json return_kinds_json() {
   Json kinds = Json::object();
   for (std::size_t code = 0; code < sim::echo_kind_names.size(); ++code) {
@@ -158,10 +159,10 @@ void SimulatedSequence::refuse_others(const SequenceOrigin& origin) const {
   const fs::path file = folder_ / "scene.json";
   std::error_code error;
   if (!fs::exists(file, error)) {
-    // Recorded scans, perhaps: never mixed with simulated ones.
+    // These may be real scans, which must not be mixed with simulated ones.
     if (!fs::exists(folder_, error) || fs::is_empty(folder_, error)) return;
-    throw std::invalid_argument(
-        fmt::format("{}: is there and is no simulated sequence: {}", folder_.string(), elsewhere));
+    throw std::invalid_argument(fmt::format(
+        "{}: contains files that are not a simulated sequence ({})", folder_.string(), remedy));
   }
   std::vector<std::byte> bytes;
   must(io::load_bytes(file, bytes));
@@ -170,23 +171,23 @@ void SimulatedSequence::refuse_others(const SequenceOrigin& origin) const {
   const Json wanted = origin_json(origin);
   for (const auto& [key, value] : wanted.items()) {
     if (there.is_object() && there.contains(key) && there[key] == value) continue;
-    throw std::invalid_argument(
-        fmt::format("{}: tells of another {} than asked for: {}", file.string(), key, elsewhere));
+    throw std::invalid_argument(fmt::format("{}: its {} differs from the one you requested ({})",
+                                            file.string(), key, remedy));
   }
   const std::uint64_t frames = there.contains("frames") && there["frames"].is_number_unsigned()
                                    ? there["frames"].get<std::uint64_t>()
                                    : 0;
   if (frames > origin.frames) {
     throw std::invalid_argument(
-        fmt::format("{}: has {} frames, more than --frames {}: ask for {} or more, or {}",
-                    file.string(), frames, origin.frames, frames, elsewhere));
+        fmt::format("{}: has {} frames, more than --frames {} (set --frames {} or more, {})",
+                    file.string(), frames, origin.frames, frames, remedy));
   }
 }
 
 void SimulatedSequence::begin(const SequenceOrigin& origin) const {
   refuse_others(origin);
   make_folder(folder_);
-  // First of all, so that whatever else is found here later is known to belong to it.
+  // Written first: it marks the directory as a simulated sequence, even if this run is interrupted.
   must(io::write_file(folder_ / "scene.json", scene_text(origin)));
   must(io::write_file(folder_ / "calib.txt", calibration_text()));
   make_folder(folder_ / "velodyne");

@@ -16,43 +16,42 @@
 
 namespace flagstone::app {
 
-/// What a simulated sequence is made from; the same gives the same bytes.
+/// Everything that determines the bytes of a simulated sequence.
 struct SequenceOrigin {
   std::string scene;
   Sensor sensor;
   sim::Mounting mounting;
   std::string noise_name;            ///< of a sim::NoiseLevel
-  std::vector<std::string> weather;  ///< names of sim::Weather, all of them at once
-  sim::Noise noise;                  ///< what both make
+  std::vector<std::string> weather;  ///< names of sim::Weather; all apply together
+  sim::Noise noise;                  ///< result of noise level and weather
   bool keep_no_returns = false;
   std::uint64_t seed = 0;
   std::size_t frames = 0;
 };
 
-/// The files of a simulated sequence, laid out as SemanticKITTI's: velodyne/NNNNNN.bin,
-/// labels/NNNNNN.label, poses.txt, calib.txt, beside them ground/NNNNNN.ground.npy, the true height
-/// of the ground at each point, returns/NNNNNN.return.npy, what each is a return of, and
-/// scene.json, which says what the sequence was made from. Every file is there whole or not at all.
-/// What fails throws std::runtime_error.
+/// The files of a simulated sequence, in the layout of SemanticKITTI: velodyne/NNNNNN.bin,
+/// labels/NNNNNN.label, poses.txt and calib.txt. In addition: ground/NNNNNN.ground.npy, the true
+/// ground height at each point; returns/NNNNNN.return.npy, the kind of each return; and scene.json,
+/// the SequenceOrigin. Files are written atomically. Errors throw std::runtime_error.
 class SimulatedSequence {
  public:
   explicit SimulatedSequence(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
 
-  /// Makes the folders and writes scene.json and calib.txt. Throws std::invalid_argument where the
-  /// folder already holds something else, or more frames than `origin` has.
+  /// Creates the directories and writes scene.json and calib.txt. Throws std::invalid_argument if
+  /// the directory contains other data, or more frames than `origin` has.
   void begin(const SequenceOrigin& origin) const;
 
-  /// Are the scan, its labels, its ground and its returns there, of sizes that fit each other?
+  /// True if scan, labels, ground and returns exist and their sizes match.
   [[nodiscard]] bool has(std::size_t frame) const;
 
-  /// `ground` is what sim::true_ground() gives for the scan.
+  /// `ground`: sim::true_ground() of the scan.
   void write(std::size_t frame, const sim::SimulatedScan& scan,
              std::span<const float> ground) const;
 
-  /// poses.txt: a line a frame, the rows of the 3x4 matrix from the sensor to the world of its
-  /// drive.
+  /// Writes poses.txt: per frame one line with the rows of the 3x4 matrix from the sensor to the
+  /// environment of its drive.
   void write_poses(std::span<const sim::Frame> poses) const;
 
  private:

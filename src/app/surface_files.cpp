@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A float32 as few digits as it can be read from: 0.1, not 0.10000000149011612.
+/// A float32 with the fewest digits that identify it: 0.1, not 0.10000000149011612.
 double shortest(float value) { return std::stod(fmt::format("{}", value)); }
 
 double finest_cell(const GroundSurface& surface) { return shortest(surface.grids().back().cell); }
@@ -46,7 +46,7 @@ std::string SurfaceFiles::frame_text(const GroundSurface& surface,
   json["scan"] = scan;
   json["grid"] = grid().filename().string();
   json["picture"] = picture().filename().string();
-  json["frame"] = "sensor: x forward, y left, z up; its origin is the sensor";
+  json["frame"] = "sensor: x forward, y left, z up; origin at the sensor";
   json["units"] = "metres";
   json["values"] = "z of the ground at the centre of each cell";
   json["dtype"] = "float32";

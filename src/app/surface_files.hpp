@@ -12,17 +12,18 @@
 
 namespace flagstone::app {
 
-/// What belongs to the surface of one scan.
+/// The files for the ground surface of one scan.
 struct SurfaceFiles {
-  std::filesystem::path stem;  ///< of the files: STEM.surface.npy, .json and .png
-  std::string scan;            ///< file name of the scan, for the frame
-  double resolution = 0;       ///< metres a cell; 0: that of the surface's finest cells
+  std::filesystem::path stem;  ///< the files are STEM.surface.npy, .json and .png
+  std::string scan;            ///< file name of the scan, for the .json file
+  double resolution = 0;       ///< cell size in metres; 0: the finest cell size of the surface
 
   [[nodiscard]] std::filesystem::path grid() const { return stem.string() + ".surface.npy"; }
   [[nodiscard]] std::filesystem::path frame() const { return stem.string() + ".surface.json"; }
   [[nodiscard]] std::filesystem::path picture() const { return stem.string() + ".surface.png"; }
 
-  /// Writes the grid, float32, and its frame. `surface` is not empty. unwritable, out_of_memory.
+  /// Writes the grid (float32) and its geometry (.json). `surface` must not be empty. Errors:
+  /// unwritable, out_of_memory.
   [[nodiscard]] Status write(const GroundSurface& surface) const;
 
  private:

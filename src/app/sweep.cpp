@@ -26,8 +26,8 @@
 namespace flagstone::app {
 namespace {
 
-/// The whole number that `text` is; 0 for anything else.
-int whole_number(std::string_view text) {
+/// The integer in `text`; 0 if it is not an integer.
+int integer_of(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() ? value : 0;
@@ -36,12 +36,14 @@ int whole_number(std::string_view text) {
 void make_uniform_grid(const std::string& value, MethodConfig& config) {
   auto* patchwork = config.get_if<PatchworkConfig>();
   const std::size_t times = value.find('x');
-  const int rings = whole_number(std::string_view(value).substr(0, times));
+  const int rings = integer_of(std::string_view(value).substr(0, times));
   const int sectors =
-      times == std::string::npos ? 0 : whole_number(std::string_view(value).substr(times + 1));
+      times == std::string::npos ? 0 : integer_of(std::string_view(value).substr(times + 1));
   if (patchwork == nullptr || rings < 1 || rings > 1000 || sectors < 1) {
     throw std::invalid_argument(fmt::format(
-        "bins = {}: allowed: RINGSxSECTORS, e.g. 30x108, of patchwork and its relatives", value));
+        "bins = {}: is not allowed (expected RINGSxSECTORS, e.g. 30x108, with --method patchwork, "
+        "r_gpf or czm+...)",
+        value));
   }
   const float outer = patchwork->zones.back().ring_radii.back();
   patchwork->zones = {{.ring_radii = equal_rings(patchwork->min_range, outer, rings),
@@ -50,7 +52,7 @@ void make_uniform_grid(const std::string& value, MethodConfig& config) {
 }
 
 /// Fig. 5 of the paper: bin sizes of the uniform grid and uprightness thresholds. The paper does
-/// not print its values; at 0 degrees uprightness refuses nothing.
+/// not list its values. At 0 degrees, uprightness rejects nothing.
 const std::vector<std::string> figure_5 = {"bins=10x36,15x54,20x72,30x108,45x162,60x216",
                                            "uprightness.angle=0,15,30,45,60,75"};
 
@@ -65,14 +67,14 @@ std::string name_of(const Sweep& sweep, std::size_t point) {
   return name;
 }
 
-/// A column that holds the axis's key and every value, apart from the one before.
+/// Width of a column for the key and the values of an axis, with a gap before it.
 std::size_t width_of(const SweepAxis& axis) {
   std::size_t longest = axis.key.size();
   for (const std::string& value : axis.values) longest = std::max(longest, value.size());
   return longest + 2;
 }
 
-/// A dash where one scan allows no figure.
+/// "-" if there is no value, as for the standard deviation over one scan.
 std::string percent_text(const std::optional<double>& share) {
   return share ? fmt::format("{:>6}", eval::percent_text(*share)) : fmt::format("{:>6}", "-");
 }
@@ -81,7 +83,7 @@ std::string spread_text(const eval::Spread& spread) {
   return fmt::format("{:>8} {}", eval::percent_text(spread.mean), percent_text(spread.std));
 }
 
-/// F1 of `a` less that of `b` on the scans that both have.
+/// F1 of `a` minus F1 of `b`, over the scans that both have.
 eval::Spread difference(const eval::MethodResult& a, const eval::MethodResult& b) {
   std::map<std::string, double> of_b;
   for (const eval::ScanScore& scan : b.scans) of_b[scan.scan] = scan.score.points.f1();
@@ -98,12 +100,13 @@ eval::Spread difference(const eval::MethodResult& a, const eval::MethodResult& b
 SweepAxis sweep_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-    throw std::invalid_argument(fmt::format(
-        "--param {}: allowed: KEY=VALUE,VALUE,..., e.g. --param distance_margin=0.1,0.125,0.15",
-        text));
+    throw std::invalid_argument(
+        fmt::format("--param {}: is not KEY=VALUE,VALUE,... (expected e.g. --param "
+                    "distance_margin=0.1,0.125,0.15)",
+                    text));
   }
   if (io::printable(text) != text) {
-    throw std::invalid_argument(fmt::format("--param {}: holds what cannot be printed", text));
+    throw std::invalid_argument(fmt::format("--param {}: contains unprintable characters", text));
   }
   SweepAxis axis{.key = text.substr(0, equals), .values = {}};
   std::size_t begin = equals + 1;
@@ -128,10 +131,11 @@ void apply_axis(const std::string& key, const std::string& value, MethodConfig& 
 std::vector<SweepAxis> sweep_axes(const std::vector<std::string>& texts) {
   std::vector<SweepAxis> axes;
   for (const std::string& text : texts.empty() ? figure_5 : texts) axes.push_back(sweep_axis(text));
-  if (axes.size() > 2) throw std::invalid_argument("--param can be given once or twice");
+  if (axes.size() > 2)
+    throw std::invalid_argument("--param: is given more than twice (expected once or twice)");
   if (axes.size() == 2 && axes[0].key == axes[1].key) {
     throw std::invalid_argument(
-        fmt::format("--param names {} twice; give all its values at once", axes[0].key));
+        fmt::format("--param: {} is given twice (give all its values at once)", axes[0].key));
   }
   return axes;
 }
@@ -151,7 +155,8 @@ std::vector<eval::Method> Sweep::points(const MethodConfig& base,
   for (const SweepAxis& axis : axes) count *= axis.values.size();
   constexpr std::size_t most = 10000;
   if (count > most) {
-    throw std::invalid_argument(fmt::format("--param: {} points; allowed: up to {}", count, most));
+    throw std::invalid_argument(
+        fmt::format("--param: {} points are too many (expected up to {})", count, most));
   }
   std::vector<eval::Method> points;
   for (std::size_t p = 0; p < count; ++p) {
@@ -160,10 +165,10 @@ std::vector<eval::Method> Sweep::points(const MethodConfig& base,
     for (std::size_t a = 0; a < values.size(); ++a) {
       if (axes[a].key != "bins") apply_axis(axes[a].key, values[a], config);
     }
-    for (std::size_t a = 0; a < values.size(); ++a) {  // after what says where the rings begin
+    for (std::size_t a = 0; a < values.size(); ++a) {  // last, because it reads min_range
       if (axes[a].key == "bins") apply_axis(axes[a].key, values[a], config);
     }
-    MountSettings own_mount = mount;  // whose height may be what is swept over
+    MountSettings own_mount = mount;  // the sweep may be over the sensor height
     own_mount.mount.sensor_height = sensor_height_of(config, mount.mount.sensor_height);
     points.push_back(eval::method_of(method, std::move(config), own_mount));
   }
@@ -236,7 +241,7 @@ std::string winner_text(const Sweep& sweep) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (sweep.results.scans == sweep.results.without_ground) {
-    return "No scan has ground in its ground truth: there is no F1.";
+    return "No F1: the ground truth of no scan contains ground.";
   }
   std::erase_if(order, [&](std::size_t p) { return points[p].f1.count == 0; });  // it failed
   if (order.empty()) return "No setting has an F1.";
@@ -245,13 +250,13 @@ std::string winner_text(const Sweep& sweep) {
                                  name_of(sweep, order[0]));
   if (order.size() < 2) return text + ".";
   const eval::Spread ahead = difference(points[order[0]], points[order[1]]);
-  text +=
-      fmt::format("; {:.2f} percentage points ahead of {}", percent * ahead.mean, name_of(sweep, order[1]));
-  if (!ahead.ci95) return text + "; one scan gives no interval.";
-  if (*ahead.ci95 == 0) return text + ", the same on every scan.";
+  text += fmt::format("; {:.2f} percentage points ahead of {}", percent * ahead.mean,
+                      name_of(sweep, order[1]));
+  if (!ahead.ci95) return text + "; one scan gives no confidence interval.";
+  if (*ahead.ci95 == 0) return text + ", the same difference on every scan.";
   const double intervals = ahead.mean / *ahead.ci95;
-  return text + fmt::format(", {:.1f} times the 95 % interval of the difference: {}.", intervals,
-                            intervals > 1 ? "more than noise" : "no more than noise");
+  return text + fmt::format(", {:.1f} times the half-width of its 95 % confidence interval: {}.",
+                            intervals, intervals > 1 ? "significant" : "not significant");
 }
 
 }  // namespace flagstone::app

@@ -26,7 +26,7 @@ void throw_if_failed(const Status& status) {
   if (!status.ok()) throw std::runtime_error(status.message());
 }
 
-/// Indices of scans, the one with the lowest mean F1 over the methods first.
+/// Indices of scans in ascending order of their mean F1 over the methods.
 std::vector<std::size_t> worst_first(const Evaluation& evaluation, const eval::Results& results) {
   std::map<std::string, std::vector<double>> values;
   for (const eval::MethodResult& method : results.methods) {
@@ -50,7 +50,7 @@ std::vector<std::byte> draw(eval::ScanEvaluator& evaluator, const Evaluation& ev
   throw_if_failed(evaluator.label_all(scan, labels));
   std::vector<render::Panel> panels;
   for (std::size_t m = 0; m < labels.size(); ++m) {
-    if (labels[m].size() != evaluator.cloud().size()) continue;  // said when it was evaluated
+    if (labels[m].size() != evaluator.cloud().size()) continue;  // reported during evaluation
     panels.push_back({evaluation.methods()[m].title,
                       eval::scores_text(evaluator.truth().score(labels[m]).points), labels[m]});
   }

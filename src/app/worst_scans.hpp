@@ -12,9 +12,9 @@
 
 namespace flagstone::app {
 
-/// Draws the `count` scans with the lowest F1, averaged over the methods, each with all methods
-/// side by side, as SCAN.png in `folder`; fewer if stopped. Returns the images for a report.
-/// `drawn` is called with each file. Throws std::runtime_error with one line.
+/// Draws the `count` scans with the lowest mean F1 over the methods, all methods side by side, as
+/// SCAN.png in `folder`. Draws fewer if stopped. Calls `drawn` with each file and returns the
+/// images for a report. Throws std::runtime_error with one line.
 std::vector<report::ReportPicture> draw_worst_scans(
     const Evaluation& evaluation, const eval::Results& results, std::size_t count,
     const std::filesystem::path& folder, const RunCallbacks& callbacks,

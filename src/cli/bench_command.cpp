@@ -7,17 +7,20 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "app/scan_files.hpp"
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/method_options.hpp"
 #include "cli/shared_options.hpp"
 #include "cli/terminal.hpp"
@@ -26,6 +29,7 @@
 #include "lab/bench/benchmark.hpp"
 #include "lab/bench/candidates.hpp"
 #include "lab/bench/results.hpp"
+#include "library/core/did_you_mean.hpp"
 #include "library/core/simd_target.hpp"
 
 namespace flagstone::cli {
@@ -41,7 +45,7 @@ struct BenchOptions {
   bool json = false;
 };
 
-/// The scans that can be read and hold a point. What is wrong with others is printed.
+/// The scans that can be read and contain a point. Errors of the other scans are printed.
 std::vector<io::Cloud> read_scans(const std::vector<app::ScanInput>& inputs, int columns,
                                   std::vector<std::pair<std::string, std::string>>& errors) {
   std::vector<io::Cloud> clouds;
@@ -52,23 +56,22 @@ std::vector<io::Cloud> read_scans(const std::vector<app::ScanInput>& inputs, int
       clouds.push_back(std::move(cloud));
       continue;
     }
-    const std::string error =
-        status.ok() ? fmt::format("{}: no point in it; a scan to time has one at least",
-                                  io::printable(input.file))
-                    : std::string(status.message());
+    const std::string error = status.ok() ? fmt::format("{}: has no points (expected at least one)",
+                                                        io::printable(input.file))
+                                          : std::string(status.message());
     print_error(error);
     errors.emplace_back(input.file.string(), error);
   }
   return clouds;
 }
 
-/// The settings of the method that is timed. --method lets no other through.
+/// The settings of the method, which is surface or patchwork: --method accepts no other.
 bench::TimedConfig timed_config(const MethodConfig& config) {
   if (const auto* const surface = config.get_if<SurfaceConfig>()) return *surface;
   return *config.get_if<PatchworkConfig>();
 }
 
-/// Prints the results, if there are any, and in JSON the scans that could not be timed.
+/// Prints the results, if there are any, and with --json the errors of scans.
 void print_results(const bench::Results* results,
                    const std::vector<std::pair<std::string, std::string>>& errors, bool as_json) {
   if (!as_json) {
@@ -118,12 +121,12 @@ class BenchCommand final : public Command {
                               .stop = interrupted});
     bar.clear();
     if (results.rounds == 0) {
-      print_error("interrupted before the first round, nothing is measured");
+      print_error("interrupted: nothing was measured, because no round was finished");
       return 1;
     }
     if (interrupted()) {
       print_error(
-          fmt::format("interrupted, {} of {} rounds were begun", results.rounds, all_rounds));
+          fmt::format("interrupted: {} of {} rounds were started", results.rounds, all_rounds));
     }
     print_results(&results, errors, options.json);
     return interrupted() || !errors.empty() ? 1 : 0;
@@ -135,46 +138,57 @@ class BenchCommand final : public Command {
 std::unique_ptr<Command> add_bench_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "bench",
-      "Time surface or Patchwork on scans, stage by stage, beside other programs.\n\n"
-      "Example:  flagstone bench scans/ --compare\n\n"
-      "Scans are taken in rotation. The read baseline reads x, y and z of every point and writes "
-      "one\n"
-      "byte a point. Ratios are medians of times of the same scan and round.\n");
+      "Time a method on scans, stage by stage, and compare it with other implementations.");
+  set_help(
+      *command,
+      {.examples = {{"flagstone bench scans/"},
+                    {"flagstone bench scans/ --compare", "with PCL, Open3D and pypatchworkpp"}},
+       .notes = "The scans are processed in rotation. The read-only baseline reads x, y and z "
+                "of every point and writes one byte per point: a lower bound for any method. "
+                "Ratios are medians over pairs of times of the same scan and round."});
   auto made = std::make_unique<BenchCommand>(*command);
   BenchOptions* const options = &made->options;
   add_scans_option(*command, options->scans);
-  add_method_options(*command, options->method, bench::timed_methods);
   add_columns_option(*command, options->columns);
-  command
-      ->add_option("--rounds", options->settings.rounds,
-                   "Rounds over all scans. Default: as many as take 10 s, 3 at least")
-      ->check(CLI::Range(1, 1000000))
+  add_method_options(*command, options->method, bench::timed_methods);
+
+  command->option_defaults()->group("Measurement");
+  command->add_option("--rounds", options->settings.rounds, "Rounds over all scans, 1 to 1000000")
+      ->check(in_range(1, 1000000))
+      ->default_str("as many as fit in 10 s, at least 3")
       ->type_name("N");
   command
       ->add_option("--threads", options->settings.threads,
-                   "Threads that work on one scan; with one, all is timed on one core")
-      ->check(CLI::Range(1, 1024))
+                   "Threads per scan, 1 to 1024; with 1, everything runs on one core")
+      ->check(in_range(1, 1024))
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--isa", options->settings.target, "Instruction set. Default: the best")
-      ->check(CLI::IsMember(simd_targets()))
+  command->add_option("--isa", options->settings.target, "Instruction set")
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            const auto known = simd_targets();
+            const std::vector<std::string_view> names(known.begin(), known.end());
+            const bool is_known = std::ranges::find(names, name) != names.end();
+            return is_known ? std::string() : no_such("instruction set", name, names);
+          },
+          ""))
+      ->default_str("the best one available")
       ->type_name("NAME");
   CLI::Option* const peers = command->add_flag(
       "--compare", options->peers,
-      "Time pypatchworkpp, Open3D's and PCL's plane RANSAC on the same points too, as far as they "
-      "are installed");
+      "Also time pypatchworkpp and the plane RANSAC of Open3D and PCL on the same points, as far "
+      "as they are installed");
   command
-      ->add_option("--python", options->places.python,
-                   "Python that has the packages of the other implementations")
+      ->add_option("--python", options->places.python, "Python interpreter that has these packages")
       ->needs(peers)
       ->capture_default_str()
       ->type_name("COMMAND");
-  command
-      ->add_option("--compare-worker", options->places.worker,
-                   "bench/external_worker.py. Default: that of the source tree around the command")
+  command->add_option("--compare-worker", options->places.worker, "Path of bench/external_worker.py")
       ->needs(peers)
+      ->default_str("in the source tree of this command")
       ->type_name("FILE");
-  command->add_flag("--json", options->json, "Print one JSON object instead of tables");
+  command->add_flag("--json", options->json, "Print one JSON object instead of tables")
+      ->group(output_group);
   return made;
 }
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/config_command.hpp"
-
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <memory>
@@ -11,13 +10,15 @@
 #include <string>
 
 #include "app/config/config_toml.hpp"
+#include "cli/commands.hpp"
+#include "cli/derivation_text.hpp"
+#include "cli/help.hpp"
 #include "cli/method_options.hpp"
-#include "cli/sensors_command.hpp"
 
 namespace flagstone::cli {
 namespace {
 
-/// Where the settings come from, as comment lines.
+/// Comment lines with the method and the preset or sensor.
 std::string header_of(const config::MethodChoice& choice, const config::ResolvedMethod& method) {
   const std::optional<Sensor> sensor = config::chosen_sensor(choice);
   const bool has_presets = method.name == "patchwork" || method.name.starts_with("czm");
@@ -30,21 +31,31 @@ std::string header_of(const config::MethodChoice& choice, const config::Resolved
                      : text;
 }
 
+class ConfigCommand final : public Command {
+ public:
+  using Command::Command;
+  config::MethodChoice choice;
+
+  int run() override {
+    const config::ResolvedMethod method = config::resolve_one(choice);
+    fmt::print("{}\n{}{}", header_of(choice, method), config::to_toml(method.config),
+               config::to_toml(method.mount));
+    return 0;
+  }
+};
+
 }  // namespace
 
-void add_config_command(CLI::App& app, int& exit_code) {
-  auto choice = std::make_shared<config::MethodChoice>();
+std::unique_ptr<Command> add_config_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "config",
-      "Print every setting, commented, as TOML that --config reads back.\n\n"
-      "Example:  flagstone config --method patchwork --sensor os0-128 > mine.toml\n");
-  add_method_options(*command, *choice);
-  command->callback([choice, &exit_code] {
-    const config::ResolvedMethod method = config::resolve_one(*choice);
-    fmt::print("{}\n{}{}", header_of(*choice, method), config::to_toml(method.config),
-               config::to_toml(method.mount));
-    exit_code = 0;
-  });
+      "config", "Print all settings of a method as a commented TOML file for --config.");
+  set_help(*command,
+           {.examples = {{"flagstone config > mine.toml"},
+                         {"flagstone config --method patchwork --sensor os0-128 > mine.toml"}},
+            .exit_codes = "0, success; 1, error; 2, usage error."});
+  auto made = std::make_unique<ConfigCommand>(*command);
+  add_method_options(*command, made->choice);
+  return made;
 }
 
 }  // namespace flagstone::cli

@@ -11,6 +11,7 @@
 
 #include "app/demo.hpp"
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/shared_options.hpp"
 
 namespace flagstone::cli {
@@ -32,16 +33,20 @@ class DemoCommand final : public Command {
 }  // namespace
 
 std::unique_ptr<Command> add_demo_command(CLI::App& parser) {
-  CLI::App* command =
-      parser.add_subcommand("demo",
-                            "Simulate a street, segment it by surface and draw it.\n\n"
-                            "Example:  flagstone demo --output demo --seed 11\n");
+  CLI::App* command = parser.add_subcommand(
+      "demo", "Simulate a street, then segment it, score the labels and draw images.");
+  set_help(*command, {.examples = {{"flagstone demo", "write to flagstone-demo/"},
+                                   {"flagstone demo --output demo --seed 11", "another street"}},
+                      .exit_codes = "0, success; 1, error; 2, usage error."});
   auto made = std::make_unique<DemoCommand>(*command);
   app::DemoRequest* const options = &made->request;
-  command->add_option("-o,--output", options->output, "Folder for what is written; made if missing")
+  command
+      ->add_option("-o,--output", options->output, "Output directory, created if it does not exist")
       ->type_name("DIR")
-      ->capture_default_str();
-  add_seed_option(*command, options->seed, "Which street; the same seed gives the same bytes");
+      ->capture_default_str()
+      ->group(output_group);
+  add_seed_option(*command, options->seed,
+                  "Random seed of the street; the output depends on nothing else");
   return made;
 }
 

@@ -7,7 +7,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
-#include <CLI/Validators.hpp>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -16,6 +15,7 @@
 
 #include "app/doctor_report.hpp"
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/method_options.hpp"
 #include "cli/shared_options.hpp"
 #include "cli/terminal.hpp"
@@ -52,7 +52,7 @@ class DoctorCommand final : public Command {
     const app::DoctorReport report = app::examine_files(request, bar.callbacks());
     bar.clear();
     if (report.interrupted) {
-      print_error("interrupted; run it again, with a smaller --max-scans perhaps");
+      print_error("interrupted: no scan was diagnosed (a smaller --max-scans takes less time)");
       return 1;
     }
     if (options.json) {
@@ -72,28 +72,36 @@ class DoctorCommand final : public Command {
 
 std::unique_ptr<Command> add_doctor_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "doctor",
-      "Look at a few scans and say what to set.\n\n"
-      "Example:  flagstone doctor scans/ --output doctor.toml\n"
-      "          flagstone segment scans/ --output labels --config doctor.toml\n\n"
-      "Exit code: 0 all is fine, 1 something is to fix or a scan cannot be read, 2 wrong usage.");
+      "doctor", "Check a few scans for common problems and print settings that fix them.");
+  set_help(*command,
+           {.examples = {{"flagstone doctor scans/ --output doctor.toml"},
+                         {"flagstone segment scans/ --output labels --config doctor.toml"}},
+            .notes = "The doctor detects wrong units or axes, a tilted sensor, an origin on the "
+                     "ground, a wrong sensor height, missing returns and points on the ego "
+                     "vehicle, among others.",
+            .exit_codes = "0, no problem found; 1, a problem was found or a scan cannot be read; "
+                          "2, usage error."});
   auto made = std::make_unique<DoctorCommand>(*command);
   DoctorOptions* const options = &made->options;
   add_scans_option(*command, options->scans);
-  command->add_option("--max-scans", options->max_scans, "Of each folder, look at so many scans")
-      ->check(CLI::Range(1, 1000000))
+  command
+      ->add_option("--max-scans", options->max_scans,
+                   "Number of scans to examine per directory, evenly spaced")
+      ->check(in_range(1, 1000000))
       ->capture_default_str()
-      ->type_name("N");
+      ->type_name("N")
+      ->group(input_group);
+  add_columns_option(*command, options->columns);
+  add_method_options(*command, options->method);
+
+  command->option_defaults()->group(output_group);
   command
       ->add_option("-o,--output", options->output,
-                   "Write the settings that fit to this file, for --config")
+                   "Write the recommended settings to this file, for --config")
       ->type_name("FILE");
-  add_method_options(*command, options->method);
-  add_columns_option(*command, options->columns);
   CLI::Option* const json =
       command->add_flag("--json", options->json, "Print one JSON object instead of text");
-  command->add_flag("--toml", options->toml, "Print the settings that fit and nothing else")
-      ->excludes(json);
+  command->add_flag("--toml", options->toml, "Print only the recommended settings")->excludes(json);
   return made;
 }
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/eval_command.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
@@ -10,10 +8,8 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
-#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <cstddef>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -22,8 +18,11 @@
 
 #include "app/evaluate.hpp"
 #include "app/worst_scans.hpp"
+#include "cli/commands.hpp"
 #include "cli/evaluation_options.hpp"
+#include "cli/help.hpp"
 #include "cli/method_options.hpp"
+#include "cli/shared_options.hpp"
 #include "cli/terminal.hpp"
 #include "files/io/message.hpp"
 #include "files/render/rendering_available.hpp"
@@ -46,115 +45,126 @@ struct EvalOptions {
 
 void print_height_tables(const eval::Results& results, const eval::TextStyle& style) {
   fmt::print(
-      "Heights above the ground against the truth, points of the ground, by horizontal range. "
-      "Means over scans,\ncm: median of the absolute error, 95 %: its 95th percentile, bias: mean "
-      "error. Coverage: percentage of points with a height\n\n{}\n",
+      "Error of the height above the ground, in cm, at ground points, by horizontal range. Means "
+      "over scans of\nthe median absolute error, its 95th percentile and the mean error (bias). "
+      "Coverage: percentage of points with a height\n\n{}\n",
       eval::height_table(results, &eval::HeightResult::ground, style));
-  fmt::print("The same over all points, also where the ground is hidden\n\n{}\n",
+  fmt::print("Error of the height above the ground, at all points, including hidden ground\n\n{}\n",
              eval::height_table(results, &eval::HeightResult::everywhere, style));
 }
 
 void print_tables(const eval::Results& results, bool speed) {
   const eval::TextStyle style{.bold = isatty(STDOUT_FILENO) != 0};
   fmt::print(
-      "Protocol {}, {}; percent. Means over scans, std: sample standard deviation, ±95%: half "
-      "width of the\n95 % interval of the mean (Student's t, scans taken for independent). "
-      "F1/cell: each 0.5 m BEV cell of each scan counts once. Hz: with {}.\n\n{}\n",
+      "Protocol {}, {}. Percentages, averaged over scans; std: sample standard deviation; ±95%: "
+      "half-width of\nthe 95 % confidence interval of the mean (Student's t, assuming independent "
+      "scans).\nF1/cell: each 0.5 m BEV cell of each scan counts once. Hz: with {}.\n\n{}\n",
       results.protocol, app::scans_text(results),
-      results.threads == 1 ? "one thread" : fmt::format("{} threads at work", results.threads),
+      results.threads == 1 ? "one thread" : fmt::format("{} threads", results.threads),
       eval::accuracy_table(results, style));
-  fmt::print("F1 by horizontal range, over all points of a band\n\n{}\n",
+  fmt::print("F1 by horizontal range, over all points in each range\n\n{}\n",
              eval::range_table(results, style));
   if (eval::has_heights(results)) print_height_tables(results, style);
   if (!results.unscored.empty()) {
-    fmt::print("Left out, since no point of them is scored: {}\n\n",
+    fmt::print("Not counted, because no point is scored: {}\n\n",
                io::printable(fmt::format("{}", fmt::join(results.unscored, ", "))));
   }
   fmt::print("Lowest F1\n\n{}\n", eval::worst_table(results, 3));
   if (speed) {
     fmt::print(
-        "Scans a second, one at a time on one core of {}; slowest 1%: of the scans; paper: on "
-        "an i7-7700K,\nsequence 05 of SemanticKITTI\n\n{}\n",
+        "Scans per second, one at a time on one core of {}. slowest 1%: the slowest 1 % of the "
+        "scans;\npaper: on an i7-7700K, sequence 05 of SemanticKITTI\n\n{}\n",
         eval::machine_name(), eval::speed_table(results));
   }
   fmt::print("{}", eval::time_shares(results));
 }
 
-int evaluate(const EvalOptions& options) {
-  if (const Status rendering_available = render::rendering_available();
-      options.pictures > 0 && !rendering_available.ok()) {
-    throw std::invalid_argument("--images: " + rendering_available.message());
-  }
-  app::EvaluationOptions how = options.evaluation;
-  if (options.speed) how.threads = 1;
-  how.settings_files = {options.methods.config_file, options.methods.sensor};
-  app::Evaluation evaluation(
-      how, app::methods_to_evaluate(options.methods, options.labels, options.label_map));
-  if (options.pictures > 0) app::make_folder(options.output);
-  catch_interrupts();
-  ProgressBar bar;
-  const app::RunCallbacks callbacks = bar.callbacks();
-  const eval::Results results = evaluation.run(callbacks);
-  bar.clear();
-  if (results.scans == 0) return 1;
+class EvalCommand final : public Command {
+ public:
+  using Command::Command;
+  EvalOptions options;
 
-  print_tables(results, options.speed);
-  if (evaluation.was_interrupted()) return 1;
-  constexpr auto replace = nlohmann::json::error_handler_t::replace;  // file names may not be UTF-8
-  write_result(how.files.json,
-               [&] { return eval::to_json(results).dump(2, ' ', false, replace) + "\n"; });
-  write_result(how.files.csv, [&] { return eval::to_csv(results); });
-  const std::vector<report::ReportPicture> pictures =
-      app::draw_worst_scans(evaluation, results, options.pictures, options.output, callbacks,
-                            [](const auto& file) { fmt::print("drew {}\n", io::printable(file)); });
-  write_result(how.files.html,
-               [&] { return report::eval_report(eval::to_json(results), pictures); });
-  evaluation.remove_checkpoint();
-  if (interrupted()) {
-    print_error(fmt::format("interrupted, {} of {} pictures are drawn", pictures.size(),
-                            std::min(options.pictures, results.scans)));
-    return 1;
+  int run() override {
+    if (const Status rendering_available = render::rendering_available();
+        options.pictures > 0 && !rendering_available.ok()) {
+      throw std::invalid_argument("--images: " + rendering_available.message());
+    }
+    app::EvaluationOptions how = options.evaluation;
+    if (options.speed) how.threads = 1;
+    how.settings_files = {options.methods.config_file, options.methods.sensor};
+    app::Evaluation evaluation(
+        how, app::methods_to_evaluate(options.methods, options.labels, options.label_map));
+    if (options.pictures > 0) app::make_folder(options.output);
+    catch_interrupts();
+    ProgressBar bar;
+    const app::RunCallbacks callbacks = bar.callbacks();
+    const eval::Results results = evaluation.run(callbacks);
+    bar.clear();
+    if (results.scans == 0) return 1;
+
+    print_tables(results, options.speed);
+    if (evaluation.was_interrupted()) return 1;
+    constexpr auto replace =
+        nlohmann::json::error_handler_t::replace;  // file names may not be UTF-8
+    write_result(how.files.json,
+                 [&] { return eval::to_json(results).dump(2, ' ', false, replace) + "\n"; });
+    write_result(how.files.csv, [&] { return eval::to_csv(results); });
+    const std::vector<report::ReportPicture> pictures = app::draw_worst_scans(
+        evaluation, results, options.pictures, options.output, callbacks,
+        [](const auto& file) { fmt::print("wrote {}\n", io::printable(file)); });
+    write_result(how.files.html,
+                 [&] { return report::eval_report(eval::to_json(results), pictures); });
+    evaluation.remove_checkpoint();
+    if (interrupted()) {
+      print_error(fmt::format("interrupted: {} of {} images are drawn", pictures.size(),
+                              std::min(options.pictures, results.scans)));
+      return 1;
+    }
+    return results.failures.empty() ? 0 : 1;
   }
-  return results.failures.empty() ? 0 : 1;
-}
+};
 
 }  // namespace
 
-void add_eval_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<EvalOptions>();
-  CLI::App* command = app.add_subcommand(
-      "eval",
-      "Score methods on labelled scans.\n\n"
-      "Example:  flagstone eval SemanticKITTI --protocol patchwork --methods table1 --every 10\n");
+std::unique_ptr<Command> add_eval_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("eval", "Score methods, or labels of other programs, on labelled scans.");
+  set_help(*command,
+           {.examples = {{"flagstone eval SemanticKITTI --every 10", "the default methods"},
+                         {"flagstone eval SemanticKITTI --methods table1 --html report.html"},
+                         {"flagstone eval nuscenes --protocol lidarseg --images 3"}}});
+  auto made = std::make_unique<EvalCommand>(*command);
+  EvalOptions* const options = &made->options;
   add_evaluation_options(*command, options->evaluation);
-  add_methods_options(*command, options->methods);
   command
-      ->add_option(
-          "--labels", options->labels,
-          "Labels that another program made, scored like a method: NAME.label, NAME.npy or "
-          "NAME.label.npy of each scan, one code a point, 1 for ground; may repeat")
+      ->add_option("--labels", options->labels,
+                   "Labels of another program, scored like a method: a directory with NAME.label, "
+                   "NAME.npy or NAME.label.npy for each scan, one code per point")
       ->type_name("NAME=DIR")
-      ->allow_extra_args(false);
-  const std::map<std::string, io::LabelMap> maps = {
-      {"flagstone", io::LabelMap::flagstone}, {"semantic-kitti", io::LabelMap::semantic_kitti}};
-  command
-      ->add_option(
-          "--label-map", options->label_map,
-          "Codes in --labels: flagstone (1 is ground), or semantic-kitti (the classes that "
-          "the protocol takes for ground)")
-      ->transform(CLI::Transformer(maps).description(""))
-      ->transform(CLI::IsMember(maps));
+      ->allow_extra_args(false)
+      ->group(input_group);
+  add_choice_option(*command, "--label-map", "label map", label_maps(), options->label_map,
+                    "Codes in --labels"
+                    "\nflagstone\t1 is ground"
+                    "\nsemantic-kitti\tthe ground classes of the protocol are ground")
+      ->default_str("flagstone")
+      ->group(input_group);
+  add_methods_options(*command, options->methods);
+
+  command->option_defaults()->group(output_group);
   command
       ->add_option("--images", options->pictures,
-                   "Draw the N worst scans, methods side by side, into the directory of --output")
-      ->check(CLI::Range(0, 1000))
+                   "Draw the N scans with the lowest F1, methods side by side, as PNG")
+      ->check(in_range(0, 1000))
       ->type_name("N");
-  command->add_option("-o,--output", options->output, "Directory for images (created if missing)")
+  command
+      ->add_option("-o,--output", options->output,
+                   "Directory for images, created if it does not exist")
       ->capture_default_str()
       ->type_name("DIR");
   command->add_flag("--speed", options->speed,
-                    "One thread, and a table of scans a second beside the paper's Table II");
-  command->callback([options, &exit_code] { exit_code = evaluate(*options); });
+                    "Use one thread and print scans per second next to the paper's Table II");
+  return made;
 }
 
 }  // namespace flagstone::cli

@@ -13,10 +13,11 @@ class App;
 
 namespace flagstone::cli {
 
-/// The options that say on what methods are evaluated, how, and which files results are written to.
+/// Adds the data sets and the options of `eval` and `sweep`: protocol, scans to use, result files.
 void add_evaluation_options(CLI::App& command, app::EvaluationOptions& options);
 
-/// Writes `text` to a result file, if it is named, and prints that. Throws std::runtime_error.
+/// Writes `text` to `file` and prints its name; does nothing if `file` is empty. Throws
+/// std::runtime_error if it cannot be written.
 void write_result(const std::string& file, const std::function<std::string()>& text);
 
 }  // namespace flagstone::cli

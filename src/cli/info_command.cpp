@@ -12,6 +12,7 @@
 
 #include "app/scan_info.hpp"
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/shared_options.hpp"
 #include "cli/terminal.hpp"
 #include "files/io/read_cloud.hpp"
@@ -45,11 +46,10 @@ class InfoCommand final : public Command {
 
 std::unique_ptr<Command> add_info_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("info",
-                         "Show what a scan file holds: fields, bounds, histograms.\n\n"
-                         "Example:  flagstone info scan.pcd\n");
+      app.add_subcommand("info", "Show the fields, bounds and histograms of scan files.");
+  set_help(*command, {.examples = {{"flagstone info scan.pcd"}}});
   auto made = std::make_unique<InfoCommand>(*command);
-  add_scans_option(*command, made->scans, "Scan files");
+  add_scans_option(*command, made->scans, "Scan files (.bin, .pcd.bin, .pcd, .ply, .npy)");
   add_columns_option(*command, made->columns);
   return made;
 }

@@ -1,91 +1,65 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <algorithm>
 #include <csignal>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <memory>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "cli/config_command.hpp"
-#include "cli/eval_command.hpp"
-#include "cli/sensors_command.hpp"
-#include "cli/simulate_command.hpp"
-#include "cli/sweep_command.hpp"
+#include "cli/help.hpp"
 #include "cli/terminal.hpp"
+#include "cli/usage_error.hpp"
 #include "flagstone/version.hpp"
-#include "library/core/did_you_mean.hpp"
 
 namespace {
 
-constexpr int wrong_usage = 2;
+constexpr int usage_error = 2;
 
-/// Lists commands by the first line of what they say of themselves; their own help says the rest.
-class BriefListing : public CLI::Formatter {
- public:
-  std::string make_subcommand(const CLI::App* command) const override {
-    const std::string description = command->get_description();
-    return fmt::format("  {:<{}}{}\n", command->get_name(), get_column_width() - 2,
-                       description.substr(0, description.find('\n')));
-  }
-};
-
-/// Throws std::invalid_argument if the first word is neither an option nor a command.
-void check_command(CLI::App& app, std::string_view word) {
-  std::vector<std::string> names;
-  for (const CLI::App* const command : app.get_subcommands({})) {
-    names.push_back(command->get_name());
-  }
-  if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return;
-  const std::vector<std::string_view> known(names.begin(), names.end());
-  const std::string_view nearest = flagstone::closest_name(word, known);
-  throw std::invalid_argument(fmt::format("{}: is not a command ({}; see 'flagstone --help')", word,
-                                          nearest.empty()
-                                              ? fmt::format("expected {}", fmt::join(names, ", "))
-                                              : fmt::format("did you mean {}?", nearest)));
+/// Adds the commands, in the groups and the order in which --help lists them.
+std::vector<std::unique_ptr<flagstone::cli::Command>> add_commands(CLI::App& app) {
+  using namespace flagstone::cli;
+  std::vector<std::unique_ptr<Command>> commands;
+  const auto add_group = [&](const char* name, auto... add) {
+    const std::size_t first = app.get_subcommands({}).size();
+    (commands.push_back(add(app)), ...);
+    const std::vector<CLI::App*> all = app.get_subcommands([](CLI::App*) { return true; });
+    for (std::size_t i = first; i < all.size(); ++i) all[i]->group(name);
+  };
+  add_group("Segment scans", add_segment_command, add_doctor_command, add_info_command);
+  add_group("Measure accuracy and speed", add_eval_command, add_sweep_command, add_bench_command);
+  add_group("Simulate scans", add_demo_command, add_simulate_command);
+  add_group("Settings", add_config_command, add_sensors_command);
+  return commands;
 }
 
 int run(int argc, char** argv) {
   using namespace flagstone::cli;
-  CLI::App app(
-      "Ground segmentation for 3D LiDAR.\n\n"
-      "Example:  flagstone segment scan.bin --output out --image\n\n"
-      "'flagstone COMMAND --help' explains a command.");
-  app.set_version_flag("--version", FLAGSTONE_VERSION);
+  CLI::App app("Ground segmentation for 3D LiDAR.", "flagstone");
+  app.option_defaults()->group(other_group);
+  app.set_help_flag("-h,--help", "Show this help");
+  app.set_version_flag("--version", FLAGSTONE_VERSION, "Show the version");
   app.require_subcommand(1);
-  app.formatter(std::make_shared<BriefListing>());
-  int exit_code = 0;
-  std::vector<std::unique_ptr<Command>> commands;
-  commands.push_back(add_segment_command(app));
-  commands.push_back(add_doctor_command(app));
-  add_simulate_command(app, exit_code);
-  add_eval_command(app, exit_code);
-  add_sweep_command(app, exit_code);
-  commands.push_back(add_bench_command(app));
-  commands.push_back(add_demo_command(app));
-  commands.push_back(add_info_command(app));
-  add_config_command(app, exit_code);
-  add_sensors_command(app, exit_code);
+  const std::vector<std::unique_ptr<Command>> commands = add_commands(app);
+  set_help(app, {.examples = {{"flagstone demo", "try it on a simulated street"},
+                              {"flagstone doctor scans/", "find settings for your sensor"},
+                              {"flagstone segment scans/ --output labels", "label your scans"}},
+                 .notes = "'flagstone COMMAND --help' shows the options of a command."});
   if (argc > 1) check_command(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    print_error(fmt::format("{}; see 'flagstone --help'", error.what()));
-    return wrong_usage;
+    print_error(usage_message(app, error));
+    return usage_error;
   }
+  int exit_code = 0;
   for (const auto& command : commands) {
     if (command->parser().parsed()) exit_code = command->run();
   }
@@ -98,13 +72,13 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file-size limit is an error of write(), so that temporary files are removed.
+  // A file-size limit then makes write() fail, and temporary files are removed.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     return run(argc, argv);
   } catch (const std::invalid_argument& error) {
     flagstone::cli::print_error(error.what());
-    return wrong_usage;
+    return usage_error;
   } catch (const std::exception& error) {
     flagstone::cli::print_error(error.what());
     return 1;

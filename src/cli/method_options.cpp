@@ -7,12 +7,12 @@
 
 #include <CLI/Error.hpp>
 #include <CLI/Option.hpp>
-#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "cli/help.hpp"
 #include "library/core/did_you_mean.hpp"
 
 namespace flagstone::cli {
@@ -28,25 +28,27 @@ void add_set_option(CLI::App& command, config::MethodChoice& choice, const char*
           },
           meaning)
       ->type_name(type)
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->group(method_group);
 }
 
 void add_preset_and_sensor_options(CLI::App& command, config::MethodChoice& choice) {
   const auto presets = PatchworkConfig::preset_names();
   command
-      .add_option("--preset", choice.preset,
-                  fmt::format("With patchwork and czm+...: settings to start from: {}",
-                              fmt::join(presets, ", ")))
+      .add_option(
+          "--preset", choice.preset,
+          fmt::format("Preset for patchwork and czm+...: one of {}", fmt::join(presets, ", ")))
       ->capture_default_str()
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->group(method_group);
   command
       .add_option("--sensor", choice.sensor,
-                  "Derive settings from this sensor: a name that 'flagstone sensors' lists, or a "
-                  ".toml file of your own")
-      ->type_name("NAME|FILE");
+                  "Derive settings from a sensor: a name from 'flagstone sensors', or a TOML file")
+      ->type_name("NAME|FILE")
+      ->group(method_group);
 }
 
-/// A `read` that throws std::invalid_argument, as a function of an option.
+/// Turns the std::invalid_argument of `read` into a usage error of the option.
 template <class Read>
 auto reader(const char* option, Read read) {
   return [option, read](const std::string& text) {
@@ -63,15 +65,18 @@ void add_mount_options(CLI::App& command, config::MountChoice& mount) {
       .add_option_function<std::string>(
           "--sensor-height",
           reader("--sensor-height", [&](const std::string& text) { mount.set_height(text); }),
-          "Height of the sensor above ground: metres; estimate, from the first scan that tells it; "
-          "track, from every scan, smoothed")
-      ->type_name("M|estimate|track");
+          "Height of the sensor above the ground: a value in metres; 'estimate' to use the first "
+          "scan that determines it; 'track' to update it with every scan")
+      ->type_name("M|estimate|track")
+      ->group(method_group);
   command
       .add_option_function<std::string>(
           "--tilt", reader("--tilt", [&](const std::string& text) { mount.set_tilt(text); }),
-          "Up direction of a tilted sensor: X,Y,Z in the sensor frame, such as the negated gravity "
-          "of an IMU; estimate, from scans as the height; off, along z. Default: off")
-      ->type_name("off|estimate|X,Y,Z");
+          "Up direction of a tilted sensor: 'off' for z up; 'estimate' to determine it from the "
+          "scans; X,Y,Z in the sensor frame, e.g. the negated gravity vector of an IMU")
+      ->default_str("off")
+      ->type_name("off|estimate|X,Y,Z")
+      ->group(method_group);
 }
 
 }  // namespace
@@ -88,42 +93,43 @@ void add_method_options(CLI::App& command, config::MethodChoice& choice,
             }
             choice.methods = {name};
           },
-          fmt::format("How to segment: {}", fmt::join(names, ", ")))
+          fmt::format("Segmentation method: one of {}", fmt::join(names, ", ")))
       ->default_str(choice.methods.front())
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->group(method_group);
   add_preset_and_sensor_options(command, choice);
   command
       .add_option("--config", choice.config_file,
-                  "TOML file of settings, as 'flagstone config' prints")
-      ->type_name("FILE");
+                  "Read settings from a TOML file; 'flagstone config' prints a template")
+      ->type_name("FILE")
+      ->group(method_group);
   add_set_option(command, choice, "KEY=VALUE",
-                 "One setting, e.g. --set elevation.enabled=false; may repeat",
-                 config::parse_setting);
+                 "Override one setting, e.g. --set elevation.enabled=false", config::parse_setting);
   add_mount_options(command, choice.mount);
 }
 
 void add_methods_options(CLI::App& command, config::MethodChoice& choice) {
   command
-      .add_option(
-          "--methods", choice.methods,
-          fmt::format("What to evaluate, in this order: {}; table1: the nine of the paper's "
-                      "Table I; all; none",
-                      fmt::join(config::method_names(), ", ")))
+      .add_option("--methods", choice.methods,
+                  fmt::format("Methods to evaluate, in this order, separated by commas: names; "
+                              "'table1', the nine of Table I of the Patchwork paper; 'all'; "
+                              "'none'. Names: {}",
+                              fmt::join(config::method_names(), ", ")))
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->capture_default_str()
-      ->type_name("LIST");
+      ->default_str(fmt::format("{}", fmt::join(choice.methods, ",")))
+      ->type_name("LIST")
+      ->group(method_group);
   add_preset_and_sensor_options(command, choice);
   command
       .add_option("--config", choice.config_file,
-                  "TOML file of settings, as 'flagstone config' prints, for each of the methods "
-                  "that has all of them")
-      ->type_name("FILE");
-  add_set_option(
-      command, choice, "METHOD.KEY=VALUE",
-      "One setting of one method, e.g. --set gpf.segments=5; those of patchwork hold for "
-      "the rows CZM + ... too; may repeat",
-      config::parse_setting_of_method);
+                  "Read settings from a TOML file; they apply to each method that has all of them")
+      ->type_name("FILE")
+      ->group(method_group);
+  add_set_option(command, choice, "METHOD.KEY=VALUE",
+                 "Override one setting of one method, e.g. --set gpf.segments=5; settings of "
+                 "patchwork also apply to czm+...",
+                 config::parse_setting_of_method);
   add_mount_options(command, choice.mount);
 }
 

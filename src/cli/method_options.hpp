@@ -10,13 +10,12 @@
 
 namespace flagstone::cli {
 
-/// Adds the options that say how to segment to a command that runs one of these methods: --method,
-/// --preset, --sensor, --config, --set, --sensor-height and --tilt. They write to `choice`, which
-/// has one method, the default.
+/// Adds --method, --preset, --sensor, --config, --set, --sensor-height and --tilt to a command that
+/// runs one of the methods in `names`. They write to `choice`, whose only method is the default.
 void add_method_options(CLI::App& command, config::MethodChoice& choice,
                         std::span<const std::string_view> names = config::method_names());
 
-/// Adds the same options to a command that runs several methods: --methods instead of --method, and
+/// Adds these options to a command that runs several methods: --methods replaces --method, and
 /// --set takes METHOD.KEY=VALUE.
 void add_methods_options(CLI::App& command, config::MethodChoice& choice);
 

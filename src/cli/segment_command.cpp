@@ -6,17 +6,15 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
-#include <CLI/Validators.hpp>
-#include <map>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/segment_files.hpp"
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/method_options.hpp"
 #include "cli/shared_options.hpp"
 #include "cli/terminal.hpp"
@@ -44,12 +42,6 @@ struct SegmentOptions {
 };
 
 app::SegmentRequest request_of(const SegmentOptions& options) {
-  const double resolution = options.surface_resolution.value_or(1);
-  const bool is_allowed = resolution >= 0.1 && resolution <= 10;  // not NaN, as CLI::Range has it
-  if (!is_allowed) {
-    throw std::invalid_argument(
-        fmt::format("--surface-resolution {}: not within 0.1 to 10 metres a cell", resolution));
-  }
   config::ResolvedMethod method = config::resolve_one(options.method);
   app::SegmentRequest request{
       .scans = options.scans,
@@ -105,8 +97,9 @@ class SegmentCommand final : public Command {
                  app::throughput_text(outcome.reports, outcome.time));
     }
     if (outcome.reports.size() < outcome.scans) {
-      print_error(fmt::format("interrupted, {} of {} scans are done; run it again for the rest",
-                              outcome.reports.size(), outcome.scans));
+      print_error(fmt::format(
+          "interrupted: {} of {} scans are segmented (run the command again for the rest)",
+          outcome.reports.size(), outcome.scans));
     }
     return outcome.ok() ? 0 : 1;
   }
@@ -115,64 +108,74 @@ class SegmentCommand final : public Command {
 }  // namespace
 
 std::unique_ptr<Command> add_segment_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("segment",
-                         "Label every point of scans.\n\n"
-                         "Example:  flagstone segment scans/ --output labels --image\n");
+  CLI::App* command = app.add_subcommand(
+      "segment", "Label every point of one or more LiDAR scans as ground or non-ground.");
+  set_help(
+      *command,
+      {.examples = {{"flagstone segment scans/ --output labels", "write one .label file per scan"},
+                    {"flagstone segment scan.pcd --output out --format pcd",
+                     "add a field 'label' to the cloud"},
+                    {"flagstone segment scans/ --output labels --sensor-height estimate",
+                     "determine the height of the sensor from the scans"}}});
   auto made = std::make_unique<SegmentCommand>(*command);
   SegmentOptions* const options = &made->options;
   add_scans_option(*command, options->scans);
-  command->add_option("-o,--output", options->output, "Folder for what is written; made if missing")
-      ->required()
-      ->type_name("DIR");
-  add_method_options(*command, options->method);
-  const std::map<std::string, OutputFormat> formats = {
-      {"label", OutputFormat::label}, {"u8", OutputFormat::u8},   {"npy", OutputFormat::npy},
-      {"pcd", OutputFormat::pcd},     {"ply", OutputFormat::ply}, {"split", OutputFormat::split}};
-  command
-      ->add_option(
-          "--format", options->format,
-          "label: labels alone, uint32 each; u8: labels alone, uint8 each in a NumPy file; npy, "
-          "pcd, ply: the cloud with a field 'label'; split: ground and nonground clouds. Default: "
-          "label")
-      ->transform(CLI::Transformer(formats).description(""))
-      ->transform(CLI::IsMember(formats));  // looked at first: names only, no numbers
-  const std::map<std::string, io::LabelMap> maps = {
-      {"flagstone", io::LabelMap::flagstone}, {"semantic-kitti", io::LabelMap::semantic_kitti}};
-  command
-      ->add_option("--label-map", options->label_map,
-                   "Codes in label files: flagstone (0..4), or semantic-kitti (40 ground, 0 else)")
-      ->transform(CLI::Transformer(maps).description(""))
-      ->transform(CLI::IsMember(maps));
   add_columns_option(*command, options->columns);
   command
-      ->add_option(
-          "--reference", options->reference,
-          "True labels to compare with: a file, or a folder of STEM.label, STEM_lidarseg.bin "
-          "or STEM.label.npy")
-      ->type_name("LABELS");
-  CLI::Option* const picture =
-      command->add_flag("--image", options->picture, "Draw each scan from above, as PNG");
+      ->add_option("--reference", options->reference,
+                   "Ground-truth labels to score against: a file, or a directory with STEM.label, "
+                   "STEM_lidarseg.bin or STEM.label.npy")
+      ->type_name("PATH")
+      ->group(input_group);
+  add_method_options(*command, options->method);
+
+  command->option_defaults()->group(output_group);
   command
-      ->add_flag("--color-patches", options->tint_patches,
-                 "In the picture, tint every patch by its verdict; with patchwork, r_gpf, czm+...")
-      ->needs(picture);
+      ->add_option("-o,--output", options->output, "Output directory, created if it does not exist")
+      ->required()
+      ->type_name("DIR");
+  add_choice_option<OutputFormat>(*command, "--format", "format",
+                                  {{"label", OutputFormat::label},
+                                   {"u8", OutputFormat::u8},
+                                   {"npy", OutputFormat::npy},
+                                   {"pcd", OutputFormat::pcd},
+                                   {"ply", OutputFormat::ply},
+                                   {"split", OutputFormat::split}},
+                                  options->format,
+                                  "Output format"
+                                  "\nlabel\tlabels only, one uint32 per point"
+                                  "\nu8\tlabels only, one uint8 per point, as a NumPy array"
+                                  "\nnpy\tthe cloud with an added field 'label'; so do pcd and ply"
+                                  "\nsplit\tseparate clouds of ground and non-ground points")
+      ->default_str("label")
+      ->type_name("FORMAT");
+  add_choice_option(*command, "--label-map", "label map", label_maps(), options->label_map,
+                    "Codes in label files"
+                    "\nflagstone\t0 to 4, one per label"
+                    "\nsemantic-kitti\t40 for ground, otherwise 0")
+      ->default_str("flagstone");
   command->add_flag("--heights", options->heights,
-                    "Write each point's height above the ground: STEM.heights.npy, and with "
-                    "--format npy, pcd or ply a field 'height'");
+                    "Write the height of each point above the ground to STEM.heights.npy, and to a "
+                    "field 'height' with --format npy, pcd or ply");
   CLI::Option* const surface =
       command->add_flag("--surface", options->surface,
-                        "Write the ground itself: STEM.surface.npy, a grid of heights, .json, "
-                        "where it lies, .png, a map");
+                        "Write the ground surface: heights (STEM.surface.npy), grid geometry "
+                        "(.json) and a map (.png)");
   command
       ->add_option("--surface-resolution", options->surface_resolution,
-                   "Metres a cell of that grid, 0.1 to 10. Default: the surface's finest")
+                   "Cell size of the surface grid in metres, 0.1 to 10")
+      ->check(in_range(0.1, 10.0))
+      ->default_str("the finest cell size of the surface")
       ->needs(surface)
       ->type_name("M");
-  add_threads_option(
-      *command, options->threads,
-      "Scans worked on at once. Default: all cores; one where the height is tracked");
+  CLI::Option* const image =
+      command->add_flag("--image", options->picture, "Draw a bird's-eye view of each scan as PNG");
+  command
+      ->add_flag("--color-patches", options->tint_patches,
+                 "Colour each patch in the image by its status (patchwork, r_gpf, czm+...)")
+      ->needs(image);
   command->add_flag("--json", options->json, "Print one JSON object per scan instead of text");
+  add_threads_option(*command, options->threads, "all cores; 1 with --sensor-height track");
   return made;
 }
 

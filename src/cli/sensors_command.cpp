@@ -1,25 +1,24 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/sensors_command.hpp"
-
 #include <fmt/format.h>
 
+#include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <CLI/Option.hpp>
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
+#include "cli/commands.hpp"
+#include "cli/derivation_text.hpp"
+#include "cli/help.hpp"
 #include "cli/terminal.hpp"
 #include "files/io/sensor_file.hpp"
 
 namespace flagstone::cli {
 namespace {
-
-struct SensorsOptions {
-  std::vector<std::string> sensors;
-};
 
 struct Layout {
   std::size_t rings = 0;
@@ -51,62 +50,72 @@ std::string row_of(const Sensor& sensor) {
       fmt::format("{:.1f} to {:.1f}", config.min_range, layout.reach));
 }
 
-int list_sensors(const SensorsOptions& options) {
-  std::vector<Sensor> sensors(Sensor::known().begin(), Sensor::known().end());
-  bool all_read = true;
-  if (!options.sensors.empty()) sensors.clear();
-  for (const std::string& name : options.sensors) {
-    Sensor sensor;
-    const Status status = io::find_sensor(name, sensor);
-    if (!status.ok()) {
-      print_error(status.message());
-      all_read = false;
-    } else {
-      sensors.push_back(std::move(sensor));
+class SensorsCommand final : public Command {
+ public:
+  using Command::Command;
+  std::vector<std::string> names;
+
+  int run() override {
+    std::vector<Sensor> sensors(Sensor::known().begin(), Sensor::known().end());
+    bool all_read = true;
+    if (!names.empty()) sensors.clear();
+    for (const std::string& name : names) {
+      Sensor sensor;
+      const Status status = io::find_sensor(name, sensor);
+      if (!status.ok()) {
+        print_error(status.message());
+        all_read = false;
+      } else {
+        sensors.push_back(std::move(sensor));
+      }
     }
-  }
-  constexpr int usage_error = 2;  // as with --sensor
-  if (sensors.empty()) return usage_error;
-  fmt::print("{:<12} {:<24} {:>7} {:>7} {:>6} {:>6} {:>8} {:>5} {:>5} {:>5} {:>11}\n", "name",
-             "title", "beams", "from °", "to °", "view °", "height m", "rings", "zones", "bins",
-             "range m");
-  for (const Sensor& sensor : sensors) {
-    try {
-      fmt::print("{}", row_of(sensor));
-    } catch (const std::invalid_argument& error) {  // it sees no ground
-      print_error(error.what());
-      all_read = false;
+    constexpr int usage_error = 2;  // as with --sensor
+    if (sensors.empty()) return usage_error;
+    fmt::print("{:<12} {:<24} {:>7} {:>7} {:>6} {:>6} {:>8} {:>5} {:>5} {:>5} {:>11}\n", "name",
+               "title", "beams", "from °", "to °", "view °", "height m", "rings", "zones", "bins",
+               "range m");
+    for (const Sensor& sensor : sensors) {
+      try {
+        fmt::print("{}", row_of(sensor));
+      } catch (const std::invalid_argument& error) {  // the sensor sees no ground
+        print_error(error.what());
+        all_read = false;
+      }
     }
+    return all_read ? 0 : usage_error;
   }
-  return all_read ? 0 : usage_error;
-}
+};
 
 }  // namespace
 
 std::string derivation_text(const Sensor& sensor, const PatchworkConfig& config) {
   const Layout layout = layout_of(config);
   return fmt::format(
-      "# Rings lie where the beams of sensor {} ({}) meet flat ground,\n"
-      "# h / tan(-elevation) away: edges halfway between beams, two beams or 1.8 m in each, no "
-      "ring\n"
-      "# shorter than 15 % of its distance. Bins are about as wide as long and have 20 points or "
-      "more.\n"
-      "# {} rings, {} zones, {} bins. See docs/reference/sensors.md.\n",
+      "# Zones derived from the sensor {} ({}): its beams meet flat ground at\n"
+      "# h / tan(-elevation). Ring edges are halfway between beams. A ring has two beams, or one "
+      "if "
+      "it\n"
+      "# is at least 1.8 m long, and is never shorter than 15 % of its distance. Bins are about as "
+      "wide\n"
+      "# as long and have at least 20 points. {} rings, {} zones, {} bins.\n"
+      "# See docs/explanation/settings-from-a-sensor.md.\n",
       sensor.name, sensor.title, layout.rings, config.zones.size(), layout.bins);
 }
 
-void add_sensors_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<SensorsOptions>();
+std::unique_ptr<Command> add_sensors_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "sensors",
-      "List the sensors that settings are derived from, and the zones they give.\n\n"
-      "Example:  flagstone sensors mine.toml\n\n"
-      "rings, zones, bins, range: those of --method patchwork with this --sensor.\n");
-  command
-      ->add_option("sensors", options->sensors,
-                   "Names, or .toml files of sensors of your own. Default: all that are known")
+      "sensors", "List the known sensors and the Patchwork zones derived from each.");
+  set_help(*command,
+           {.examples = {{"flagstone sensors", "all known sensors"},
+                         {"flagstone sensors mine.toml", "your own sensor, from a TOML file"}},
+            .notes = "The columns rings, zones, bins and range describe --method patchwork with "
+                     "--sensor set to this sensor.",
+            .exit_codes = "0, success; 2, usage error or unknown sensor."});
+  auto made = std::make_unique<SensorsCommand>(*command);
+  command->add_option("sensors", made->names, "Sensor names, or TOML files that describe a sensor")
+      ->default_str("all known sensors")
       ->type_name("NAME|FILE");
-  command->callback([options, &exit_code] { exit_code = list_sensors(*options); });
+  return made;
 }
 
 }  // namespace flagstone::cli

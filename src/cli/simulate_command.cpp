@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include "cli/simulate_command.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -10,8 +8,11 @@
 #include <CLI/Option.hpp>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "app/simulate.hpp"
+#include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/shared_options.hpp"
 #include "cli/terminal.hpp"
 #include "files/io/message.hpp"
@@ -24,106 +25,124 @@
 namespace flagstone::cli {
 namespace {
 
-int simulate(const app::SimulateOptions& options) {
-  catch_interrupts();
-  ProgressBar bar;
-  Stopwatch watch;
-  const app::Simulation simulation = app::simulate(options, bar.callbacks());
-  const double seconds = watch.lap() / 1000;
-  bar.clear();
-  if (simulation.interrupted) return 1;
-  fmt::print("{}, {}, seed {}: {} frames in {} drive{}, {} simulated, {} kept as they were\n",
-             options.scene, simulation.sensor, options.seed, options.frames, simulation.drives,
-             simulation.drives == 1 ? "" : "s", simulation.simulated, simulation.kept);
-  if (simulation.simulated > 0) {
-    fmt::print("{:.1f} s, {:.1f} scans per second\n", seconds,
-               static_cast<double>(simulation.simulated) / seconds);
+/// The names and one-line summaries of scenes, noise levels or weathers.
+NameList summaries(std::string title, const auto& kinds) {
+  NameList list{.title = std::move(title)};
+  for (const auto& kind : kinds) {
+    list.names.emplace_back(std::string(kind.name), std::string(kind.summary));
   }
-  fmt::print("{}\n", io::printable(simulation.folder));
-  return 0;
+  return list;
 }
 
-std::string description() {
-  std::string text =
-      "Simulate a sequence of scans with exact truth.\n\n"
-      "Example:  flagstone simulate --scene steep_street --frames 200 --output simulated\n\n"
-      "Written as SemanticKITTI lays out a sequence. Run again, it keeps the frames that are "
-      "there.\n\nScenes:\n";
-  for (const sim::SceneKind& scene : sim::scene_kinds()) {
-    text += fmt::format("  {:<17} {}\n", scene.name, scene.summary);
-  }
-  text += "\nNoise:\n";
-  for (const sim::NoiseLevel& level : sim::noise_levels()) {
-    text += fmt::format("  {:<16} {}\n", level.name, level.summary);
-  }
-  text += "\nWeather:\n";
-  for (const sim::Weather& weather : sim::weathers()) {
-    text += fmt::format("  {:<16} {}\n", weather.name, weather.summary);
-  }
-  text += "\nSensors:\n";
-  for (const Sensor& sensor : Sensor::known()) {
-    text += fmt::format("  {:<17} {}\n", sensor.name, sensor.title);
-  }
-  return text;
+Help help_text() {
+  NameList sensors{.title = "Sensors"};
+  for (const Sensor& sensor : Sensor::known())
+    sensors.names.emplace_back(sensor.name, sensor.title);
+  return {
+      .examples =
+          {{"flagstone simulate --scene street --output simulated"},
+           {"flagstone simulate --scene steep_street --sensor vlp-16 --weather rain -o out"}},
+      .lists = {summaries("Scenes", sim::scene_kinds()), summaries("Noise", sim::noise_levels()),
+                summaries("Weather", sim::weathers()), sensors},
+      .notes =
+          "The output is a SemanticKITTI sequence with exact ground truth. The same options "
+          "always give the same bytes. Frames that already exist are kept, so the same "
+          "command resumes an interrupted run.",
+      .exit_codes = "0, success; 1, interrupted, or a file cannot be written; 2, usage error."};
 }
+
+class SimulateCommand final : public Command {
+ public:
+  using Command::Command;
+  app::SimulateOptions options;
+
+  int run() override {
+    catch_interrupts();
+    ProgressBar bar;
+    Stopwatch watch;
+    const app::Simulation simulation = app::simulate(options, bar.callbacks());
+    const double seconds = watch.lap() / 1000;
+    bar.clear();
+    if (simulation.interrupted) return 1;
+    fmt::print("{}, {}, seed {}: {} frames in {} sequence{}, {} simulated, {} kept\n",
+               options.scene, simulation.sensor, options.seed, options.frames, simulation.drives,
+               simulation.drives == 1 ? "" : "s", simulation.simulated, simulation.kept);
+    if (simulation.simulated > 0) {
+      fmt::print("{:.1f} s, {:.1f} scans per second\n", seconds,
+                 static_cast<double>(simulation.simulated) / seconds);
+    }
+    fmt::print("{}\n", io::printable(simulation.folder));
+    return 0;
+  }
+};
 
 }  // namespace
 
-void add_simulate_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<app::SimulateOptions>();
-  CLI::App* command = app.add_subcommand("simulate", description());
-  command->add_option("--scene", options->scene, "What is simulated; the names stand above")
+std::unique_ptr<Command> add_simulate_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("simulate", "Simulate a sequence of scans with exact ground truth.");
+  set_help(*command, help_text());
+  auto made = std::make_unique<SimulateCommand>(*command);
+  app::SimulateOptions* const options = &made->options;
+  command->option_defaults()->group("Scene");
+  command->add_option("--scene", options->scene, "Kind of environment; see Scenes below")
       ->required()
       ->type_name("NAME");
   command
-      ->add_option("--sensor", options->sensor,
-                   "What takes the scans; the names stand above, or a file of your own")
-      ->type_name("NAME|FILE.toml")
+      ->add_option("--frames", options->frames,
+                   fmt::format("Number of scans, 1 to {}; every {} scans a new environment",
+                               app::max_frames, sim::frames_per_drive))
+      ->check(in_range(std::size_t{1}, app::max_frames))
+      ->type_name("N")
       ->capture_default_str();
-  command
-      ->add_option(
-          "--sensor-height", options->sensor_height,
-          fmt::format("Metres above the ground, 0 to {}. Default: the sensor's usual height",
-                      app::max_simulated_height))
-      ->type_name("M");
-  command
-      ->add_option("--tilt", options->tilt,
-                   "How the sensor leans on its vehicle, degrees, -90 to 90 each: positive pitch "
-                   "looks down ahead, positive roll has the right side lower")
-      ->type_name("PITCH,ROLL")
-      ->capture_default_str();
-  command->add_option("--noise", options->noise, "How the sensor errs; the names stand above")
+  command->add_option("--noise", options->noise, "Measurement errors; see Noise below")
       ->type_name("NAME")
       ->capture_default_str();
   command
       ->add_option("--weather", options->weather,
-                   "What is in the air and on the road; one or more of the names above")
+                   "Rain, dust and wet roads; one or more names from Weather below, separated by "
+                   "commas")
       ->delimiter(',')
-      ->type_name("NAME,...")
-      ->capture_default_str();
-  command->add_flag("--keep-no-returns", options->keep_no_returns,
-                    "Write missing returns as points at (0, 0, 0), as many drivers do");
+      ->type_name("LIST")
+      ->default_str("clear");
+  add_seed_option(*command, options->seed, "Random seed of the environments");
+
+  command->option_defaults()->group("Sensor");
   command
-      ->add_option("--frames", options->frames,
-                   fmt::format("Scans, 1 to {}; every {} in a new environment", app::max_frames,
-                               sim::frames_per_drive))
-      ->type_name("N")
+      ->add_option("--sensor", options->sensor,
+                   "Sensor to simulate: a name from Sensors below, or a TOML file")
+      ->type_name("NAME|FILE")
       ->capture_default_str();
-  add_seed_option(*command, options->seed,
-                  "Which environments; the same seed gives the same bytes");
   command
-      ->add_option(
-          "-o,--output", options->output,
-          "Folder for sequences/NN with velodyne, labels, ground, returns (created if missing)")
+      ->add_option("--sensor-height", options->sensor_height,
+                   fmt::format("Height of the sensor above the ground in metres, 0 to {}",
+                               app::max_simulated_height))
+      ->check(in_range(0.0, app::max_simulated_height))
+      ->default_str("the usual height of the sensor")
+      ->type_name("M");
+  command
+      ->add_option("--tilt", options->tilt,
+                   "Tilt of the sensor on its vehicle in degrees, -90 to 90 each; positive pitch "
+                   "looks down ahead, positive roll lowers the right side")
+      ->type_name("PITCH,ROLL")
+      ->capture_default_str();
+
+  command->option_defaults()->group(output_group);
+  command
+      ->add_option("-o,--output", options->output,
+                   "Output directory, created if it does not exist; gets sequences/NN with "
+                   "velodyne, labels, ground and returns")
       ->required()
       ->type_name("DIR");
   command
       ->add_option("--sequence", options->sequence,
-                   "Two digits, so that one folder can hold several sequences")
+                   "Two digits; use different ones for several sequences in one directory")
       ->type_name("NN")
       ->capture_default_str();
+  command->add_flag("--keep-no-returns", options->keep_no_returns,
+                    "Write missing returns as points at (0, 0, 0), as many drivers do");
   add_threads_option(*command, options->threads);
-  command->callback([options, &exit_code] { exit_code = simulate(*options); });
+  return made;
 }
 
 }  // namespace flagstone::cli

@@ -17,14 +17,14 @@
 namespace flagstone::cli {
 namespace {
 
-volatile std::sig_atomic_t asked = 0;
+volatile std::sig_atomic_t was_signalled = 0;
 
-void ask(int signal) {
-  asked = 1;
+void handle_signal(int signal) {
+  was_signalled = 1;
   std::signal(signal, SIG_DFL);
 }
 
-/// Of the terminal that standard error is; COLUMNS or 80 if it does not tell.
+/// Width of the terminal on standard error; otherwise COLUMNS, otherwise 80.
 std::size_t terminal_columns() {
   winsize size{};
   if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
@@ -39,20 +39,20 @@ std::size_t terminal_columns() {
 }  // namespace
 
 void print_error(std::string_view message) {
-  // Not fmt::print, which throws where standard error cannot be written.
+  // Not fmt::print, which throws if standard error cannot be written.
   std::fputs(fmt::format("flagstone: {}\n", io::printable(message)).c_str(), stderr);
 }
 
 void catch_interrupts() {
-  std::signal(SIGINT, ask);
-  std::signal(SIGTERM, ask);
+  std::signal(SIGINT, handle_signal);
+  std::signal(SIGTERM, handle_signal);
 }
 
-bool interrupted() noexcept { return asked != 0; }
+bool interrupted() noexcept { return was_signalled != 0; }
 
 void ProgressBar::show(const app::Progress& progress) {
   if (progress.total <= 1 || ::isatty(STDERR_FILENO) == 0) return;
-  // A line as wide as the terminal would leave the cursor on the next one.
+  // A line of the full width would move the cursor to the next line.
   std::fputs(("\r\x1b[K" + app::to_text(progress, terminal_columns() - 1)).c_str(), stderr);
   std::fflush(stderr);
   shown_ = true;

@@ -8,19 +8,19 @@
 
 namespace flagstone::cli {
 
-/// Prints "flagstone: MESSAGE" on standard error, on one line whatever file names and settings the
-/// message quotes: control characters in it are spelled as in "\x0a".
+/// Prints "flagstone: MESSAGE" on standard error, always on one line: control characters, which
+/// file names and settings may contain, are escaped as in "\x0a".
 void print_error(std::string_view message);
 
-/// From now on the first SIGINT or SIGTERM asks to stop after the scans in hand; the second ends
-/// the program at once.
+/// Handles signals from now on: after the first SIGINT or SIGTERM, the run stops when the scans in
+/// progress are done; the second one ends the program immediately.
 void catch_interrupts();
 
-/// Has somebody asked to stop?
+/// True after the first SIGINT or SIGTERM.
 bool interrupted() noexcept;
 
-/// Progress on the last line of the terminal, as wide as the terminal at most; nothing if standard
-/// error is not a terminal, or for a single job.
+/// Shows progress on the last line of the terminal, at most as wide as the terminal. Shows nothing
+/// if standard error is not a terminal or if there is only one job.
 class ProgressBar {
  public:
   ProgressBar() = default;
@@ -30,11 +30,11 @@ class ProgressBar {
 
   void show(const app::Progress& progress);
 
-  /// Takes the bar away, to print something else.
+  /// Removes the bar, so that something else can be printed.
   void clear();
 
-  /// Draws progress with this bar, prints messages as errors, stops when interrupted. Use it while
-  /// the bar lives.
+  /// Callbacks that show progress with this bar, print messages as errors and stop on a signal.
+  /// They must not outlive the bar.
   [[nodiscard]] app::RunCallbacks callbacks();
 
  private:

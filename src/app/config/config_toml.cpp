@@ -69,7 +69,7 @@ std::string comment_of(const Setting& setting) {
                  : fmt::format("{}; {}", setting.meaning, to_string(setting.allowed));
 }
 
-/// One line for each setting, in tables.
+/// One line per setting, in TOML tables.
 std::string settings_text(const std::vector<Setting>& settings) {
   std::string text;
   std::string_view section;
@@ -88,12 +88,14 @@ std::string settings_text(const std::vector<Setting>& settings) {
 
 std::string zones_text(const std::vector<Zone>& zones) {
   std::string text =
-      "\n# Zones Z_1, Z_2, ... from the sensor outward, 1 to 16; each begins where the one before "
+      "\n# 1 to 16 zones Z_1, Z_2, ... from the sensor outward. Each starts where the previous one "
       "ends.\n"
-      "# ring_radii: outer radius of each ring, metres, ascending, up to 1000; the last ends the "
-      "zone\n"
-      "# sectors: N_theta, 1 to 3600\n"
-      "# height_margin: M_h; seeds are not chosen below M_h * h_s; below -1, -inf for no margin\n";
+      "# ring_radii: outer radius of each ring in metres, ascending, up to 1000; the last one is "
+      "the "
+      "end of the zone\n"
+      "# sectors: number of sectors N_theta, 1 to 3600\n"
+      "# height_margin: M_h; points below M_h * h_s are not seeds; below -1, or -inf for no "
+      "limit\n";
   for (const Zone& zone : zones) {
     text += fmt::format("\n[[zones]]\nring_radii = {}\nsectors = {}\nheight_margin = {}\n",
                         toml_text(zone.ring_radii), zone.sectors, toml_text(zone.height_margin));
@@ -101,13 +103,13 @@ std::string zones_text(const std::vector<Zone>& zones) {
   return text;
 }
 
-std::string place_of(const toml::source_region& region, std::string_view source) {
+std::string location_of(const toml::source_region& region, std::string_view source) {
   if (source.empty()) return {};
   return fmt::format("{}: line {}, column {}: ", source, region.begin.line, region.begin.column);
 }
 
 Value value_of(const toml::node& node, std::string_view source) {
-  Value value{.held = {}, .place = place_of(node.source(), source)};
+  Value value{.held = {}, .place = location_of(node.source(), source)};
   node.visit([&](const auto& held) {
     if constexpr (toml::is_table<decltype(held)>) {
       Value::Table& table = value.held.emplace<Value::Table>();
@@ -150,7 +152,7 @@ Value parse_toml(std::string_view text, std::string_view source) {
     return value_of(toml::parse(text, source), source);
   } catch (const toml::parse_error& error) {
     throw std::invalid_argument(
-        io::printable(place_of(error.source(), source) + std::string(error.description())));
+        io::printable(location_of(error.source(), source) + std::string(error.description())));
   }
 }
 
@@ -166,8 +168,8 @@ std::optional<std::string> sensor_named_in(const Value& table) {
   if (sensor == nullptr) return std::nullopt;
   const auto* name = std::get_if<std::string>(&sensor->held);
   if (name == nullptr) {
-    throw std::invalid_argument(
-        io::printable(sensor->place + "sensor is a text, the name of a sensor or of its file"));
+    throw std::invalid_argument(io::printable(
+        sensor->place + "sensor must be a string, the name of a sensor or of its file"));
   }
   return *name;
 }

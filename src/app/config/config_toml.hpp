@@ -10,23 +10,23 @@
 
 namespace flagstone::config {
 
-/// Every setting as commented TOML, which `apply_toml` reads back to the same configuration.
+/// All settings as commented TOML. `apply_toml` reads it back to the same configuration.
 std::string to_toml(MethodConfig config);
-/// The table `mount`, likewise.
+/// The table `mount` as commented TOML.
 std::string to_toml(MountSettings mount);
 
-/// What a TOML text says, as a table. Throws std::invalid_argument for a syntax error: one line
-/// that begins with `source`, the name of the file, and the place in it.
+/// Parses TOML into a table. Throws std::invalid_argument for a syntax error: one line that starts
+/// with `source`, the name of the file, and the line and column.
 Value parse_toml(std::string_view text, std::string_view source);
-/// The same for a file. Throws std::invalid_argument likewise if it cannot be read.
+/// Parses a TOML file. Throws std::invalid_argument also if the file cannot be read.
 Value parse_toml_file(const std::string& file);
 
 /// parse_toml() and apply().
 void apply_toml(std::string_view text, std::string_view source, MethodConfig& config,
                 MountSettings& mount);
 
-/// What the key `sensor` of a table names: a known sensor or a file. Throws std::invalid_argument
-/// if that is no text.
+/// The value of the key `sensor`: a known sensor or a file. Throws std::invalid_argument if it is
+/// not a string.
 std::optional<std::string> sensor_named_in(const Value& table);
 
 }  // namespace flagstone::config

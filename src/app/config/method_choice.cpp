@@ -44,12 +44,12 @@ std::optional<std::array<float, 3>> direction_of(std::string_view text) {
   return direction;
 }
 
-/// Does what holds for `owner` hold for this method too?
+/// Do settings of `owner` also apply to this method?
 bool includes(std::string_view owner, const Method& method) {
   return owner == method.name || owner == method.starts_from;
 }
 
-/// The way from a choice to the settings of each of its methods.
+/// Turns a choice into the settings of each of its methods.
 class Resolver {
  public:
   explicit Resolver(const MethodChoice& choice) : choice_(choice) {
@@ -85,9 +85,10 @@ class Resolver {
       return method->preset != nullptr || !method->starts_from.empty();
     };
     if (choice_.preset == "default" || std::ranges::any_of(methods_, has_presets)) return;
-    static_cast<void>(preset_config("patchwork", choice_.preset));  // is it one at all?
+    static_cast<void>(
+        preset_config("patchwork", choice_.preset));  // throws if there is no such preset
     throw std::invalid_argument(
-        fmt::format("{0}preset {1}: {2} {3} no presets; {0}method patchwork and czm+... have",
+        fmt::format("{0}preset {1}: {2} {3} no presets (expected {0}method patchwork or czm+...)",
                     choice_.option_prefix, choice_.preset, fmt::join(choice_.methods, ", "),
                     methods_.size() == 1 ? "has" : "have"));
   }
@@ -95,8 +96,8 @@ class Resolver {
   void check_owner(const GivenSettings& given) const {
     const auto is_owned = [&](const Method* method) { return includes(given.method, *method); };
     if (given.method.empty() || std::ranges::any_of(methods_, is_owned)) return;
-    throw std::invalid_argument(fmt::format("{}: {} is not among {}methods", given.source,
-                                            given.method, choice_.option_prefix));
+    throw std::invalid_argument(fmt::format("{}: {} is not one of the methods in {}methods",
+                                            given.source, given.method, choice_.option_prefix));
   }
 
   void check_file() const {
@@ -105,9 +106,9 @@ class Resolver {
     if (methods_.size() == 1 || std::ranges::any_of(methods_, fits)) return;
     MethodConfig config = default_config(methods_.front()->name);
     MountSettings mount;
-    apply(*file_, config, mount);  // says what does not fit
-    throw std::invalid_argument(fmt::format("{}: holds for none of {}", choice_.config_file,
-                                            fmt::join(choice_.methods, ", ")));
+    apply(*file_, config, mount);  // throws for a key that is not a setting
+    throw std::invalid_argument(fmt::format("{}: applies to none of the methods {}",
+                                            choice_.config_file, fmt::join(choice_.methods, ", ")));
   }
 
   [[nodiscard]] bool file_fits(const Method& method) const {
@@ -116,7 +117,7 @@ class Resolver {
     return !is_variant && file_ && has_settings_of(*file_, default_config(method.name));
   }
 
-  /// The user's settings over those that the method starts from.
+  /// `config`, overridden by the user's settings.
   [[nodiscard]] ResolvedMethod overlaid(const Method& method, MethodConfig config) const {
     MountSettings mount;
     if (file_ && file_fits(method)) {
@@ -139,7 +140,7 @@ class Resolver {
     return {.name = std::string(method.name), .config = std::move(config), .mount = mount};
   }
 
-  /// From then on a method's height is the mount's.
+  /// Sets the mount. Afterwards the method and the mount have the same sensor height.
   void apply_mount(MethodConfig& config, MountSettings& mount) const {
     const MountChoice& chosen = choice_.mount;
     if (chosen.sensor_height) set_sensor_height(*chosen.sensor_height, config);
@@ -150,7 +151,7 @@ class Resolver {
     if (chosen.up) mount.mount.up = *chosen.up;
   }
 
-  /// Settings for the sensor at the height that they end up with.
+  /// Settings derived for the sensor at the height that results from the settings themselves.
   [[nodiscard]] ResolvedMethod at_own_height(const Method& method, Sensor sensor) const {
     const auto settings_at = [&](const Sensor& at) {
       return overlaid(
@@ -160,7 +161,7 @@ class Resolver {
     ResolvedMethod resolved = settings_at(sensor);
     const auto usual = static_cast<float>(sensor.height);
     const float height = sensor_height_of(resolved.config, usual);
-    // At 0 and below the frame's origin is not in the sensor; its own height is the better guess.
+    // At 0 or below, the origin of the frame is not at the sensor: use its usual height.
     if (height == usual || !(height > 0)) return resolved;
     sensor.height = height;
     return settings_at(sensor);
@@ -174,8 +175,8 @@ class Resolver {
 
 void refuse_sensor(const Value& table, const std::string& source) {
   if (table.find("sensor") == nullptr) return;
-  throw std::invalid_argument(source +
-                              ": a sensor is named by --sensor, or at the top of a --config file");
+  throw std::invalid_argument(
+      source + ": cannot set the sensor (use --sensor, or the key 'sensor' in a --config file)");
 }
 
 }  // namespace
@@ -193,7 +194,8 @@ void MountChoice::set_height(std::string_view text) {
   } else if (const auto metres = number_of(text)) {
     set_height(*metres);
   } else {
-    throw std::invalid_argument(fmt::format("{} is no number of metres, estimate or track", text));
+    throw std::invalid_argument(
+        fmt::format("'{}' is not a height (expected metres, estimate or track)", text));
   }
 }
 
@@ -210,7 +212,8 @@ void MountChoice::set_tilt(std::string_view text) {
   } else if (const auto direction = direction_of(text)) {
     set_tilt(*direction);
   } else {
-    throw std::invalid_argument(fmt::format("{} is not off, estimate or where up is, X,Y,Z", text));
+    throw std::invalid_argument(
+        fmt::format("'{}' is not a tilt (expected off, estimate or the up direction X,Y,Z)", text));
   }
 }
 
@@ -226,8 +229,8 @@ GivenSettings parse_setting_of_method(const std::string& text) {
   const std::size_t dot = text.find('.');
   const std::string method = text.substr(0, dot);
   if (dot == std::string::npos) {
-    throw std::invalid_argument(
-        fmt::format("--set {}: begins with a method and a dot, e.g. --set gpf.segments=5", text));
+    throw std::invalid_argument(fmt::format(
+        "--set {}: has no method (expected METHOD.KEY=VALUE, e.g. gpf.segments=5)", text));
   }
   if (std::ranges::find(method_names(), method) == method_names().end()) {
     throw std::invalid_argument(
@@ -268,20 +271,20 @@ std::vector<ResolvedMethod> resolve(const MethodChoice& choice) {
 }
 
 ResolvedMethod resolve_one(const MethodChoice& choice) {
-  // A name, not a list: "all" is no method.
+  // "all" and "table1" are lists, not methods.
   register_baselines();
   for (const std::string& name : choice.methods) find_method(name);
   std::vector<ResolvedMethod> methods = resolve(choice);
-  if (methods.size() != 1) throw std::invalid_argument("one method is wanted");
+  if (methods.size() != 1) throw std::invalid_argument("no method given (expected one)");
   return std::move(methods.front());
 }
 
 void check_threads(const MountSettings& mount, unsigned threads) {
   if (!mount.tracks() || threads <= 1) return;
-  throw std::invalid_argument(
-      fmt::format("--threads {}: with a tracked sensor height scans are segmented one after the "
-                  "other; leave it out, or use --sensor-height estimate",
-                  threads));
+  throw std::invalid_argument(fmt::format(
+      "--threads {}: a tracked sensor height needs one thread (remove --threads, or use "
+      "--sensor-height estimate)",
+      threads));
 }
 
 std::optional<Sensor> chosen_sensor(const MethodChoice& choice) {
@@ -290,14 +293,13 @@ std::optional<Sensor> chosen_sensor(const MethodChoice& choice) {
   if (choice.sensor.empty() && !in_file) return std::nullopt;
   const std::string option = fmt::format("{}sensor", choice.option_prefix);
   if (!choice.sensor.empty() && in_file) {
-    throw std::invalid_argument(fmt::format("{} {}: {} names a sensor too; give one of them",
+    throw std::invalid_argument(fmt::format("{} {}: {} also sets a sensor (expected one of them)",
                                             option, choice.sensor, choice.config_file));
   }
   const std::string origin = in_file ? choice.config_file + ": sensor" : option;
   if (choice.preset != "default") {
-    throw std::invalid_argument(
-        fmt::format("{} beside {}preset {}: settings start from one or the other", origin,
-                    choice.option_prefix, choice.preset));
+    throw std::invalid_argument(fmt::format("{}: cannot be combined with {}preset {}", origin,
+                                            choice.option_prefix, choice.preset));
   }
   std::string name = in_file ? *in_file : choice.sensor;
   const bool is_beside_file = in_file && std::filesystem::path(name).extension() == ".toml";

@@ -14,11 +14,10 @@
 #include "flagstone/mount.hpp"
 #include "flagstone/sensor.hpp"
 
-/// From what a user chooses to methods with their settings: the one way there is, for commands and
-/// for Python.
+/// Turns the choices of a user into methods with settings, for the command line and for Python.
 namespace flagstone::config {
 
-/// What the user says of the sensor's height and tilt.
+/// Height and tilt of the sensor, as chosen by the user.
 struct MountChoice {
   std::optional<float> sensor_height{};  ///< metres
   std::optional<HeightSource> height{};
@@ -33,34 +32,35 @@ struct MountChoice {
   void set_tilt(const std::array<float, 3>& up);
 };
 
-/// Settings that the user gives by name.
+/// Settings given by name.
 struct GivenSettings {
-  std::string method{};  ///< whose they are; empty: of the only method, and those of the mount
+  std::string method{};  ///< owner; empty for the only method and for the mount
   Value table{};
   std::string source{};  ///< "--set gpf.segments=5", for messages
 };
 
-/// "KEY=VALUE", the value as in TOML. Throws std::invalid_argument.
+/// Parses "KEY=VALUE", with the value in TOML. Throws std::invalid_argument.
 GivenSettings parse_setting(const std::string& text);
-/// "METHOD.KEY=VALUE" or "mount.KEY=VALUE". Throws std::invalid_argument.
+/// Parses "METHOD.KEY=VALUE" or "mount.KEY=VALUE". Throws std::invalid_argument.
 GivenSettings parse_setting_of_method(const std::string& text);
 
-/// The methods that a list names, each once: names, `table1` (the nine of the paper's Table I),
-/// `all`, and `none`, which names none. Unknown names stay.
+/// The methods in a list, each once. The list may contain names, `table1` (the nine methods of the
+/// paper's Table I), `all` and `none`. Unknown names are kept.
 std::vector<std::string> listed_methods(std::span<const std::string> list);
 
-/// What a user chooses. Later ones win: preset or sensor, file, given settings, height and tilt.
+/// The choices of a user. They are applied in this order, and later ones win: preset or sensor,
+/// file, given settings, height and tilt.
 struct MethodChoice {
-  std::vector<std::string> methods = {"surface"};  ///< as listed_methods() takes them
+  std::vector<std::string> methods = {"surface"};  ///< see listed_methods()
   std::string preset = "default";                  ///< of patchwork and czm+...
   std::string sensor{};       ///< name or .toml file to derive settings from; empty for none
   std::string config_file{};  ///< TOML, as `flagstone config` prints; empty for none
   std::vector<GivenSettings> settings{};
   MountChoice mount{};
-  std::string_view option_prefix = "--";  ///< of the names of options in messages; "" in Python
+  std::string_view option_prefix = "--";  ///< before option names in messages; "" in Python
 };
 
-/// A method with the settings it comes to.
+/// A method with its final settings.
 struct ResolvedMethod {
   std::string name;
   MethodConfig config;
@@ -70,26 +70,30 @@ struct ResolvedMethod {
 /// The names of all methods, baselines included.
 std::span<const std::string_view> method_names();
 
-/// The methods with their settings, checked, in the order they are listed.
+/// The methods with their settings, checked, in the order of the list.
 ///
-/// Settings derived from a sensor are derived for the height that the user's settings come to. With
-/// one method, the file must be of that method. With several, it holds for each of them that has
-/// all its settings, at least one, apart from r_gpf and r_gpf+u: their settings are fixed, and
-/// change only where they are given for them. Its table `mount` holds for all. What holds for
-/// `patchwork` also holds for the rows of the ablation, czm+..., except which terms are enabled.
+/// - Settings derived from a sensor are derived for the sensor height that results from the user's
+///   settings.
+/// - One method: every setting in the file must be a setting of this method.
+/// - Several methods: the file applies to each method that has all of its settings; there must be
+/// at
+///   least one. It does not apply to r_gpf and r_gpf+u, whose settings change only if they are
+///   given for these methods. The table `mount` applies to all methods.
+/// - Settings of `patchwork` also apply to the ablation rows, czm+..., except which terms are
+/// enabled.
 ///
-/// Throws std::invalid_argument with one line that says what is wrong.
+/// Throws std::invalid_argument with one line.
 std::vector<ResolvedMethod> resolve(const MethodChoice& choice);
 
-/// The same for a choice of one method; throws if it lists none or several.
+/// resolve() for exactly one method; throws std::invalid_argument for none or several.
 ResolvedMethod resolve_one(const MethodChoice& choice);
 
-/// Throws std::invalid_argument for several threads with a tracked mount: each scan depends on
-/// those before.
+/// Throws std::invalid_argument for several threads with a tracked mount, because each scan then
+/// depends on the scans before it.
 void check_threads(const MountSettings& mount, unsigned threads);
 
-/// The sensor that settings are derived from, if any: that of the choice or, beside its file, that
-/// of the file's key `sensor`. Throws as resolve().
+/// The sensor that settings are derived from, if any: MethodChoice::sensor, or the key `sensor` of
+/// the configuration file (a file name is relative to that file). Throws like resolve().
 std::optional<Sensor> chosen_sensor(const MethodChoice& choice);
 
 }  // namespace flagstone::config

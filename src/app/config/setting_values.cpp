@@ -21,13 +21,14 @@ namespace flagstone::config {
 namespace {
 
 [[noreturn]] void refuse(const Value& value, const std::string& reason) {
-  throw std::invalid_argument(io::printable(value.place + reason));  // keys may hold anything
+  throw std::invalid_argument(
+      io::printable(value.place + reason));  // keys may contain any character
 }
 
 std::string type_of(const Value& value) {
-  if (const auto* other = std::get_if<Value::Other>(&value.held)) return other->type;
-  constexpr std::array<const char*, 7> types = {"",       "boolean", "integer", "floating-point",
-                                                "string", "array",   "table"};
+  if (const auto* other = std::get_if<Value::Other>(&value.held)) return "a " + other->type;
+  constexpr std::array<const char*, 7> types = {
+      "", "a boolean", "an integer", "a floating-point number", "a string", "an array", "a table"};
   return types.at(value.held.index());
 }
 
@@ -46,28 +47,28 @@ void assign(const Value& from, const std::string& key, float& value) {
   } else if (const auto* whole = std::get_if<std::int64_t>(&from.held)) {
     number = static_cast<double>(*whole);
   } else {
-    refuse(from, key + " is a number, not a " + type_of(from));
+    refuse(from, key + " must be a number, got " + type_of(from));
   }
-  // Only what is written as inf is infinite.
+  // A finite value beyond the range of float is clamped; only inf is infinite.
   value = static_cast<float>(std::isinf(number) ? number : std::clamp(number, -most, most));
 }
 
 void assign(const Value& from, const std::string& key, int& value) {
   const auto* whole = std::get_if<std::int64_t>(&from.held);
-  if (whole == nullptr) refuse(from, key + " is a whole number, not a " + type_of(from));
+  if (whole == nullptr) refuse(from, key + " must be an integer, got " + type_of(from));
   constexpr std::int64_t most = std::numeric_limits<int>::max();
   value = static_cast<int>(std::clamp(*whole, -most, most));
 }
 
 void assign(const Value& from, const std::string& key, bool& value) {
   const auto* flag = std::get_if<bool>(&from.held);
-  if (flag == nullptr) refuse(from, key + " is true or false, not a " + type_of(from));
+  if (flag == nullptr) refuse(from, key + " must be true or false, got " + type_of(from));
   value = *flag;
 }
 
 void assign(const Value& from, const std::string& key, std::vector<float>& values) {
   const auto* list = std::get_if<Value::List>(&from.held);
-  if (list == nullptr) refuse(from, key + " is an array of numbers, not a " + type_of(from));
+  if (list == nullptr) refuse(from, key + " must be an array of numbers, got " + type_of(from));
   values.clear();
   for (const Value& element : *list) assign(element, key, values.emplace_back());
 }
@@ -75,7 +76,7 @@ void assign(const Value& from, const std::string& key, std::vector<float>& value
 void assign(const Value& from, const std::string& key, std::array<float, 3>& values) {
   const auto* list = std::get_if<Value::List>(&from.held);
   if (list == nullptr || list->size() != values.size()) {
-    refuse(from, key + " is an array of three numbers");
+    refuse(from, key + " must be an array of three numbers");
   }
   for (std::size_t i = 0; i < values.size(); ++i) assign((*list)[i], key, values[i]);
 }
@@ -85,7 +86,7 @@ void assign(const Value& from, const std::string& key, const Choice& choice) {
   const auto names = choice.names();
   const auto found = name != nullptr ? std::ranges::find(names, *name) : names.end();
   if (found == names.end()) {
-    refuse(from, fmt::format("{} is one of \"{}\"{}", key, fmt::join(names, "\", \""),
+    refuse(from, fmt::format("{} must be one of \"{}\"{}", key, fmt::join(names, "\", \""),
                              name == nullptr ? "" : did_you_mean(*name, names)));
   }
   choice.choose(static_cast<std::size_t>(found - names.begin()));
@@ -107,7 +108,7 @@ void assign(const Value& from, const Setting& setting) {
 Zone zone_of(const Value& from, const std::string& name) {
   const auto* table = std::get_if<Value::Table>(&from.held);
   if (table == nullptr) {
-    refuse(from, name + " is a table with ring_radii, sectors and height_margin");
+    refuse(from, name + " must be a table with ring_radii, sectors and height_margin");
   }
   Zone zone;
   for (const auto& [key, value] : *table) {
@@ -120,8 +121,8 @@ Zone zone_of(const Value& from, const std::string& name) {
     } else if (key == "height_margin") {
       assign(value, full, zone.height_margin);
     } else {
-      refuse(value, fmt::format("no setting '{}'; a zone has ring_radii, sectors and height_margin",
-                                full));
+      refuse(value,
+             fmt::format("no setting '{}' (expected ring_radii, sectors, height_margin)", full));
     }
   }
   return zone;
@@ -129,7 +130,7 @@ Zone zone_of(const Value& from, const std::string& name) {
 
 void assign(const Value& from, std::vector<Zone>& zones) {
   const auto* list = std::get_if<Value::List>(&from.held);
-  if (list == nullptr) refuse(from, "zones is an array of tables, not a " + type_of(from));
+  if (list == nullptr) refuse(from, "zones must be an array of tables, got " + type_of(from));
   zones.clear();
   for (const Value& element : *list) {
     zones.push_back(zone_of(element, fmt::format("zones[{}]", zones.size())));
@@ -156,14 +157,14 @@ class Settings {
       } else if (!has_section(full)) {
         refuse(value, no_setting(full));
       } else if (!std::holds_alternative<Value::Table>(value.held)) {
-        refuse(value, full + " is a table of settings, not a " + type_of(value));
+        refuse(value, full + " must be a table of settings, got " + type_of(value));
       } else {
         apply(value, full + ".");
       }
     }
   }
 
-  /// Are all keys of the table settings?
+  /// True if every key of the table is a setting.
   [[nodiscard]] bool have(const Value& table, const std::string& prefix = "") const {
     return std::ranges::all_of(table.table(), [&](const Entry& entry) {
       const std::string full = prefix + entry.key;
@@ -183,14 +184,14 @@ class Settings {
         settings_, [&](const Setting& setting) { return setting.key.starts_with(key + "."); });
   }
 
-  /// What to say of a key that is no setting here.
+  /// The problem with an unknown key, and a hint.
   [[nodiscard]] std::string no_setting(const std::string& key) const {
     for (const std::string_view method : {"surface", "patchwork"}) {
       MethodConfig config = default_config(method);
       MountSettings mount;
       const Settings others(config, mount);
       if (!others.has(key) && !others.has_section(key)) continue;
-      return fmt::format("this method has no setting '{}'; --method {} has", key, method);
+      return fmt::format("this method has no setting '{}' (--method {} has it)", key, method);
     }
     std::vector<std::string_view> known = keys_of(settings_);
     if (zones_ != nullptr) known.emplace_back("zones");
@@ -201,7 +202,7 @@ class Settings {
       meant = fmt::format(" (did you mean '{}'?)", *inside);
     }
     return fmt::format("no setting '{}'{}", key,
-                       meant.empty() ? "; 'flagstone config --method NAME' lists them" : meant);
+                       meant.empty() ? " ('flagstone config --method NAME' lists them)" : meant);
   }
 
   std::vector<Setting> settings_;

@@ -15,9 +15,9 @@ namespace flagstone::config {
 
 struct Entry;
 
-/// A value that a user gives to a setting, wherever it was written: in TOML or in Python.
+/// The value of a setting as the user wrote it, in TOML or in Python.
 struct Value {
-  /// A value that no setting can have, such as a date.
+  /// A value of a type that no setting has, such as a date.
   struct Other {
     std::string type;
   };
@@ -25,10 +25,10 @@ struct Value {
   using Table = std::vector<Entry>;
 
   std::variant<Other, bool, std::int64_t, double, std::string, List, Table> held;
-  std::string place{};  ///< where it stands, "mine.toml: line 3, column 9: "; empty if unknown
+  std::string place{};  ///< "mine.toml: line 3, column 9: "; empty if unknown
 
   [[nodiscard]] const Table& table() const { return std::get<Table>(held); }
-  /// The value of that key in this table; null if it has none.
+  /// The value of a key of this table; null if the table does not have the key.
   [[nodiscard]] const Value* find(std::string_view key) const;
 };
 
@@ -37,13 +37,13 @@ struct Entry {
   Value value;
 };
 
-/// Sets the settings that `table` names; the others stay. Keys are nested tables or dotted. Zones
-/// are replaced as a whole; the table `mount` goes to `mount`; the key `sensor` sets nothing.
-/// Ranges are not checked here. Throws std::invalid_argument, one line that begins with the value's
-/// place, for a key that is no setting and for a value of the wrong type.
+/// Sets the settings in `table` and leaves the others unchanged. Keys are dotted or in nested
+/// tables. Zones are replaced as a whole. The table `mount` sets `mount`. The key `sensor` is
+/// ignored. Ranges are not checked. Throws std::invalid_argument, one line that starts with
+/// Value::place, for an unknown key or a value of the wrong type.
 void apply(const Value& table, MethodConfig& config, MountSettings& mount);
 
-/// Has the method all settings that `table` names, apart from `mount` and `sensor`?
+/// True if the method has all settings in `table`, not counting `mount` and `sensor`.
 bool has_settings_of(const Value& table, MethodConfig config);
 
 }  // namespace flagstone::config

@@ -14,7 +14,7 @@
 namespace flagstone::doctor {
 namespace {
 
-/// Beams of the last one or two percent may bring nothing back.
+/// Up to 5 % of the beams may have no returns.
 bool beams_match(const Summary& summary, const Sensor& sensor) {
   const int beams = summary.view.beams;
   if (beams == 0 || summary.is_voxel_averaged) return true;
@@ -23,18 +23,18 @@ bool beams_match(const Summary& summary, const Sensor& sensor) {
 }
 
 bool azimuths_match(const FieldOfView& view, const Sensor& sensor) {
-  constexpr double near = 15;  // degrees; edges are ragged
+  constexpr double near = 15;  // degrees; the edges of the view are ragged
   return std::abs(view.azimuth_width - (sensor.azimuth_end - sensor.azimuth_begin)) < near;
 }
 
-/// How far the elevations are from the sensor's, degrees; nothing where they do not fit. The sky
-/// brings nothing back, so that the highest beams may be missing; the ground does.
+/// Difference between the elevations in the scan and those of the sensor, degrees; empty if they do
+/// not match. The highest beams may be missing, because the sky gives no returns; the ground does.
 std::optional<double> elevation_difference(const FieldOfView& view, const Sensor& sensor) {
-  const double slack = sensor.draws_rosette() ? 8 : 2;  // a rosette is thin at its rim
+  const double slack = sensor.draws_rosette() ? 8 : 2;  // a rosette has few points at its rim
   const double open_sky = sensor.draws_rosette() ? 25 : 15;
   double bottom = std::abs(view.bottom - sensor.elevations.back());
   if (sensor.name == "hdl-64e") {
-    // Its lower beams leave its head lower: from where the upper ones meet, they are steeper.
+    // Its lower beams leave its head lower, and appear steeper from where the upper beams meet.
     bottom = std::min(bottom, std::abs(view.bottom - (sensor.elevations.back() - 2)));
   }
   const double above_top = view.top - sensor.elevations.front();
@@ -47,7 +47,7 @@ float rounded(double value, double step) {
   return static_cast<float>(result == 0 ? 0 : result);  // no -0
 }
 
-/// A number that TOML takes for a float, at most `digits` after the point.
+/// A TOML float with at most `digits` digits after the point.
 std::string number(float value, int digits) {
   std::string text = fmt::format("{:.{}f}", value, digits);
   while (text.ends_with('0') && !text.ends_with(".0")) text.pop_back();
@@ -59,7 +59,7 @@ std::string numbers(const Vector3f& values, int digits) {
                      number(values[2], digits));
 }
 
-/// Where the sensor's own frame begins: metres in the cloud's frame turned so that the axis is z.
+/// Position of the sensor: metres, in the frame of the cloud rotated so that the axis is z.
 Vector3f origin_of(const Summary& summary, const CommonOrientation& orientation,
                    const Expected& expected, std::string_view sensor, double upright) {
   const double expected_origin = orientation.ground + double{expected.sensor_height} / upright;
@@ -67,7 +67,8 @@ Vector3f origin_of(const Summary& summary, const CommonOrientation& orientation,
     return {0, 0, orientation.ground > highest_ground ? static_cast<float>(expected_origin) : 0};
   }
   auto [x, y, z] = *summary.beam_origin;
-  constexpr double least_offset = 0.3;  // metres; less is not told from the vehicle's motion
+  constexpr double least_offset =
+      0.3;  // metres; smaller offsets may be due to the motion of the vehicle
   if (std::hypot(x, y) < least_offset) x = y = 0;
   const double lift = double{z} - expected_origin;
   const bool is_lifted = sensor == "hdl-64e" && lift > 0 && lift < hdl_64e_lift;
@@ -81,10 +82,10 @@ bool differs(const Vector3f& a, const Vector3f& b) { return a != b; }
 std::vector<const Sensor*> matching_sensors(const Summary& summary) {
   std::vector<std::pair<double, const Sensor*>> matches;
   for (const Sensor& sensor : Sensor::known()) {
-    constexpr double further_than_told = 1.3;
+    constexpr double range_slack = 1.3;
     const auto difference = elevation_difference(summary.view, sensor);
     if (difference && beams_match(summary, sensor) && azimuths_match(summary.view, sensor) &&
-        summary.reach < further_than_told * sensor.max_range) {
+        summary.reach < range_slack * sensor.max_range) {
       matches.emplace_back(*difference, &sensor);
     }
   }
@@ -130,22 +131,22 @@ Advice advise(const Summary& summary, const CommonOrientation& orientation,
 std::string to_toml(const Advice& advice) {
   const Mount usual;
   const Mount& mount = advice.mount;
-  std::string text = "# Settings by 'flagstone doctor', for --config\n";
+  std::string text = "# Settings from 'flagstone doctor', for --config\n";
   if (!advice.sensor.empty()) text += fmt::format("sensor = \"{}\"\n", advice.sensor);
   text += fmt::format("sensor_height = {}  # metres above the ground\n",
                       number(mount.sensor_height, 3));
   if (!advice.has_mount) return text;
   text += "\n[mount]\n";
   if (differs(mount.up, usual.up)) {
-    text += fmt::format("tilt = \"fixed\"\nup = {}  # where up is in the cloud's frame\n",
+    text += fmt::format("tilt = \"fixed\"\nup = {}  # up direction in the cloud's frame\n",
                         numbers(mount.up, 4));
   }
   if (differs(mount.origin, usual.origin)) {
-    text += fmt::format("origin = {}  # where the sensor is in the cloud's frame, metres\n",
+    text += fmt::format("origin = {}  # sensor position in the cloud's frame, metres\n",
                         numbers(mount.origin, 2));
   }
   if (mount.scale != usual.scale) {
-    text += fmt::format("scale = {}  # metres a unit\n", number(mount.scale, 3));
+    text += fmt::format("scale = {}  # metres per unit\n", number(mount.scale, 3));
   }
   return text;
 }

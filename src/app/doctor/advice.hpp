@@ -9,36 +9,37 @@
 
 namespace flagstone::doctor {
 
-/// The expected height is kept unless the ground says otherwise by more than this, metres, and a
-/// quarter of what scans differ.
+/// The expected height is kept if the measured one differs by at most this, in metres, plus a
+/// quarter of the difference between scans.
 inline constexpr double least_height_difference = 0.05;
 
-/// It has to be set right if it is wrong by so much more, metres: labels suffer.
+/// An error that exceeds this tolerance by more than this, in metres, harms labels: severity `fix`.
 inline constexpr double harmful_height_difference = 0.1;
 
-/// A frame whose ground is higher than this below its origin, metres, is not the sensor's.
+/// If the ground is higher than this relative to the origin, in metres, the origin is not the
+/// sensor.
 inline constexpr double highest_ground = -0.15;
 
-/// If the ground is higher than this and no beams are seen, the origin may be an axle instead of
-/// the sensor.
+/// If the ground is higher than this, in metres, and no beams are found, the origin may be an axle.
 inline constexpr double ground_below_an_axle = -0.6;
 
-/// The beams of an HDL-64E meet up to so far above the origin of its frame, metres: 0.2 in KITTI's
-/// scans. Whether they do no scan shows, so that the expected height is kept within this.
+/// The beams of an HDL-64E meet up to this far above the origin of its frame, in metres (0.2 in
+/// KITTI). A scan does not show whether they do, so the expected height is kept within this limit.
 inline constexpr double hdl_64e_lift = 0.35;
 
-/// How far off the expected height may be for what the scans know, metres.
+/// Tolerance of the sensor height, metres: smaller differences from the expected height are
+/// ignored.
 double height_doubt(const CommonOrientation& orientation);
 
-/// The known sensors that could have made such scans, the likeliest first.
+/// The known sensors that could have recorded these scans, the most likely first.
 std::vector<const Sensor*> matching_sensors(const Summary& summary);
 
-/// Settings for scans that show their ground, as `orientation`, the summary's, says. `sensors`:
-/// those that match, the likeliest first.
+/// Recommended settings for scans in which the ground was found. `orientation`: that of the
+/// summary. `sensors`: see matching_sensors().
 Advice advise(const Summary& summary, const CommonOrientation& orientation,
               const Expected& expected, const std::vector<const Sensor*>& sensors);
 
-/// The advice as settings that a configuration file may hold, commented.
+/// The advice as a commented configuration file.
 std::string to_toml(const Advice& advice);
 
 }  // namespace flagstone::doctor

@@ -21,7 +21,7 @@ constexpr double degrees = half_turn / std::numbers::pi;
 
 double azimuth_of(const Vector3f& p) { return std::atan2(double{p[1]}, double{p[0]}) * degrees; }
 
-/// -180 to 180.
+/// Difference of two azimuths, -180 to 180 degrees.
 double turned(double from, double to) {
   const double step = to - from;
   return step > half_turn ? step - 360 : step < -half_turn ? step + 360 : step;
@@ -36,11 +36,11 @@ BeamRings rings_of_field(std::span<const int> field) {
   return rings;
 }
 
-constexpr double steady_step = 5;  // degrees from point to point, with gaps
+constexpr double steady_step = 5;  // degrees between consecutive points, including gaps
 
-/// The way points turn that are listed ring after ring: 1 counter-clockwise, -1 clockwise, 0 where
-/// they are listed otherwise.
-double way_of(const std::vector<double>& azimuths) {
+/// Direction of rotation if the points are listed ring by ring: 1 counter-clockwise, -1 clockwise;
+/// 0 if they are listed in another order.
+double rotation_of(const std::vector<double>& azimuths) {
   constexpr double steady_share = 0.9;
   std::size_t left = 0;
   std::size_t right = 0;
@@ -53,8 +53,7 @@ double way_of(const std::vector<double>& azimuths) {
   return left > right ? 1 : -1;
 }
 
-/// Numbers the rings, each of which begins at azimuth `start`, give or take a little, and turns
-/// `way`.
+/// Numbers the rings. Each starts near azimuth `start`; `way` is its direction of rotation.
 BeamRings cut_at(double start, double way, const std::vector<double>& azimuths) {
   constexpr double slack = 2;  // degrees
   std::vector<double> since(azimuths.size());
@@ -70,13 +69,13 @@ BeamRings cut_at(double start, double way, const std::vector<double>& azimuths) 
     const double step = since[i] - since[i - 1];
     const bool is_close = std::abs(turned(azimuths[i - 1], azimuths[i])) <= steady_step;
     if (step < -far_back) ++ring;
-    if (step > far_back && is_close) --ring;  // but a point out of order where rings meet
+    if (step > far_back && is_close) --ring;  // a point out of order at the boundary of two rings
     ring = std::max(ring, 0);
     rings.of_points[i] = ring;
     if (ring >= rings.count) begin = i;
     rings.count = std::max(rings.count, ring + 1);
   }
-  // The very end of the last ring lies beyond the place where the next would begin.
+  // The end of the last ring may extend past the azimuth at which the next one would start.
   const bool is_stub = *std::max_element(since.begin() + static_cast<std::ptrdiff_t>(begin),
                                          since.end()) < 2 * slack;
   if (is_stub && rings.count > 1) {
@@ -86,7 +85,7 @@ BeamRings cut_at(double start, double way, const std::vector<double>& azimuths) 
   return rings;
 }
 
-/// How much elevations differ from point to point of one ring, degrees: the mean.
+/// Mean deviation of the elevations from the mean elevation of their ring, radians.
 double raggedness(std::span<const Vector3f> places, const BeamRings& rings) {
   std::vector<double> sums(static_cast<std::size_t>(rings.count));
   std::vector<double> counts(sums.size());
@@ -106,7 +105,7 @@ double raggedness(std::span<const Vector3f> places, const BeamRings& rings) {
   return sum / static_cast<double>(places.size());
 }
 
-/// Where nothing is seen ends, if that is a good part of the circle: a narrow view begins there.
+/// Azimuth at which the view starts, after the widest gap; empty if the gap is below 45 degrees.
 std::vector<double> begin_of_view(std::vector<double> azimuths, double way) {
   constexpr double narrow = 45;
   std::ranges::sort(azimuths);
@@ -121,14 +120,15 @@ std::vector<double> begin_of_view(std::vector<double> azimuths, double way) {
   return {begin};
 }
 
-/// Where rings begin nobody says: of several places, the one that makes them the most even.
+/// Rings from the order of the points. The azimuth at which rings start is unknown, so several are
+/// tried; the one with the most uniform elevations per ring is used.
 BeamRings rings_of_order(std::span<const Vector3f> places) {
   constexpr int fewest_rings = 4;
   constexpr int most_rings = 512;
   if (places.empty()) return {};
   std::vector<double> azimuths(places.size());
   std::ranges::transform(places, azimuths.begin(), azimuth_of);
-  const double way = way_of(azimuths);
+  const double way = rotation_of(azimuths);
   if (way == 0) return {};
   std::vector<double> starts = begin_of_view(azimuths, way);
   starts.insert(starts.end(), {azimuths.front(), 0, half_turn});
@@ -147,27 +147,28 @@ BeamRings rings_of_order(std::span<const Vector3f> places) {
 
 using Place = std::array<double, 3>;
 
-/// The indices of points that show where the beams come from: beyond the vehicle itself, near
-/// enough to turn when the origin moves, and off the ground, which looks alike from many heights.
-std::vector<std::size_t> telling_points(std::span<const Vector3f> places, double ground) {
+/// Indices of the points that are useful to find the origin of the beams: not on the ego vehicle;
+/// so close that their elevation changes when the origin moves; and above the ground, because
+/// ground points fit many heights.
+std::vector<std::size_t> useful_points(std::span<const Vector3f> places, double ground) {
   constexpr double nearest = 2.7;
   constexpr double farthest = 40;
   constexpr double off_ground = 0.3;
   constexpr std::size_t enough = 20000;
-  std::vector<std::size_t> telling;
+  std::vector<std::size_t> useful;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double range = std::hypot(double{places[i][0]}, double{places[i][1]});
     const bool is_on_ground = double{places[i][2]} < ground + off_ground;
-    if (range > nearest && range < farthest && !is_on_ground) telling.push_back(i);
+    if (range > nearest && range < farthest && !is_on_ground) useful.push_back(i);
   }
-  const std::size_t stride = telling.size() / enough + 1;
+  const std::size_t stride = useful.size() / enough + 1;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < telling.size(); i += stride) telling[kept++] = telling[i];
-  telling.resize(kept);
-  return telling;
+  for (std::size_t i = 0; i < useful.size(); i += stride) useful[kept++] = useful[i];
+  useful.resize(kept);
+  return useful;
 }
 
-constexpr std::size_t fewest_telling_points = 1000;
+constexpr std::size_t fewest_useful_points = 1000;
 
 double elevation_from(const Place& place, const Vector3f& point) {
   const double x = double{point[0]} - place[0];
@@ -175,8 +176,9 @@ double elevation_from(const Place& place, const Vector3f& point) {
   return std::atan2(double{point[2]} - place[2], std::sqrt(x * x + y * y)) * degrees;
 }
 
-/// How much the counts of elevations vary about their running mean: squared differences over
-/// squared means, less what chance brings.
+/// Sharpness of the comb that the elevations form: variation of the counts per 0.1 degrees about
+/// their running mean, squared differences over squared means, minus the expected value for random
+/// counts.
 double comb_sharpness(const std::vector<Vector3f>& points, const Place& place) {
   constexpr double step = 0.1;  // degrees
   constexpr std::size_t steps = 1800;
@@ -203,7 +205,7 @@ double median_deviation(std::vector<double>& values) {
   return median(values);
 }
 
-/// One over the mean deviation of elevations from their ring's median, degrees.
+/// Inverse of the mean of the rings' median deviations of elevation, 1/degrees.
 double ring_sharpness(const std::vector<std::vector<Vector3f>>& rings, const Place& place) {
   constexpr std::size_t fewest = 20;
   double sum = 0;
@@ -220,7 +222,7 @@ double ring_sharpness(const std::vector<std::vector<Vector3f>>& rings, const Pla
   return sum > 0 ? count / sum : 0;
 }
 
-/// The place from which beams are the sharpest, searched along one axis after the other.
+/// Searches the place from which the beams are sharpest, along one axis after the other.
 class SharpestPlace {
  public:
   /// Sensors are mounted from 0.1 to 6 m above the ground.
@@ -238,7 +240,7 @@ class SharpestPlace {
   }
 
   [[nodiscard]] double sharpness() const noexcept { return sharpness_; }
-  /// From other heights.
+  /// The best value at other heights.
   [[nodiscard]] double sharpness_elsewhere() const noexcept { return sharpness_elsewhere_; }
 
   [[nodiscard]] BeamOrigin origin() const {
@@ -249,8 +251,8 @@ class SharpestPlace {
   }
 
  private:
-  /// Moves the place along an axis, metres. Returns the sharpness of the best place that is not
-  /// near the one it moves to.
+  /// Moves the place to the best position along an axis, metres. Returns the best sharpness that is
+  /// not near this position.
   double search(std::size_t axis, double from, double to, double step) {
     constexpr double near = 0.35;
     const long steps = std::lround((to - from) / step);
@@ -277,12 +279,12 @@ class SharpestPlace {
   double sharpness_elsewhere_ = 0;
 };
 
-/// Sees to it that stray points count as no direction that is looked at.
+/// An azimuth with a smaller fraction of the mean count is outside the view; ignores stray points.
 constexpr double least_share = 0.02;
 
 void find_azimuths(const std::array<std::size_t, 360>& counts, std::size_t points,
                    FieldOfView& view) {
-  constexpr int widest_shadow = 45;  // of something close by, degrees
+  constexpr int widest_shadow = 45;  // of a close object, degrees
   const double least = least_share * static_cast<double>(points) / 360;
   int longest = 0;
   int run = 0;
@@ -300,7 +302,7 @@ void find_azimuths(const std::array<std::size_t, 360>& counts, std::size_t point
   view.azimuth_width = all_around ? 360 : 360 - longest;
 }
 
-/// Each beam's middle elevation tells more than the points, which stray.
+/// Uses the median elevation of each beam, which is more robust than single points.
 void find_edges_by_ring(std::vector<std::vector<double>>& elevations, FieldOfView& view) {
   constexpr std::size_t fewest = 10;
   view.top = -90;
@@ -313,7 +315,7 @@ void find_edges_by_ring(std::vector<std::vector<double>>& elevations, FieldOfVie
   }
 }
 
-/// Beams at the same elevations all around: a comb of elevations, its teeth counted; 0 without one.
+/// Number of beams: the teeth of the comb that the elevations form; 0 if there is no comb.
 int count_beams(const std::vector<double>& elevations) {
   constexpr double step = 0.1;  // degrees
   constexpr std::size_t steps = 1800;
@@ -352,7 +354,7 @@ BeamRings find_rings(std::span<const Vector3f> places, std::span<const int> fiel
 }
 
 bool BeamOrigin::is_elsewhere() const noexcept {
-  // The beams of an HDL-64E meet 0.2 m above its frame's origin, and driving blurs them across.
+  // The beams of an HDL-64E meet 0.2 m above the origin of its frame; driving blurs x and y.
   constexpr double farther_along = 0.5;
   constexpr double farther_across = 1;
   const bool is_away = std::abs(double{place[2]}) > farther_along ||
@@ -363,9 +365,9 @@ bool BeamOrigin::is_elsewhere() const noexcept {
 std::optional<BeamOrigin> find_beam_origin(std::span<const Vector3f> places, double ground) {
   constexpr double least_sharpness = 0.1;
   std::vector<Vector3f> points;
-  for (const std::size_t i : telling_points(places, ground)) points.push_back(places[i]);
-  if (points.size() < fewest_telling_points) return {};
-  // Beams near the horizontal hardly move when the origin is moved across: the height comes first.
+  for (const std::size_t i : useful_points(places, ground)) points.push_back(places[i]);
+  if (points.size() < fewest_useful_points) return {};
+  // The height first: moving the origin sideways hardly changes the elevation of flat beams.
   SharpestPlace sharpest([&](const Place& from) { return comb_sharpness(points, from); }, ground);
   if (sharpest.sharpness() < std::max(least_sharpness, 2 * sharpest.sharpness_elsewhere())) {
     return {};
@@ -381,10 +383,10 @@ std::optional<BeamOrigin> find_beam_origin(std::span<const Vector3f> places, dou
 
 std::optional<BeamOrigin> find_beam_origin(std::span<const Vector3f> places, const BeamRings& rings,
                                            double ground) {
-  const std::vector<std::size_t> telling = telling_points(places, ground);
-  if (rings.count == 0 || telling.size() < fewest_telling_points) return {};
+  const std::vector<std::size_t> useful = useful_points(places, ground);
+  if (rings.count == 0 || useful.size() < fewest_useful_points) return {};
   std::vector<std::vector<Vector3f>> by_ring(static_cast<std::size_t>(rings.count));
-  for (const std::size_t i : telling) {
+  for (const std::size_t i : useful) {
     by_ring[static_cast<std::size_t>(rings.of_points[i])].push_back(places[i]);
   }
   SharpestPlace sharpest([&](const Place& from) { return ring_sharpness(by_ring, from); }, ground);

@@ -12,58 +12,61 @@ namespace flagstone::doctor {
 
 using mount::Vector3f;
 
-/// Where the beam of a point is known from.
+/// How the beam of a point was determined.
 enum class RingSource {
   none,
   field,  ///< a field `ring` of the file
   order,  ///< the points are listed ring after ring
 };
 
-/// Which beam each point comes from.
+/// The beam of each point.
 struct BeamRings {
   RingSource source = RingSource::none;
-  std::vector<int> of_points;  ///< 0 to count - 1; empty if not known
-  int count = 0;               ///< beams; 0 if not known
+  std::vector<int> of_points;  ///< 0 to count - 1; empty if unknown
+  int count = 0;               ///< number of beams; 0 if unknown
 };
 
-/// `places`: z is the axis the sensor turns about. `field`: ring numbers from the file, or empty.
+/// Determines the beam of each point, from the field if there is one, otherwise from the order of
+/// the points. `places`: z is the rotation axis of the sensor. `field`: ring numbers, or empty.
 BeamRings find_rings(std::span<const Vector3f> places, std::span<const int> field);
 
-/// Where the beams come from, as far as their points show. The beams of a spinning sensor have
-/// fixed elevations: seen from where they meet they are sharp, from anywhere else they are blurred.
+/// The point from which the beams come, estimated from a scan. The beams of a spinning sensor have
+/// fixed elevations. Computed from the true origin, the elevations are sharp; from any other point
+/// they are blurred.
 struct BeamOrigin {
   Vector3f place{};                ///< metres
-  double sharpness = 0;            ///< of the beams seen from there
-  double sharpness_at_origin = 0;  ///< of the beams seen from the cloud's origin
+  double sharpness = 0;            ///< of the elevations computed from `place`
+  double sharpness_at_origin = 0;  ///< of the elevations computed from the origin of the cloud
 
-  /// Is that place elsewhere than the cloud's origin, without doubt?
+  /// True if the place is clearly not the origin of the cloud.
   [[nodiscard]] bool is_elsewhere() const noexcept;
 };
 
-/// From the comb that the elevations of all points form; needs no ring numbers. `places`: metres, z
-/// is the axis the sensor turns about, above a ground at z = `ground`. Nothing if no place shows a
-/// clear comb: too few points off the ground, a rosette, beams closer together than the noise, or
-/// an axis that is not the sensor's.
+/// Finds the origin from the comb that the elevations of all points form, without ring numbers.
+/// `places`: metres; z is the rotation axis of the sensor, the ground is at z = `ground`. Returns
+/// nothing if no place gives a clear comb: too few points above the ground, a rosette, beams closer
+/// together than the noise, or another rotation axis.
 std::optional<BeamOrigin> find_beam_origin(std::span<const Vector3f> places, double ground);
 
-/// From the elevations of each ring's points, where those of all points form no comb: only the
-/// height. Nothing if the rings are not known or if too few points are off the ground.
+/// Finds only the height of the origin, from the elevations of the points of each ring; use it if
+/// all points together form no comb. Returns nothing if the rings are unknown or if too few points
+/// are above the ground.
 std::optional<BeamOrigin> find_beam_origin(std::span<const Vector3f> places, const BeamRings& rings,
                                            double ground);
 
-/// What a sensor looks at, as far as points came back.
+/// Field of view of a sensor, estimated from the points of a scan.
 struct FieldOfView {
-  int beams = 0;             ///< 0: not known
-  double top = 0;            ///< degrees above the horizontal
-  double bottom = 0;         ///< the same
+  int beams = 0;             ///< 0: unknown
+  double top = 0;            ///< elevation, degrees
+  double bottom = 0;         ///< elevation, degrees
   double azimuth_begin = 0;  ///< degrees counter-clockwise from x, -180 to 180
   double azimuth_width = 0;  ///< degrees, 360 all around
 
   [[nodiscard]] bool sees_all_around() const noexcept { return azimuth_width >= 360; }
 };
 
-/// `places`: metres, the sensor in the origin, z is the axis it turns about. Points nearer than
-/// `nearest`, metres, are left out: they lie on the vehicle.
+/// `places`: metres; the sensor is at the origin, z is its rotation axis. Points closer than
+/// `nearest`, metres, are excluded because they may be on the ego vehicle.
 FieldOfView find_field_of_view(std::span<const Vector3f> places, const BeamRings& rings,
                                double nearest);
 

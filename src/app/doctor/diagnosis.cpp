@@ -26,16 +26,15 @@ Finding points(const Summary& summary) {
                              {"points", summary.points},
                              {"usable", summary.usable}}};
   if (summary.has_enough_points) {
-    finding.sentence = fmt::format("{:.0f} points a scan, {:.0f} of them with a place.",
-                                   summary.points, summary.usable);
+    finding.sentence = fmt::format("{:.0f} points per scan, {:.0f} of them valid.", summary.points,
+                                   summary.usable);
     return finding;
   }
   finding.severity = Severity::fix;
   finding.sentence = fmt::format(
-      "{:.0f} points a scan, {:.0f} of them with a place: too few to tell anything (1000 are "
-      "needed).",
+      "{:.0f} points per scan, {:.0f} of them valid: too few to examine (expected at least 1000).",
       summary.points, summary.usable);
-  finding.remedy = "Give whole scans; for .bin files see whether --columns is right.";
+  finding.remedy = "Use complete scans. For .bin files, check --columns.";
   return finding;
 }
 
@@ -48,7 +47,7 @@ Finding zero_returns(const Summary& summary) {
   }
   finding.severity = summary.zero > 0.001 ? Severity::note : Severity::fine;
   finding.sentence =
-      fmt::format("{} of the points are (0, 0, 0): no echo came back.", percent(summary.zero));
+      fmt::format("{} of the points are (0, 0, 0): missing returns.", percent(summary.zero));
   finding.remedy = "Nothing to set: they are labelled invalid.";
   return finding;
 }
@@ -70,16 +69,16 @@ Finding not_finite(const Summary& summary) {
 Finding duplicate_points(const Summary& summary) {
   Finding finding{.id = "duplicate_points", .values = {{"share", summary.repeated}}};
   if (summary.repeated < 0.01) {
-    finding.sentence = "Hardly a point occurs twice.";
+    finding.sentence = "Almost no point occurs twice.";
     finding.is_plain = true;
     return finding;
   }
   finding.severity = Severity::note;
-  finding.sentence = fmt::format("{} of the points repeat the coordinates of another one.",
+  finding.sentence = fmt::format("{} of the points have the coordinates of another point.",
                                  percent(summary.repeated));
   finding.remedy =
-      "Nothing to set; if the driver reports two echoes a beam, or scans were put together, they "
-      "count twice: drop them.";
+      "Nothing to set. If the driver reports two returns per beam, or if scans were merged, remove "
+      "the duplicates.";
   return finding;
 }
 
@@ -89,37 +88,35 @@ Finding coordinates(const Summary& summary) {
   Finding finding{.id = "coordinates",
                   .values = {{"middle_x", x}, {"middle_y", y}, {"away", std::hypot(x, y)}}};
   if (!summary.is_far_away) {
-    finding.sentence = "The origin lies among the points.";
+    finding.sentence = "The origin is among the points.";
     finding.is_plain = true;
     return finding;
   }
   finding.severity = Severity::fix;
   finding.sentence = fmt::format(
-      "The points lie around ({:.0f}, {:.0f}), far from the origin: coordinates of a map, not of a "
-      "sensor.",
+      "The points are around ({:.0f}, {:.0f}), far from the origin: these are map coordinates, not "
+      "sensor coordinates.",
       x, y);
   finding.remedy =
-      "Write the scans in the sensor's frame: subtract where the sensor was, before the "
-      "coordinates "
-      "become 32-bit floats.";
+      "Write the scans in the sensor frame: subtract the position of the sensor before you convert "
+      "the coordinates to 32-bit floats.";
   return finding;
 }
 
 Finding single_viewpoint(const Summary& summary) {
   Finding finding{.id = "single_viewpoint"};
   if (!summary.is_from_many_places) {
-    finding.sentence = "The points thin out with distance as seen from one place.";
+    finding.sentence = "The point density decreases with distance, as in a scan from one position.";
     finding.is_plain = true;
     return finding;
   }
   finding.severity = Severity::fix;
   finding.sentence =
-      "The points lie as densely far out as in the middle: they were not seen from one place, but "
-      "from the air or from a drive.";
+      "The points are as dense far out as in the middle: they were not recorded from one position, "
+      "but from the air or while driving.";
   finding.remedy =
-      "flagstone segments scans of one sensor from one place; give it these one by one, before "
-      "they "
-      "are put together.";
+      "flagstone segments scans of one sensor from one position. Use the single scans, before they "
+      "are merged.";
   return finding;
 }
 
@@ -149,12 +146,13 @@ Finding units(const Summary& summary) {
   Finding finding{.id = "units",
                   .values = {{"metres_per_unit", summary.metres}, {"reach", summary.reach}}};
   if (summary.metres == 1) {
-    finding.sentence = fmt::format("Metres: 99 of 100 points lie within {:.0f}.", summary.reach);
+    finding.sentence =
+        fmt::format("The unit is metres: 99 % of the points are within {:.0f} m.", summary.reach);
     return finding;
   }
   finding.severity = Severity::fix;
   finding.sentence = fmt::format(
-      "99 of 100 points lie within {:.0f} units: these are {}, not metres.",
+      "99 % of the points are within {:.0f} units: the unit is {}, not metres.",
       summary.reach / summary.metres, summary.metres == 0.001 ? "millimetres" : "centimetres");
   finding.remedy = fmt::format("Set mount.scale = {}.", summary.metres);
   return finding;
@@ -168,16 +166,16 @@ Finding ground(const Summary& summary) {
   if (found == 0) {
     finding.severity = Severity::fix;
     finding.sentence =
-        fmt::format("No ground is to be seen near the sensor: {}.", to_sentence(summary.refusal));
+        fmt::format("No ground was found near the sensor: {}.", to_sentence(summary.refusal));
     finding.remedy =
-        "Give scans that see the ground around the vehicle; if they do, set sensor_height and "
-        "mount.up by hand.";
+        "Use scans that show the ground around the vehicle. If these do, set sensor_height and "
+        "mount.up yourself.";
     return finding;
   }
   finding.severity = 2 * found > summary.scans ? Severity::fine : Severity::note;
-  finding.sentence = summary.scans == 1 ? "Ground is to be seen."
-                                        : fmt::format("Ground is to be seen in {} of {} scans.",
-                                                      found, summary.scans);
+  finding.sentence = summary.scans == 1
+                         ? "Ground was found."
+                         : fmt::format("Ground was found in {} of {} scans.", found, summary.scans);
   return finding;
 }
 
@@ -200,13 +198,13 @@ Finding axes(const CommonOrientation& orientation) {
   return finding;
 }
 
-/// The part of `v` along an axis of the frame.
+/// The projection of `v` onto an axis.
 Vector3f along(const Vector3f& axis, const Vector3f& v) {
   const float part = mount::dot(v, axis);
   return {part * axis[0], part * axis[1], part * axis[2]};
 }
 
-/// By which turns about x and y the clouds are tilted, where z is up.
+/// The rotations about x and y that tilt the clouds; empty if z is not up.
 std::string angles(const CommonOrientation& orientation) {
   if (orientation.axis != Vector3f{0, 0, 1}) return {};
   constexpr double degrees = 180 / std::numbers::pi;
@@ -221,12 +219,12 @@ Finding tilt(const CommonOrientation& orientation, const Advice& advice) {
                              {"up_x", orientation.up[0]},
                              {"up_y", orientation.up[1]},
                              {"up_z", orientation.up[2]}}};
-  finding.sentence = fmt::format("The ground is {:.1f} degrees from level{}.", orientation.tilt,
+  finding.sentence = fmt::format("The ground is tilted by {:.1f} degrees{}.", orientation.tilt,
                                  angles(orientation));
   if (!orientation.is_tilted()) return finding;
   finding.severity = Severity::fix;
   finding.remedy = fmt::format(
-      "Set mount.tilt = \"fixed\" and mount.up = {}, unless the vehicle stood level before a "
+      "Set mount.tilt = \"fixed\" and mount.up = {}, unless the vehicle was level in front of a "
       "slope.",
       components(advice.mount.up, 4));
   return finding;
@@ -251,26 +249,28 @@ Finding origin(const Summary& summary, const CommonOrientation& orientation, con
         is_across ? fmt::format(", {:.1f} m off its axis", std::hypot(beams[0], beams[1])) : "");
     finding.remedy = set + '.';
     if (beams[2] - mount::dot(advice.mount.origin, orientation.axis) > 0.05F) {
-      finding.remedy += " The beams of an HDL-64E meet some 0.2 m above its frame's origin.";
+      finding.remedy += " The beams of an HDL-64E meet about 0.2 m above the origin of its frame.";
     }
   } else if (ground > highest_ground) {
     finding.severity = Severity::fix;
     finding.sentence = fmt::format(
-        "The origin is not the sensor: the ground is at {} = {:.2f}; how high the sensor was the "
-        "points do not tell.",
+        "The origin is not the sensor: the ground is at {} = {:.2f}. The points do not show how "
+        "high "
+        "the sensor is.",
         name, ground);
-    finding.remedy = set + ", or what you measure.";
+    finding.remedy = set + ", or your measured values.";
   } else if (ground > ground_below_an_axle && !summary.shows_beam_origin) {
     finding.severity = Severity::note;
     finding.sentence = fmt::format(
-        "The ground is {:.2f} m below the origin, as below an axle, and the points do not show "
-        "where the beams come from.",
+        "The ground is only {:.2f} m below the origin, as if the origin were an axle. The points "
+        "do "
+        "not show where the beams come from.",
         -ground);
     finding.remedy =
-        "If the sensor is higher, set mount.origin to where it is and sensor_height to its height "
+        "If the sensor is higher, set mount.origin to its position and sensor_height to its height "
         "above the ground.";
   } else {
-    finding.sentence = "The origin can be the sensor.";
+    finding.sentence = "The origin is plausible for a sensor.";
     finding.is_plain = true;
   }
   return finding;
@@ -290,11 +290,11 @@ Finding sensor_height(const CommonOrientation& orientation, const Expected& expe
   std::string scattered;
   if (scatter > most_scatter) {
     finding.severity = Severity::note;
-    scattered =
-        fmt::format(" From scan to scan it differs by {:.2f} m: are they of one vehicle?", scatter);
+    scattered = fmt::format(
+        " The height varies by {:.2f} m between scans: are they from one vehicle?", scatter);
   }
   if (advice.mount.sensor_height == expected.sensor_height) {
-    finding.sentence = fmt::format("The ground lies {:.2f} m below the sensor; {:.2f} m is set.{}",
+    finding.sentence = fmt::format("The ground is {:.2f} m below the sensor; {:.2f} m is set.{}",
                                    seen, expected.sensor_height, scattered);
     return finding;
   }
@@ -302,9 +302,8 @@ Finding sensor_height(const CommonOrientation& orientation, const Expected& expe
   finding.severity = difference > height_doubt(orientation) + harmful_height_difference
                          ? Severity::fix
                          : Severity::note;
-  finding.sentence =
-      fmt::format("The ground lies {:.2f} m below the sensor, but {:.2f} m is set.{}", height,
-                  expected.sensor_height, scattered);
+  finding.sentence = fmt::format("The ground is {:.2f} m below the sensor, but {:.2f} m is set.{}",
+                                 height, expected.sensor_height, scattered);
   finding.remedy = fmt::format("Set sensor_height = {:.2f}.", height);
   return finding;
 }
@@ -327,36 +326,39 @@ Finding ego_vehicle(const Summary& summary) {
                   .values = {{"share", vehicle.share}, {"roof", vehicle.roof}}};
   constexpr double hardly_any = 0.005;
   if (vehicle.share < hardly_any) {
-    finding.sentence = "Hardly a point lies on the ego vehicle.";
+    finding.sentence = "Almost no point is on the ego vehicle.";
     finding.is_plain = true;
     return finding;
   }
   finding.severity = Severity::note;
   finding.sentence = fmt::format(
-      "{:.1f} % of the points stand over the ground within 2.7 m of the sensor{}: the ego vehicle.",
+      "{:.1f} % of the points are above the ground and within 2.7 m of the sensor{}: they belong "
+      "to "
+      "the ego vehicle.",
       100 * vehicle.share,
       vehicle.roof > 0 ? fmt::format(", most of them {:.1f} m high", vehicle.roof) : "");
-  finding.remedy = "Nothing to set: the ground is not looked for there.";
+  finding.remedy = "Nothing to set: the ground is not estimated from these points.";
   return finding;
 }
 
 Finding beams(const Summary& summary) {
   Finding finding{.id = "beams", .values = {{"beams", static_cast<double>(summary.view.beams)}}};
   if (summary.is_voxel_averaged || summary.view.beams == 0) {
-    finding.sentence = "No beams are to be told apart.";
-    // A narrow view without beams is a rosette's; what a voxel grid did to them is said elsewhere.
+    finding.sentence = "No separate beams were found.";
+    // A narrow view without beams is normal for a rosette; `downsampling` reports voxel grids.
     if (!summary.view.sees_all_around() || summary.is_voxel_averaged) return finding;
     finding.severity = Severity::note;
-    finding.remedy = "Nothing to set: surface and patchwork need none; cascaded guesses them.";
+    finding.remedy =
+        "Nothing to set: surface and patchwork do not need beams; cascaded estimates them.";
     return finding;
   }
   const auto source = [&] {
     switch (summary.rings) {
-      case RingSource::field: return "by the field ring";
-      case RingSource::order: return "by the order of the points";
+      case RingSource::field: return "from the field ring";
+      case RingSource::order: return "from the order of the points";
       case RingSource::none: break;
     }
-    return "by their elevations";
+    return "from their elevations";
   };
   finding.sentence = fmt::format("{} beams, {}.", summary.view.beams, source());
   return finding;
@@ -371,23 +373,24 @@ Finding field_of_view(const FieldOfView& view) {
   const std::string azimuths =
       view.sees_all_around()
           ? "all around"
-          : fmt::format("{:.0f} degrees wide, from {:.0f} to {:.0f}", view.azimuth_width,
+          : fmt::format("{:.0f} degrees of azimuth, from {:.0f} to {:.0f}", view.azimuth_width,
                         view.azimuth_begin, view.azimuth_begin + view.azimuth_width);
-  finding.sentence = fmt::format("Points from {:+.1f} to {:+.1f} degrees of elevation, {}.",
-                                 view.bottom, view.top, azimuths);
+  finding.sentence =
+      fmt::format("{:+.1f} to {:+.1f} degrees of elevation, {}.", view.bottom, view.top, azimuths);
   return finding;
 }
 
 Finding range(const Summary& summary, const Expected& expected) {
   Finding finding{.id = "range",
                   .values = {{"reach", summary.reach}, {"farthest", summary.farthest}}};
-  finding.sentence = fmt::format("99 of 100 points lie within {:.0f} m, the farthest at {:.0f} m.",
-                                 summary.reach, summary.farthest);
+  finding.sentence =
+      fmt::format("99 % of the points are within {:.0f} m; the farthest is at {:.0f} m.",
+                  summary.reach, summary.farthest);
   if (!expected.max_range || summary.reach <= double{*expected.max_range}) return finding;
   finding.severity = Severity::note;
   finding.remedy = fmt::format(
-      "Beyond max_range = {:g} m every point is labelled out_of_range; set max_range = {:.0f} if "
-      "they matter.",
+      "Points beyond max_range = {:g} m are labelled out_of_range. Set max_range = {:.0f} if you "
+      "need them.",
       *expected.max_range, std::min(std::ceil(summary.reach / 10) * 10, 200.0));
   return finding;
 }
@@ -395,29 +398,30 @@ Finding range(const Summary& summary, const Expected& expected) {
 Finding downsampling(const Summary& summary) {
   Finding finding{.id = "downsampling", .values = {{"growth", summary.growth}}};
   if (!summary.is_voxel_averaged) {
-    finding.sentence = "As dense as the sensor made it.";
+    finding.sentence = "The cloud has the full density of the sensor.";
     finding.is_plain = true;
     return finding;
   }
   finding.severity = Severity::note;
   finding.sentence =
-      "Near things have no more points than far ones: the cloud is thinned out, most likely to one "
-      "point a voxel.";
-  finding.remedy = "Nothing to set; scans as the sensor made them give better labels.";
+      "Near objects have no more points than far ones: the cloud was downsampled, probably to one "
+      "point per voxel.";
+  finding.remedy = "Nothing to set. Scans with the full density of the sensor give better labels.";
   return finding;
 }
 
 Finding sensor(const std::vector<const Sensor*>& sensors) {
   Finding finding{.id = "sensor", .values = {{"matches", static_cast<double>(sensors.size())}}};
   if (sensors.empty()) {
-    finding.sentence = "No sensor that is known by name looks like this.";
-    finding.remedy = "Nothing to set; a file of your own can describe it: docs/reference/sensors.md.";
+    finding.sentence = "No known sensor matches these scans.";
+    finding.remedy =
+        "Nothing to set. To describe your sensor in a file, see docs/reference/sensors.md.";
     return finding;
   }
   finding.sentence =
-      fmt::format("It looks like {}, {}", sensors.front()->name, sensors.front()->title);
+      fmt::format("The scans match {}, {}", sensors.front()->name, sensors.front()->title);
   for (std::size_t i = 1; i < sensors.size(); ++i) {
-    finding.sentence += fmt::format("{}{}", i == 1 ? "; or like " : ", ", sensors[i]->name);
+    finding.sentence += fmt::format("{}{}", i == 1 ? "; also " : ", ", sensors[i]->name);
   }
   finding.sentence += '.';
   finding.remedy = fmt::format("Set sensor = \"{}\".", sensors.front()->name);

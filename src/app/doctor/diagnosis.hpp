@@ -12,49 +12,49 @@
 
 namespace flagstone::doctor {
 
-/// How much a finding matters.
+/// Importance of a finding.
 enum class Severity {
-  fine,  ///< as it should be
-  note,  ///< worth to know; nothing has to be done
-  fix,   ///< labels suffer until it is set right
+  fine,  ///< no problem
+  note,  ///< worth knowing; no action is needed
+  fix,   ///< harms the labels until it is fixed
 };
 
 /// "fine", "note" or "fix".
 const char* to_string(Severity severity) noexcept;
 
-/// One thing that scans show.
+/// Result of one check.
 struct Finding {
   std::string id;  ///< stable, for scripts: "tilt"
   Severity severity = Severity::fine;
-  std::string sentence{};  ///< what is seen, with its numbers
-  std::string remedy{};    ///< what to set or do; empty where there is nothing
-  std::vector<std::pair<std::string, double>> values{};  ///< the numbers by name
-  bool is_plain = false;  ///< fine, and nobody needs to read more about it
+  std::string sentence{};                                ///< the observation, with its numbers
+  std::string remedy{};                                  ///< recommended action; empty if none
+  std::vector<std::pair<std::string, double>> values{};  ///< the numbers, by name
+  bool is_plain = false;  ///< fine; the text report lists only the id
 };
 
 /// The settings that scans are compared with.
 struct Expected {
   float sensor_height = 1.73f;       ///< metres
-  std::optional<float> max_range{};  ///< metres, of methods that have such a setting
+  std::optional<float> max_range{};  ///< metres; empty for methods without this setting
 };
 
-/// Settings that fit the scans.
+/// Recommended settings.
 struct Advice {
-  std::string sensor{};    ///< name of the known sensor that made them; empty if none matches
-  Mount mount{};           ///< with the sensor's height
-  bool has_mount = false;  ///< Is more of it needed than the height?
+  std::string sensor{};    ///< name of the most likely known sensor; empty if none matches
+  Mount mount{};           ///< includes the sensor height
+  bool has_mount = false;  ///< true if more than the height differs from the default
 };
 
-/// What is to be said of scans.
+/// All findings, and the recommended settings.
 struct Diagnosis {
   std::vector<Finding> findings;
-  /// Empty where no settings help.
+  /// Empty if no settings help.
   std::optional<Advice> advice{};
 
   [[nodiscard]] bool has_something_to_fix() const;
 };
 
-/// What the scans show beside what is expected of them.
+/// Compares the summary of scans with the configured settings.
 Diagnosis diagnose(const Summary& summary, const Expected& expected);
 
 }  // namespace flagstone::doctor

@@ -13,14 +13,14 @@
 namespace flagstone::doctor {
 namespace {
 
-/// Directions that share elevation and azimuth.
+/// The points in one cell of elevation and azimuth.
 struct Direction {
   double points = 0;
   double ranges = 0;   // their sum
   double squares = 0;  // of ranges, their sum
 
   [[nodiscard]] double range() const { return ranges / points; }
-  /// Do its points lie on one thing?
+  /// True if the points have similar ranges, so that they are probably on one object.
   [[nodiscard]] bool is_even() const {
     const double variance = squares / points - range() * range();
     constexpr double most = 0.15;  // of the range
@@ -51,7 +51,8 @@ std::vector<Direction> directions_of(std::span<const Vector3f> places) {
   return directions;
 }
 
-/// What full directions hold: many are empty in part, at edges and where no echo came.
+/// Number of points in a full direction. Many directions are partly empty: at edges of objects, and
+/// where returns are missing.
 double full_count(std::span<const Direction> directions) {
   std::vector<double> counts;
   for (const Direction& direction : directions) counts.push_back(direction.points);
@@ -66,8 +67,8 @@ double mean_range(std::span<const Direction> directions) {
 
 /// Compares the nearer with the farther directions of each row.
 double growth_of(std::span<const Direction> directions, double farthest) {
-  constexpr double nearest = 2.7;         // the own vehicle
-  constexpr std::size_t fewest = 30;      // directions of a row
+  constexpr double nearest = 2.7;         // the ego vehicle
+  constexpr std::size_t fewest = 30;      // directions per row
   constexpr double least_distance = 0.2;  // between near and far, logarithm
   double product = 0;
   double square = 0;
@@ -100,7 +101,7 @@ double crowding_of(std::span<const Vector3f> places, double radius) {
     if (range < radius / 4) ++near;
     if (range >= radius / 2 && range < radius) ++far;
   }
-  // The areas are as 1 to 12.
+  // The areas have a ratio of 1 to 12.
   return 12 * near / std::max(far, 1.0);
 }
 

@@ -10,15 +10,15 @@ namespace flagstone::doctor {
 
 using mount::Vector3f;
 
-/// How points were thinned out or added.
+/// Signs that points were removed or merged.
 struct Downsampling {
-  /// With which power of the range the points in a direction grow, between like elevations and up
-  /// to 30 m: about 0 in a scan as the sensor made it, towards 2 where there is one point a voxel.
+  /// Exponent of the range in the number of points per direction, at equal elevation and up to 30
+  /// m: about 0 in an original scan, towards 2 with one point per voxel.
   double growth = 0;
-  /// The same over the whole cloud: 1 and more where the points lie as densely far out as near by.
+  /// This exponent over the whole cloud: at least 1 if points are as dense far out as nearby.
   double growth_of_all = 0;
-  /// How many times as densely points lie near the origin as far out, seen from above: 10 and more
-  /// in most scans, about 1 in a cloud that was not made from one place.
+  /// Ratio of point densities in the x-y plane, near the origin to far out: at least 10 in most
+  /// scans, about 1 in a cloud that was not recorded from one position.
   double crowding = 0;
 
   [[nodiscard]] bool is_voxel_averaged() const noexcept { return growth > 0.45; }
@@ -27,7 +27,7 @@ struct Downsampling {
   }
 };
 
-/// `places`: metres, the sensor in the origin, z is the axis it turns about.
+/// `places`: metres; the sensor is at the origin, z is its rotation axis.
 Downsampling find_downsampling(std::span<const Vector3f> places);
 
 }  // namespace flagstone::doctor

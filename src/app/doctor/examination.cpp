@@ -17,15 +17,15 @@
 namespace flagstone::doctor {
 namespace {
 
-/// The points of a scan that have a place, in their order, and what the others are.
+/// The valid points of a scan, in their order, and counts of the others.
 struct UsablePoints {
-  std::vector<Vector3f> places;  ///< as the file has them: its units, its axes
-  std::vector<int> rings;        ///< of each place, from a field of that name; empty without
+  std::vector<Vector3f> places;  ///< in the units and axes of the file
+  std::vector<int> rings;        ///< of each point, from the field `ring`; empty if there is none
 
-  std::size_t given = 0;       ///< points of the scan
-  std::size_t zero = 0;        ///< all three coordinates are zero: no echo
+  std::size_t given = 0;       ///< all points of the scan
+  std::size_t zero = 0;        ///< all three coordinates are zero: missing returns
   std::size_t not_finite = 0;  ///< a coordinate is NaN or infinite
-  std::size_t repeated = 0;    ///< usable, with the coordinates of another usable one before it
+  std::size_t repeated = 0;    ///< valid points with the coordinates of an earlier one
 };
 
 std::size_t count_repeated(std::vector<Vector3f> places) {
@@ -44,8 +44,8 @@ bool are_ring_numbers(const std::vector<int>& rings) {
   return different.size() >= 2;
 }
 
-/// Sorts out the points of a scan. A field `ring` is believed if it holds 2 to 1,024 different
-/// whole numbers.
+/// Selects the valid points of a scan. A field `ring` is used if it contains 2 to 1,024 different
+/// non-negative integers.
 UsablePoints usable_points(const io::Cloud& cloud) {
   UsablePoints usable;
   const CloudView view = cloud.view();
@@ -71,8 +71,8 @@ UsablePoints usable_points(const io::Cloud& cloud) {
   return usable;
 }
 
-/// What a scan reaches, metres: 15 in a room, 150 on a motorway. The unit is the one that brings
-/// the reach nearest to it.
+/// Typical reach of a scan in metres; real values are 15 in a room to 150 on a motorway. The unit
+/// is the one for which the reach is closest to this value.
 constexpr double usual_reach = 50;
 
 double metres_per_unit(double reach) {
@@ -101,12 +101,12 @@ Extent extent_of(std::span<const Vector3f> places) {
   return extent;
 }
 
-/// `places`: metres from the sensor, z up, above a ground at z = `ground`. Around the sensor is
-/// nearer than `radius`, metres, in the bird's-eye view.
+/// Finds the points above the ground that are closer to the sensor than `radius`, in the x-y plane.
+/// `places`: relative to the sensor, z up, with the ground at z = `ground`. All in metres.
 EgoVehicle find_ego_vehicle(std::span<const Vector3f> places, double ground, double radius) {
   constexpr double over_ground = 0.3;
   constexpr double step = 0.1;
-  constexpr double roof_share = 0.3;  // of what is around the sensor, in one layer
+  constexpr double roof_share = 0.3;  // of the points near the sensor, in one layer
   std::array<std::size_t, 60> layers{};
   std::size_t around = 0;
   for (const Vector3f& place : places) {
@@ -127,11 +127,11 @@ EgoVehicle find_ego_vehicle(std::span<const Vector3f> places, double ground, dou
   return vehicle;
 }
 
-/// Around the sensor, metres: as far as the ego vehicle is searched for.
-constexpr double own_radius = 2.7;
+/// Points of the ego vehicle are closer to the sensor than this, metres.
+constexpr double ego_radius = 2.7;
 
-/// The points in metres, turned so that the axis that is up becomes z; from the place at
-/// `middle`, in the units of the file.
+/// The points relative to `middle`, converted to metres and rotated so that `axis` becomes z.
+/// `places` and `middle`: in the units of the file.
 std::vector<Vector3f> turned(std::span<const Vector3f> places, const Vector3f& axis, double metres,
                              const Vector3f& middle) {
   const mount::Turn turn = mount::turn_to_z(axis);
@@ -150,7 +150,7 @@ void move_origin(std::vector<Vector3f>& places, const Vector3f& to) {
   }
 }
 
-/// What stands around the sensor, which is at `sensor`, metres in the frame turned to the axis.
+/// The ego vehicle around `sensor`: metres, in the frame rotated so that the axis is z.
 EgoVehicle ego_vehicle(std::span<const Vector3f> places, const Vector3f& sensor,
                        const Examination& seen) {
   const Vector3f& axis = seen.orientation.axis;
@@ -159,24 +159,24 @@ EgoVehicle ego_vehicle(std::span<const Vector3f> places, const Vector3f& sensor,
   std::vector<Vector3f> upright = turned(places, up, seen.extent.metres, {});
   move_origin(upright, mount::turn_to_z(up).apply(turn.undo(sensor)));
   const float ground = (seen.orientation.ground_of_tilt() - sensor[2]) * mount::dot(up, axis);
-  return find_ego_vehicle(upright, ground, own_radius);
+  return find_ego_vehicle(upright, ground, ego_radius);
 }
 
-void look_from_sensor(const UsablePoints& usable, Examination& seen) {
+void examine_from_sensor(const UsablePoints& usable, Examination& seen) {
   std::vector<Vector3f> places =
       turned(usable.places, seen.orientation.axis, seen.extent.metres, {});
   const bool has_ground = seen.orientation.is_found();
   const double ground = seen.orientation.ground_of_axis();
   Vector3f sensor{};
-  const auto look_from = [&](const std::optional<BeamOrigin>& origin) {
+  const auto set_origin = [&](const std::optional<BeamOrigin>& origin) {
     seen.origin = origin;
     if (!origin || !origin->is_elsewhere()) return;
     sensor = origin->place;
     move_origin(places, sensor);
   };
-  if (has_ground) look_from(find_beam_origin(places, ground));
+  if (has_ground) set_origin(find_beam_origin(places, ground));
   const BeamRings rings = find_rings(places, usable.rings);
-  if (has_ground && !seen.origin) look_from(find_beam_origin(places, rings, ground));
+  if (has_ground && !seen.origin) set_origin(find_beam_origin(places, rings, ground));
   if (has_ground) seen.vehicle = ego_vehicle(usable.places, sensor, seen);
   const double height = has_ground ? double{sensor[2]} - ground : 0;
   seen.rings = rings.source;
@@ -203,8 +203,8 @@ Examination examine(const io::Cloud& cloud) {
     seen.downsampling = find_downsampling(turned(usable.places, {0, 0, 1}, 1, seen.extent.middle));
     return seen;
   }
-  seen.orientation = find_stance(usable.places, seen.extent.metres);
-  look_from_sensor(usable, seen);
+  seen.orientation = find_orientation(usable.places, seen.extent.metres);
+  examine_from_sensor(usable, seen);
   return seen;
 }
 

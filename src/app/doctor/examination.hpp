@@ -12,45 +12,45 @@
 
 namespace flagstone::doctor {
 
-/// How far the points of a scan lie from the origin and from each other, in the file's units.
+/// Extent of the points of a scan, in the units of the file.
 struct Extent {
   Vector3f middle{};    ///< the median of each coordinate
-  double spread = 0;    ///< half of what nine in ten points span, along the axis where that is most
-  double reach = 0;     ///< 99 in 100 points lie nearer to the origin
-  double farthest = 0;  ///< the farthest point from it
-  double metres = 1;    ///< metres a unit, as far as the reach tells: 1, 0.01 or 0.001
+  double spread = 0;    ///< half of the range of the central 90 % of points, along the longest axis
+  double reach = 0;     ///< 99 % of the points are closer to the origin
+  double farthest = 0;  ///< distance of the farthest point from the origin
+  double metres = 1;    ///< metres per unit, estimated from the reach: 1, 0.01 or 0.001
 
-  /// Do the points lie far away from the origin, all on one side, as in coordinates of a map?
+  /// True if all points are far from the origin on one side, as in map coordinates.
   [[nodiscard]] bool is_far_away() const noexcept;
 };
 
-/// What lies around the sensor, where the ego vehicle is.
+/// Points on the ego vehicle.
 struct EgoVehicle {
-  double share = 0;  ///< of all points, those around the sensor that stand over the ground
-  double roof = 0;   ///< height above the ground at which most of them lie, metres; 0: no roof seen
+  double share = 0;  ///< fraction of points that are near the sensor and above the ground
+  double roof = 0;   ///< height of most of these points above the ground, metres; 0: no roof
 };
 
-/// What one scan shows.
+/// Results of one scan.
 struct Examination {
   std::size_t points = 0;
   std::size_t zero = 0;
   std::size_t not_finite = 0;
   std::size_t repeated = 0;
 
-  /// Points that have a place. The rest is not looked at where they are too few.
+  /// Number of valid points. If there are too few, the members below are not set.
   [[nodiscard]] std::size_t usable() const noexcept { return points - zero - not_finite; }
   [[nodiscard]] bool has_enough_points() const noexcept { return usable() >= 1000; }
 
   Extent extent{};
   Downsampling downsampling{};
-  FrameOrientation orientation{};  ///< not looked for where the points lie far away
+  FrameOrientation orientation{};  ///< not estimated if the points are far away
   RingSource rings = RingSource::none;
-  std::optional<BeamOrigin> origin{};  ///< turned so that the axis that is up is z
+  std::optional<BeamOrigin> origin{};  ///< in the frame rotated so that the up axis is z
   FieldOfView view{};
   EgoVehicle vehicle{};
 };
 
-/// Looks at one scan. Any bit pattern is allowed in its coordinates.
+/// Examines one scan. Its coordinates may have any value, including NaN, infinity and denormals.
 Examination examine(const io::Cloud& cloud);
 
 }  // namespace flagstone::doctor

@@ -19,7 +19,7 @@ using mount::dot;
 constexpr std::array<Vector3f, 6> frame_axes{
     {{0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {0, -1, 0}, {1, 0, 0}, {-1, 0, 0}}};
 
-/// Other frame_axes than z must be this much more sure.
+/// Axes other than z must score higher by this factor.
 constexpr float bonus_of_z = 1.3f;
 
 MountDecision estimate_for(std::span<const Vector3f> places, double metres, const Vector3f& axis,
@@ -33,9 +33,9 @@ MountDecision estimate_for(std::span<const Vector3f> places, double metres, cons
   return estimator.estimate({places.data()->data(), places.size()});
 }
 
-/// The estimate with `axis` about up, seen from `height` along it.
-FrameOrientation stance_for(std::span<const Vector3f> places, double metres, const Vector3f& axis,
-                            float height) {
+/// The estimate for a sensor at `height` along `axis`, which is roughly up.
+FrameOrientation orientation_for(std::span<const Vector3f> places, double metres,
+                                 const Vector3f& axis, float height) {
   return {.axis = axis,
           .decision = estimate_for(places, metres, axis, height, TiltSource::estimate),
           .seen_from = height};
@@ -48,10 +48,10 @@ FrameOrientation with_level(std::span<const Vector3f> places, double metres,
   return orientation;
 }
 
-/// Of the points that are not at the ground's height, the share above it. What stands on ground is
-/// above it; what ground that falls away hides from the estimate is below it.
-float share_above(std::span<const Vector3f> places, double metres,
-                  const FrameOrientation& orientation) {
+/// Fraction of the points off the ground that are above it. Objects on the ground are above it;
+/// ground that slopes down is below it.
+float fraction_above(std::span<const Vector3f> places, double metres,
+                     const FrameOrientation& orientation) {
   const Mount& mount = orientation.decision.mount;
   const float ground = dot(mount.origin, mount.up) - mount.sensor_height;
   constexpr float at_ground = 0.5f;
@@ -65,16 +65,17 @@ float share_above(std::span<const Vector3f> places, double metres,
   return above / std::max(above + below, 1.0f);
 }
 
-float worth(std::span<const Vector3f> places, double metres, const FrameOrientation& orientation) {
+float score_of(std::span<const Vector3f> places, double metres,
+               const FrameOrientation& orientation) {
   if (!orientation.is_found()) return 0;
   const float bonus = orientation.axis == frame_axes[0] ? bonus_of_z : 1;
   constexpr float least_above = 0.25f;
-  const float above = share_above(places, metres, orientation);
+  const float above = fraction_above(places, metres, orientation);
   return above < least_above ? 0 : bonus * orientation.decision.confidence * above;
 }
 
-/// The height along `axis` at which most points near the origin lie, metres: the lowest of about
-/// equal ones. Nothing where hardly any are near.
+/// Height along `axis` with the most points near the origin, metres; the lowest of similar peaks.
+/// Nothing if there are fewer than 100 points at that height.
 std::optional<float> strongest_level(std::span<const Vector3f> places, double metres,
                                      const Vector3f& axis) {
   constexpr float radius = 20;
@@ -97,7 +98,7 @@ std::optional<float> strongest_level(std::span<const Vector3f> places, double me
 
 void take_if_better(const FrameOrientation& candidate, std::span<const Vector3f> places,
                     double metres, FrameOrientation& best) {
-  if (worth(places, metres, candidate) > worth(places, metres, best)) best = candidate;
+  if (score_of(places, metres, candidate) > score_of(places, metres, best)) best = candidate;
 }
 
 }  // namespace
@@ -115,21 +116,22 @@ double FrameOrientation::tilt() const noexcept {
   return std::acos(cosine) * 180 / std::numbers::pi;
 }
 
-FrameOrientation find_stance(std::span<const Vector3f> places, double metres) {
-  const FrameOrientation usual = stance_for(places, metres, frame_axes[0], 0);
+FrameOrientation find_orientation(std::span<const Vector3f> places, double metres) {
+  const FrameOrientation usual = orientation_for(places, metres, frame_axes[0], 0);
   FrameOrientation best = usual;
   for (const Vector3f& axis : std::span(frame_axes).subspan(1)) {
-    take_if_better(stance_for(places, metres, axis, 0), places, metres, best);
+    take_if_better(orientation_for(places, metres, axis, 0), places, metres, best);
   }
-  if (worth(places, metres, best) > 0) return with_level(places, metres, best);
+  if (score_of(places, metres, best) > 0) return with_level(places, metres, best);
   constexpr float usual_height = 1.8f;
   for (const Vector3f& axis : frame_axes) {
     const std::optional<float> level = strongest_level(places, metres, axis);
     if (!level) continue;
-    take_if_better(stance_for(places, metres, axis, *level + usual_height), places, metres, best);
+    take_if_better(orientation_for(places, metres, axis, *level + usual_height), places, metres,
+                   best);
   }
-  if (worth(places, metres, best) > 0) return with_level(places, metres, best);
-  // A plane that most things lie below is a ceiling or the other side of the ground.
+  if (score_of(places, metres, best) > 0) return with_level(places, metres, best);
+  // A plane with most points below it is a ceiling, or the ground upside down.
   best = usual;
   if (best.is_found()) best.decision.verdict = MountVerdict::points_below;
   return best;

@@ -12,32 +12,31 @@ namespace flagstone::doctor {
 
 using mount::Vector3f;
 
-/// How a cloud lies over its ground: which of its axes is up, how that is tilted, where the ground
-/// is.
+/// Orientation of a cloud relative to its ground: the axis that is up, the tilt, the ground height.
 struct FrameOrientation {
-  /// Which axis of the cloud is nearest to up: unit length, one coordinate 1 or -1.
+  /// The axis of the cloud that is closest to up: unit length, one coordinate is 1 or -1.
   Vector3f axis{0, 0, 1};
-  /// What the scan says of the ground, seen from `seen_from` along the axis, metres. Refused
-  /// decisions say why no ground was found.
+  /// The estimate of the ground for a sensor at `seen_from` along the axis, metres. A rejected
+  /// decision has the reason why no ground was found.
   MountDecision decision{};
   float seen_from = 0;
 
-  /// The same if the axis is up. From afar and on one side a tilt and a slope look alike, and the
-  /// height differs.
+  /// The estimate with the axis as up. Far away, or on one side only, a tilt cannot be
+  /// distinguished from a slope, but the two give different heights.
   MountDecision level{};
 
   [[nodiscard]] bool is_found() const noexcept { return decision.accepted(); }
-  /// Where the ground is at the cloud's origin: along the axis, metres, negative below it. By the
-  /// tilt that was found, or as if the axis is up.
+  /// Height of the ground at the origin of the cloud: metres along the axis, negative below it.
+  /// With the estimated tilt, or with the axis as up.
   [[nodiscard]] float ground_of_tilt() const noexcept;
   [[nodiscard]] float ground_of_axis() const noexcept;
   /// Degrees between the axis and up.
   [[nodiscard]] double tilt() const noexcept;
 };
 
-/// Looks for the ground of `places`, a unit of which is `metres`: below the origin, and if none is
-/// there below other places along each axis. Takes each of the six directions of the axes for up
-/// and keeps what the points agree on best, z if they agree on it about as well.
-FrameOrientation find_stance(std::span<const Vector3f> places, double metres);
+/// Finds the ground of `places`, whose unit is `metres`: below the origin, otherwise below other
+/// positions along each axis. Tries each of the six axis directions as up and returns the one with
+/// the best score; z is preferred if the scores are similar.
+FrameOrientation find_orientation(std::span<const Vector3f> places, double metres);
 
 }  // namespace flagstone::doctor

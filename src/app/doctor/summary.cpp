@@ -29,7 +29,7 @@ bool most(const Scans& scans, Holds holds) {
 
 /// The value that most scans have.
 template <class Value>
-auto commonest(const Scans& scans, Value value) {
+auto most_common(const Scans& scans, Value value) {
   const auto votes = [&](const Examination* of) {
     return std::ranges::count_if(
         scans, [&](const Examination* scan) { return value(*scan) == value(*of); });
@@ -66,10 +66,10 @@ void count_points(std::span<const Examination> scans, Summary& summary) {
   summary.repeated /= std::max(all_usable, 1.0);
 }
 
-/// Of the scans that see ground and agree on the axis that is up.
-CommonOrientation common_stance(Scans& scans) {
+/// Orientation of the scans with ground and with the most common axis; removes the other scans.
+CommonOrientation common_orientation(Scans& scans) {
   CommonOrientation common;
-  common.axis = commonest(scans, [](const Examination& scan) { return scan.orientation.axis; });
+  common.axis = most_common(scans, [](const Examination& scan) { return scan.orientation.axis; });
   std::erase_if(scans, [&](const auto* scan) { return scan->orientation.axis != common.axis; });
   common.scans = scans.size();
   Vector3f up{};
@@ -91,11 +91,11 @@ CommonOrientation common_stance(Scans& scans) {
   return common;
 }
 
-void look_at_stances(Scans scans, Summary& summary) {
+void summarise_orientation(Scans scans, Summary& summary) {
   summary.refusal = scans.front()->orientation.decision;
   std::erase_if(scans, [](const auto* scan) { return !scan->orientation.is_found(); });
   if (scans.empty()) return;
-  summary.orientation = common_stance(scans);
+  summary.orientation = common_orientation(scans);
   summary.shows_beam_origin =
       most(scans, [](const Examination& scan) { return scan.origin.has_value(); });
   const auto is_elsewhere = [](const Examination& scan) {
@@ -114,10 +114,10 @@ void look_at_stances(Scans scans, Summary& summary) {
   summary.vehicle.roof = median(scans, [](const Examination& s) { return s.vehicle.roof; });
 }
 
-void look_at_view(const Scans& scans, Summary& summary) {
+void summarise_view(const Scans& scans, Summary& summary) {
   using Scan = const Examination&;
-  summary.rings = commonest(scans, [](Scan scan) { return scan.rings; });
-  summary.view.beams = commonest(scans, [](Scan scan) { return scan.view.beams; });
+  summary.rings = most_common(scans, [](Scan scan) { return scan.rings; });
+  summary.view.beams = most_common(scans, [](Scan scan) { return scan.view.beams; });
   summary.view.top = median(scans, [](Scan scan) { return scan.view.top; });
   summary.view.bottom = median(scans, [](Scan scan) { return scan.view.bottom; });
   summary.view.azimuth_begin = median(scans, [](Scan scan) { return scan.view.azimuth_begin; });
@@ -134,7 +134,7 @@ Summary summarise(std::span<const Examination> all) {
   if (!summary.has_enough_points) return summary;
 
   using Scan = const Examination&;
-  summary.metres = commonest(scans, [](Scan scan) { return scan.extent.metres; });
+  summary.metres = most_common(scans, [](Scan scan) { return scan.extent.metres; });
   summary.middle = scans.front()->extent.middle;
   summary.is_far_away = most(scans, [](Scan scan) { return scan.extent.is_far_away(); });
   summary.is_from_many_places =
@@ -142,8 +142,8 @@ Summary summarise(std::span<const Examination> all) {
   summary.reach = summary.metres * median(scans, [](Scan scan) { return scan.extent.reach; });
   summary.farthest = summary.metres * median(scans, [](Scan s) { return s.extent.farthest; });
   if (!summary.is_scan()) return summary;
-  look_at_stances(scans, summary);
-  look_at_view(scans, summary);
+  summarise_orientation(scans, summary);
+  summarise_view(scans, summary);
   summary.growth = median(scans, [](Scan scan) { return scan.downsampling.growth; });
   summary.is_voxel_averaged = Downsampling{.growth = summary.growth}.is_voxel_averaged();
   return summary;

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace flagstone::cli {
+
+/// @name Groups of options, for Option::group()
+/// @{
+inline constexpr const char* input_group = "Input";
+inline constexpr const char* method_group = "Method and settings";
+inline constexpr const char* output_group = "Output";
+inline constexpr const char* other_group = "Other";  ///< always listed last
+/// @}
+
+struct Example {
+  std::string command;
+  std::string meaning{};
+};
+
+/// Names and their meanings, such as the scenes of the simulator.
+struct NameList {
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> names;
+};
+
+/// The parts of a help text that CLI11 does not know. The rest is made from the description of the
+/// command and from its options.
+struct Help {
+  std::vector<Example> examples;
+  std::vector<NameList> lists{};
+  std::string notes{};
+  std::string exit_codes = "0, success; 1, some inputs failed; 2, usage error.";
+};
+
+/// Gives a command its help text: description, usage, examples, arguments, options by group.
+///
+/// Options are printed as they are declared: defaults (`default_str`), `required`, `needs` and
+/// repeatable options are noted in parentheses after the description. A description may continue
+/// with lines of the form "\nNAME\tMEANING", which are printed as a table.
+void set_help(CLI::App& command, Help help);
+
+/// "SCAN..." for an argument, "-o, --output DIR" for an option.
+std::string label_of(const CLI::Option& option);
+
+}  // namespace flagstone::cli
