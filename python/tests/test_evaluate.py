@@ -160,7 +160,7 @@ def test_repr_is_a_table(evaluation: flagstone.Evaluation, simulated: Path) -> N
         ({"protocol": "kitti"}, 'no protocol is named "kitti" .expected patchwork'),
         ({"methods": "surfaces"}, "no method is named 'surfaces'"),
         ({"sensor_height": "high"}, "sensor_height: high is no number of metres"),
-        ({"tilt": "left"}, "tilt: left is not off, estimate or where up is"),
+        ({"tilt": "left"}, "tilt: 'left' is not a tilt"),
         ({"sensor": "hdl-65"}, "sensor: "),
         ({"every": 0}, "every: 0 is out of range \\(expected 1 to 1000000\\)"),
         ({"every": -1}, "every: -1 is out of range"),

@@ -83,15 +83,15 @@ def test_every_argument_reaches_the_simulator(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"scene": "parc"}, "scene: there is no 'parc'; choose flat_street"),
+        ({"scene": "parc"}, "scene: no scene is named 'parc' \\(expected flat_street"),
         ({"sensor": "vlp-17"}, "sensor: "),
-        ({"weather": "hail"}, "weather: there is no 'hail'; choose clear"),
+        ({"weather": "hail"}, "weather: no weather is named 'hail' \\(expected clear"),
         ({"tilt": (1,)}, "tilt: '1' is not PITCH,ROLL"),
         ({"frames": 0}, "frames: 0 is out of range \\(expected 1 to 100000\\)"),
         ({"seed": 2**64}, "seed: 18446744073709551616 is out of range"),
         ({"seed": -1}, "seed: -1 is out of range"),
         ({"sensor_height": float("nan")}, "sensor_height: nan is out of range"),
-        ({"keep_no_returns": True, "sequence": "7"}, "sequence: '7' is no name of a sequence"),
+        ({"keep_no_returns": True, "sequence": "7"}, "sequence: '7' is not a sequence"),
     ],
 )
 def test_an_invalid_argument_raises_a_one_line_error_with_its_name(
@@ -105,7 +105,7 @@ def test_an_invalid_argument_raises_a_one_line_error_with_its_name(
 
 def test_a_directory_with_another_simulation_is_rejected(tmp_path: Path) -> None:
     flagstone.simulate(tmp_path, **PARK, frames=1)
-    with pytest.raises(ValueError, match=r"scene\.json: tells of another seed than asked for"):
+    with pytest.raises(ValueError, match=r"scene\.json: its seed differs from the one you requested"):
         flagstone.simulate(tmp_path, **PARK, frames=1, seed=2)
 
 

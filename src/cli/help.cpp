@@ -95,7 +95,8 @@ class CommandHelp final : public CLI::FormatterBase {
     text += " [OPTIONS]";
     for (const CLI::Option* const option : command.get_options()) {
       if (!option->get_positional()) continue;
-      text += fmt::format(option->get_required() ? " {}" : " [{}]", label_of(*option));
+      const std::string label = label_of(*option);
+      text += option->get_required() ? " " + label : " [" + label + "]";
     }
     return text + "\n";
   }

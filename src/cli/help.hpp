@@ -29,7 +29,7 @@ struct Example {
 /// Names and their meanings, such as the scenes of the simulator.
 struct NameList {
   std::string title;
-  std::vector<std::pair<std::string, std::string>> names;
+  std::vector<std::pair<std::string, std::string>> names{};
 };
 
 /// The parts of a help text that CLI11 does not know. The rest is made from the description of the

@@ -64,7 +64,7 @@ class SimulateCommand final : public Command {
     const double seconds = watch.lap() / 1000;
     bar.clear();
     if (simulation.interrupted) return 1;
-    fmt::print("{}, {}, seed {}: {} frames in {} sequence{}, {} simulated, {} kept\n",
+    fmt::print("{}, {}, seed {}: {} frames in {} environment{}, {} simulated, {} kept\n",
                options.scene, simulation.sensor, options.seed, options.frames, simulation.drives,
                simulation.drives == 1 ? "" : "s", simulation.simulated, simulation.kept);
     if (simulation.simulated > 0) {

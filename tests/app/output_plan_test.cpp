@@ -29,7 +29,7 @@ class OutputPlanTest : public testing::Test {
     return folder_ / name;
   }
 
-  /// What the plan complains of; empty if nothing.
+  /// The error message of the plan; empty if there is none.
   [[nodiscard]] std::string complaint() const {
     try {
       plan_.check();
@@ -43,7 +43,7 @@ class OutputPlanTest : public testing::Test {
   OutputPlan plan_;
 };
 
-TEST_F(OutputPlanTest, FilesOfTheirOwnAreAccepted) {
+TEST_F(OutputPlanTest, AcceptsSeparateFiles) {
   plan_.reads(put("scan.bin"));
   plan_.reads({});
   plan_.writes(folder_ / "scan.label");
@@ -53,7 +53,7 @@ TEST_F(OutputPlanTest, FilesOfTheirOwnAreAccepted) {
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(OutputPlanTest, AnOutputThatIsAnInputIsRefusedOnOneLineThatNamesBoth) {
+TEST_F(OutputPlanTest, RejectsAnOutputThatIsAnInputAndNamesBoth) {
   plan_.reads(put("scan.bin"));
   plan_.writes(folder_ / "nowhere/../scan.bin");
   fs::create_directory(folder_ / "nowhere");
@@ -64,7 +64,7 @@ TEST_F(OutputPlanTest, AnOutputThatIsAnInputIsRefusedOnOneLineThatNamesBoth) {
                     Not(HasSubstr("\n"))));
 }
 
-TEST_F(OutputPlanTest, LinksToAnInputAreRefused) {
+TEST_F(OutputPlanTest, RejectsLinksToAnInput) {
   const fs::path scan = put("scan.bin");
   fs::create_hard_link(scan, folder_ / "hard");
   fs::create_symlink(scan, folder_ / "soft");
@@ -77,7 +77,7 @@ TEST_F(OutputPlanTest, LinksToAnInputAreRefused) {
   }
 }
 
-TEST_F(OutputPlanTest, AnInputThatIsALinkToTheOutputIsRefused) {
+TEST_F(OutputPlanTest, RejectsAnInputThatIsALinkToTheOutput) {
   fs::create_symlink(put("scan.bin"), folder_ / "link.bin");
   plan_.reads(folder_ / "link.bin");
   plan_.writes(folder_ / "scan.bin");
@@ -85,7 +85,7 @@ TEST_F(OutputPlanTest, AnInputThatIsALinkToTheOutputIsRefused) {
   EXPECT_THAT(complaint(), HasSubstr("overwrite the input " + (folder_ / "link.bin").string()));
 }
 
-TEST_F(OutputPlanTest, EveryFileOfADatasetIsAnInputButForEarlierResults) {
+TEST_F(OutputPlanTest, EveryFileOfADatasetIsAnInputExceptEarlierResults) {
   const fs::path data = folder_ / "data";
   for (const char* name : {"velodyne/0.bin", "labels/0.label", "poses.txt", "scene.json"}) {
     put(std::string("data/") + name);
@@ -103,7 +103,7 @@ TEST_F(OutputPlanTest, EveryFileOfADatasetIsAnInputButForEarlierResults) {
   }
 }
 
-TEST_F(OutputPlanTest, ADatasetBehindALinkIsLookedAtToo) {
+TEST_F(OutputPlanTest, FollowsLinksInADataset) {
   const fs::path label = put("elsewhere/00/labels/0.label");
   fs::create_directory(folder_ / "data");
   fs::create_directory_symlink(folder_ / "elsewhere", folder_ / "data/sequences");
@@ -113,7 +113,7 @@ TEST_F(OutputPlanTest, ADatasetBehindALinkIsLookedAtToo) {
   EXPECT_THAT(complaint(), HasSubstr("data/sequences/00/labels/0.label"));
 }
 
-TEST_F(OutputPlanTest, TwoOutputsInOneFileAreRefused) {
+TEST_F(OutputPlanTest, RejectsTwoOutputsInOneFile) {
   plan_.writes(folder_ / "out/a.npy");
   plan_.writes(folder_ / "b.npy");
   plan_.writes(folder_ / "out/../out/a.npy");
@@ -121,7 +121,7 @@ TEST_F(OutputPlanTest, TwoOutputsInOneFileAreRefused) {
   EXPECT_THAT(complaint(), AllOf(HasSubstr("overwrite the output "), HasSubstr("of the same run")));
 }
 
-TEST_F(OutputPlanTest, OutputsThatAnotherProgramMadeHardLinksOfEachOtherAreAccepted) {
+TEST_F(OutputPlanTest, AcceptsOutputsThatAreHardLinksOfEachOther) {
   fs::create_hard_link(put("a.label"), folder_ / "b.label");
   plan_.writes(folder_ / "a.label");
   plan_.writes(folder_ / "b.label");
@@ -129,7 +129,7 @@ TEST_F(OutputPlanTest, OutputsThatAnotherProgramMadeHardLinksOfEachOtherAreAccep
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(OutputPlanTest, NamesThatWouldBreakTheLineAreSpelledOut) {
+TEST_F(OutputPlanTest, EscapesLineBreaksInNames) {
   const fs::path scan = put("two\nlines.bin");
   plan_.reads(scan);
   plan_.writes(scan);

@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 
 const ScanInput scan = {.file = "data/00/000007.bin", .output_stem = "00/000007"};
 
-TEST(ReferenceFile, AFileIsTheReferenceItself) {
+TEST(ReferenceFile, FileIsTheReferenceItself) {
   EXPECT_EQ(reference_file("truth/000007.label", scan), "truth/000007.label");
 }
 
-TEST(ReferenceFile, InAFolderTheScansOwnPathComesFirst) {
+TEST(ReferenceFile, InADirectoryThePathOfTheScanComesFirst) {
   const io::TemporaryFolder folder;
   fs::create_directories(folder / "00");
   io::put_file(folder / "00/000007.label", "");
@@ -28,28 +28,28 @@ TEST(ReferenceFile, InAFolderTheScansOwnPathComesFirst) {
   EXPECT_EQ(reference_file(folder.path(), scan), folder / "00/000007.label");
 }
 
-TEST(ReferenceFile, InAFolderTheScansNameIsFound) {
+TEST(ReferenceFile, InADirectoryTheNameOfTheScanIsFound) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "000007.label", "");
 
   EXPECT_EQ(reference_file(folder.path(), scan), folder / "000007.label");
 }
 
-TEST(ReferenceFile, InAFolderTheLidarsegFileIsFound) {
+TEST(ReferenceFile, InADirectoryTheLidarsegFileIsFound) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "000007_lidarseg.bin", "");
 
   EXPECT_EQ(reference_file(folder.path(), scan), folder / "000007_lidarseg.bin");
 }
 
-TEST(ReferenceFile, InAFolderTheLabelArrayIsFound) {
+TEST(ReferenceFile, InADirectoryTheLabelArrayIsFound) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "000007.label.npy", "");
 
   EXPECT_EQ(reference_file(folder.path(), scan), folder / "000007.label.npy");
 }
 
-TEST(ReferenceFile, WhereThereIsNoneTheFirstNameIsGivenForTheErrorToName) {
+TEST(ReferenceFile, IsTheFirstCandidateIfNoneExists) {
   const io::TemporaryFolder folder;
 
   EXPECT_EQ(reference_file(folder.path(), scan), folder / "00/000007.label");

@@ -24,7 +24,7 @@ std::string text(std::size_t done, std::size_t total, double seconds_left,
   return to_text({.done = done, .total = total, .seconds_left = seconds_left}, columns);
 }
 
-TEST(Progress, TheBarGrowsWithTheShareThatIsDone) {
+TEST(Progress, BarGrowsWithTheFractionDone) {
   EXPECT_EQ(to_text({.done = 0, .total = 4}, 80), "[                              ] 0 of 4 scans");
   EXPECT_EQ(text(1, 2, 5), "[###############               ] 1 of 2 scans, 5 s left");
   EXPECT_EQ(text(4, 4, 0), "[##############################] 4 of 4 scans");
@@ -32,17 +32,17 @@ TEST(Progress, TheBarGrowsWithTheShareThatIsDone) {
             "[###############               ] 1 of 2 frames");
 }
 
-TEST(Progress, TheTimeLeftIsInTwoUnitsAtMost) {
+TEST(Progress, TimeLeftHasAtMostTwoUnits) {
   EXPECT_THAT(text(40, 100, 12), EndsWith(" 40 of 100 scans, 12 s left"));
   EXPECT_THAT(text(1, 11, 125), EndsWith(", 2 min 05 s left"));
   EXPECT_THAT(text(1, 3601, 7200), EndsWith(", 2 h 00 min left"));
 }
 
-TEST(Progress, NothingToDoIsAllDone) {
+TEST(Progress, BarIsFullWithNothingToDo) {
   EXPECT_EQ(text(0, 0, 0), "[##############################] 0 of 0 scans");
 }
 
-TEST(Progress, TheTextIsNeverWiderThanTheTerminal) {
+TEST(Progress, TextIsNeverWiderThanTheTerminal) {
   for (std::size_t columns = 0; columns < 120; ++columns) {
     EXPECT_LE(text(12345, 99999, 4000, columns).size(), columns);
   }
@@ -51,7 +51,7 @@ TEST(Progress, TheTextIsNeverWiderThanTheTerminal) {
   EXPECT_EQ(text(40, 100, 12, 10), "40 of 100 ");
 }
 
-TEST(Progress, TheRestIsExpectedToTakeAsLongPerJob) {
+TEST(Progress, TimeLeftAssumesTheSameTimePerJob) {
   const ProgressMeter meter(10);
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
 
@@ -60,7 +60,7 @@ TEST(Progress, TheRestIsExpectedToTakeAsLongPerJob) {
   EXPECT_EQ(meter.at(10).seconds_left.value_or(1), 0);
 }
 
-/// The jobs in the order in which their reports came.
+/// The jobs in the order of their reports.
 std::vector<std::size_t> delivered(std::size_t count, unsigned threads,
                                    const RunCallbacks& callbacks = {}) {
   std::vector<std::size_t> jobs;
@@ -79,7 +79,7 @@ std::vector<std::size_t> delivered(std::size_t count, unsigned threads,
   return jobs;
 }
 
-TEST(RunInOrder, ReportsComeInTheOrderOfTheJobs) {
+TEST(RunInOrder, DeliversReportsInTheOrderOfTheJobs) {
   std::vector<std::size_t> all(500);
   std::iota(all.begin(), all.end(), std::size_t{0});
 
@@ -88,7 +88,7 @@ TEST(RunInOrder, ReportsComeInTheOrderOfTheJobs) {
   EXPECT_TRUE(delivered(0, 4).empty());
 }
 
-TEST(RunInOrder, ProgressBeginsAtNothingAndEndsAtAll) {
+TEST(RunInOrder, ProgressStartsAtZeroAndEndsAtAll) {
   std::vector<std::size_t> done;
   delivered(50, 2, {.progress = [&](const Progress& at) {
               EXPECT_EQ(at.total, 50U);
@@ -100,7 +100,7 @@ TEST(RunInOrder, ProgressBeginsAtNothingAndEndsAtAll) {
   EXPECT_TRUE(std::ranges::is_sorted(done));
 }
 
-TEST(RunInOrder, AStopKeepsWhatIsDoneAndDeliversIt) {
+TEST(RunInOrder, DeliversFinishedJobsWhenStopped) {
   std::atomic<int> asked = 0;
   const std::vector<std::size_t> jobs = delivered(1000, 2, {.stop = [&] { return ++asked > 20; }});
 
@@ -109,7 +109,7 @@ TEST(RunInOrder, AStopKeepsWhatIsDoneAndDeliversIt) {
   EXPECT_TRUE(std::ranges::is_sorted(jobs));
 }
 
-TEST(RunInOrder, WhatAJobThrowsIsThrownToTheCaller) {
+TEST(RunInOrder, RethrowsTheExceptionOfAJob) {
   const auto run = [](unsigned threads) {
     run_in_order(
         100, threads, "scans", {},

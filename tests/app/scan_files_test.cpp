@@ -23,7 +23,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Name of the file and stem of its outputs.
+/// Matches file and output stem.
 auto is_scan(const fs::path& file, const fs::path& stem) {
   return AllOf(testing::Field("file", &ScanInput::file, file),
                testing::Field("output_stem", &ScanInput::output_stem, stem));
@@ -43,7 +43,7 @@ std::string complaint(const std::vector<std::string>& paths) {
   return {};
 }
 
-TEST(ScanFiles, StemsLoseTheExtensionsOfScans) {
+TEST(ScanFiles, StemsHaveNoScanExtension) {
   EXPECT_EQ(without_scan_extension("000000.bin"), "000000");
   EXPECT_EQ(without_scan_extension("scene-k00.pcd.bin"), "scene-k00");
   EXPECT_EQ(without_scan_extension("scene-k00.PCD.BIN"), "scene-k00");
@@ -52,12 +52,12 @@ TEST(ScanFiles, StemsLoseTheExtensionsOfScans) {
   EXPECT_EQ(without_scan_extension("scan"), "scan");
 }
 
-TEST(ScanFiles, FilesKeepTheOrderTheyAreNamedIn) {
+TEST(ScanFiles, NamedFilesKeepTheirOrder) {
   EXPECT_THAT(list_scans({"there/b.bin", "a.pcd"}),
               ElementsAre(is_scan("there/b.bin", "b"), is_scan("a.pcd", "a")));
 }
 
-TEST(ScanFiles, FoldersAreWalkedInAlphabeticalOrderAndKeepTheirInnerPaths) {
+TEST(ScanFiles, DirectoriesAreSearchedInAlphabeticalOrderAndKeepInnerPaths) {
   const io::TemporaryFolder folder;
   for (const char* name : {"c.npy", "00/velodyne/000001.bin", "00/velodyne/000000.bin",
                            "00/labels/000000.label", "k_lidarseg.bin", "b.pcd.bin", "notes.txt"}) {
@@ -70,7 +70,7 @@ TEST(ScanFiles, FoldersAreWalkedInAlphabeticalOrderAndKeepTheirInnerPaths) {
                           is_scan(folder / "b.pcd.bin", "b"), is_scan(folder / "c.npy", "c")));
 }
 
-TEST(ScanFiles, AFolderWithoutScansIsRefusedWithWhatScansEndIn) {
+TEST(ScanFiles, RejectsADirectoryWithoutScansAndNamesTheExtensions) {
   const io::TemporaryFolder folder;
   put(folder / "notes.txt");
 
@@ -79,28 +79,29 @@ TEST(ScanFiles, AFolderWithoutScansIsRefusedWithWhatScansEndIn) {
       AllOf(HasSubstr(folder.path().string()), HasSubstr(".pcd.bin"), Not(HasSubstr("\n"))));
 }
 
-TEST(ScanFiles, ScansThatWouldWriteToTheSameFileAreRefusedNamingBoth) {
+TEST(ScanFiles, RejectsScansWithTheSameOutputAndNamesBoth) {
   EXPECT_THAT(complaint({"00/000000.bin", "01/000000.bin"}),
               AllOf(HasSubstr("00/000000.bin"), HasSubstr("01/000000.bin")));
   EXPECT_THAT(complaint({"a.bin", "a.ply"}), HasSubstr("would both write to a.*"));
   EXPECT_THAT(complaint({"a.bin", "./a.bin"}), HasSubstr("would both write to a.*"));
 }
 
-TEST(ScanFiles, AFileThatIsNotThereIsLeftToTheReader) {
+TEST(ScanFiles, DoesNotCheckThatNamedFilesExist) {
   EXPECT_THAT(list_scans({"nowhere.bin"}), ElementsAre(is_scan("nowhere.bin", "nowhere")));
 }
 
-/// The names of the scans found in a folder; what was said is appended to `said`.
-std::vector<std::string> names_in(const fs::path& folder, std::vector<std::string>& said) {
+/// The names of the scans found in a directory. Appends messages to `messages`.
+std::vector<std::string> names_in(const fs::path& folder, std::vector<std::string>& messages) {
   std::vector<std::string> names;
-  const RunCallbacks callbacks{.message = [&](const std::string& line) { said.push_back(line); }};
+  const RunCallbacks callbacks{
+      .message = [&](const std::string& line) { messages.push_back(line); }};
   for (const ScanInput& scan : find_scans({folder.string()}, callbacks)) {
     names.push_back(scan.file.lexically_relative(folder).string());
   }
   return names;
 }
 
-TEST(ScanFiles, WhatSegmentWroteBesideItsScansIsSkippedAndCounted) {
+TEST(ScanFiles, SkipsAndCountsTheOutputsOfSegment) {
   const io::TemporaryFolder folder;
   const auto put_array = [&](const char* name, std::vector<std::size_t> shape) {
     ASSERT_TRUE(io::write_npy_file(folder / name, std::vector<float>(8), shape).ok());
@@ -116,13 +117,13 @@ TEST(ScanFiles, WhatSegmentWroteBesideItsScansIsSkippedAndCounted) {
   put_array("x.surface.npy", {2, 4});
   put(folder / "x.surface.json");
 
-  std::vector<std::string> said;
-  EXPECT_THAT(names_in(folder.path(), said), ElementsAre("x.pcd", "y.pcd.bin"));
-  EXPECT_THAT(said, ElementsAre(AllOf(HasSubstr(folder.path().string() + ": skipped 5 files"),
-                                      Not(HasSubstr("\n")))));
+  std::vector<std::string> messages;
+  EXPECT_THAT(names_in(folder.path(), messages), ElementsAre("x.pcd", "y.pcd.bin"));
+  EXPECT_THAT(messages, ElementsAre(AllOf(HasSubstr(folder.path().string() + ": skipped 5 files"),
+                                          Not(HasSubstr("\n")))));
 }
 
-TEST(ScanFiles, ScansThatAreCalledLikeOutputsAreNotSkipped) {
+TEST(ScanFiles, DoesNotSkipScansWithTheNamesOfOutputs) {
   const io::TemporaryFolder folder;
   put(folder / "x.pcd");
   put(folder / "x.ground.pcd");  // without x.nonground.pcd
@@ -135,14 +136,14 @@ TEST(ScanFiles, ScansThatAreCalledLikeOutputsAreNotSkipped) {
                                  std::vector<std::size_t>{2, 4})
                   .ok());  // without x.surface.json
 
-  std::vector<std::string> said;
-  EXPECT_THAT(names_in(folder.path(), said),
+  std::vector<std::string> messages;
+  EXPECT_THAT(names_in(folder.path(), messages),
               ElementsAre("lone.ground.bin", "lone.nonground.bin", "x.ground.pcd", "x.heights.npy",
                           "x.pcd", "x.surface.npy"));
-  EXPECT_THAT(said, ElementsAre());
+  EXPECT_THAT(messages, ElementsAre());
 }
 
-TEST(ScanFiles, AFileThatIsNamedIsNeverSkipped) {
+TEST(ScanFiles, NeverSkipsANamedFile) {
   const io::TemporaryFolder folder;
   for (const char* name : {"x.pcd", "x.ground.pcd", "x.nonground.pcd"}) put(folder / name);
 

@@ -32,7 +32,7 @@ constexpr std::array edges = {0.0f, 2.0f, 5.0f};
 const std::string full_bar(40, '#');
 const std::string half_bar = std::string(20, '#') + std::string(20, ' ');
 
-TEST(Histogram, EachClassHasItsBoundsABarAndItsShare) {
+TEST(Histogram, EachBinHasBoundsABarAndAPercentage) {
   const std::array values = {1.0f, 3.0f, 4.0f};
 
   EXPECT_THAT(lines_of(histogram_text(values, edges)),
@@ -40,30 +40,30 @@ TEST(Histogram, EachClassHasItsBoundsABarAndItsShare) {
                           "            2 .. 5 m  " + full_bar + "   66.7 %"));
 }
 
-TEST(Histogram, AnEdgeBelongsToTheClassAboveItButForTheLast) {
+TEST(Histogram, EdgeBelongsToTheBinAboveExceptTheLast) {
   const std::array values = {0.0f, 2.0f, 5.0f};
 
   EXPECT_THAT(lines_of(histogram_text(values, edges)),
               ElementsAre(HasSubstr("33.3 %"), HasSubstr("66.7 %")));
 }
 
-TEST(Histogram, WhatLiesOutsideIsCountedBeyond) {
+TEST(Histogram, CountsValuesOutsideOnASeparateLine) {
   const std::array values = {-1.0f, 1.0f, 6.0f, 1e30f};
 
   EXPECT_THAT(lines_of(histogram_text(values, edges)),
               ElementsAre(HasSubstr("25.0 %"), HasSubstr(" 0.0 %"),
-                          testing::AllOf(HasSubstr("beyond"), HasSubstr("75.0 %"))));
+                          testing::AllOf(HasSubstr("outside"), HasSubstr("75.0 %"))));
 }
 
-TEST(Histogram, NothingIsSaidInWords) { EXPECT_EQ(histogram_text({}, edges), "  no points\n"); }
+TEST(Histogram, OfNoValuesIsAMessage) { EXPECT_EQ(histogram_text({}, edges), "  no points\n"); }
 
-TEST(RoundEdges, HaveARoundWidthAndHoldTheValues) {
+TEST(RoundEdges, HaveARoundWidthAndContainTheValues) {
   const std::array values = {-1.9f, 0.3f, 2.2f};
 
   EXPECT_THAT(round_edges(values, 4), ElementsAre(-2, 0, 2, 4));
 }
 
-TEST(RoundEdges, LeaveOutTheOutermostThousandth) {
+TEST(RoundEdges, ExcludeTheOutermostThousandth) {
   std::vector<float> values(2000);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 10);
   values[5] = 1e6f;
@@ -75,7 +75,7 @@ TEST(RoundEdges, LeaveOutTheOutermostThousandth) {
   EXPECT_LE(found.back(), 11);
 }
 
-TEST(RoundEdges, OfTheLargestFloatsHoldThem) {
+TEST(RoundEdges, ContainTheLargestFloats) {
   constexpr float most = std::numeric_limits<float>::max();
   for (const std::vector<float>& values :
        {std::vector{most}, std::vector{-most}, std::vector{-most, most}, std::vector{1e30f}}) {
@@ -87,7 +87,7 @@ TEST(RoundEdges, OfTheLargestFloatsHoldThem) {
   }
 }
 
-RC_GTEST_PROP(RoundEdges, AscendAreFewAndHoldNearlyAllValues, ()) {
+RC_GTEST_PROP(RoundEdges, AscendAreFewAndContainNearlyAllValues, ()) {
   const auto raw = *rc::gen::container<std::vector<int>>(rc::gen::arbitrary<int>());
   const auto unit = *rc::gen::element(1e-3f, 0.1f, 1.0f, 1e6f, 1e28f);
   const auto count = *rc::gen::inRange<std::size_t>(1, 30);

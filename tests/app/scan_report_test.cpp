@@ -32,7 +32,7 @@ ScanReport report_of(const std::string& file) {
   return report;
 }
 
-TEST(ScanReport, JsonHoldsEveryNumberUnderItsName) {
+TEST(ScanReport, JsonHasEveryNumberByName) {
   ScanReport report = report_of("a.bin");
   report.scores = {{"patchwork", half_found}};
 
@@ -46,14 +46,14 @@ TEST(ScanReport, JsonHoldsEveryNumberUnderItsName) {
                              "accuracy": 0.75}}})"));
 }
 
-TEST(ScanReport, JsonBeginsWithTheFileAndIsOneLine) {
+TEST(ScanReport, JsonStartsWithTheFileAndIsOneLine) {
   const std::string line = json_line(report_of("two\nlines.bin"));
 
   EXPECT_THAT(line, testing::StartsWith(R"({"file":"two\nlines.bin","points":40,)"));
   EXPECT_THAT(line, Not(HasSubstr("\n")));
 }
 
-TEST(ScanReport, JsonOfAFailureHoldsTheErrorAndNoNumbers) {
+TEST(ScanReport, JsonOfAFailureHasTheErrorAndNoNumbers) {
   ScanReport report;
   report.file = "a.bin";
   report.error = "a.bin: byte 16: cut off";
@@ -62,33 +62,33 @@ TEST(ScanReport, JsonOfAFailureHoldsTheErrorAndNoNumbers) {
             json::parse(R"({"file": "a.bin", "error": "a.bin: byte 16: cut off"})"));
 }
 
-TEST(ScanReport, JsonOfAFileNameThatIsNoUtf8CanBeParsed) {
+TEST(ScanReport, JsonOfANonUtf8FileNameCanBeParsed) {
   EXPECT_TRUE(json::accept(json_line(report_of("\xff\xfe.bin"))));
 }
 
-TEST(ScanReport, JsonHasTheTimeOfAPictureWhereThereIsOne) {
+TEST(ScanReport, JsonHasTheImageTimeIfThereIsAnImage) {
   ScanReport report = report_of("a.bin");
   report.picture_ms = 9.5;
 
   EXPECT_EQ(json::parse(json_line(report))["milliseconds"]["picture"], 9.5);
 }
 
-TEST(ScanReport, TheLineForPeopleNamesFilePointsShareAndTimes) {
+TEST(ScanReport, TextLineHasFilePointsGroundPercentageAndTimes) {
   EXPECT_EQ(text_line(report_of("a.bin")),
             "a.bin: 40 points, 25.0 % ground, 5 patches; read 1.50 ms, segment 2.25 ms, "
             "write 3.50 ms");
 }
 
-TEST(ScanReport, TheLineForPeopleHasF1OfEveryProtocol) {
+TEST(ScanReport, TextLineHasF1OfEveryProtocol) {
   ScanReport report = report_of("a.bin");
   report.scores = {{"one", half_found}, {"other", {.true_positives = 1}}};
 
   EXPECT_THAT(text_line(report), testing::EndsWith("; F1 66.67 % (one); F1 100.00 % (other)"));
 }
 
-TEST(ScanReport, GroundShareOfNoPointsIsZero) { EXPECT_EQ(ScanReport().ground_share(), 0); }
+TEST(ScanReport, GroundFractionOfNoPointsIsZero) { EXPECT_EQ(ScanReport().ground_share(), 0); }
 
-TEST(ScanReport, TheSummaryCountsScansAndGivesMeansOverThemNotOverPoints) {
+TEST(ScanReport, SummaryCountsScansAndAveragesOverScans) {
   std::vector<ScanReport> reports = {report_of("a.bin"), report_of("b.bin"), report_of("c.bin")};
   reports[0].scores = {{"patchwork", half_found}};
   reports[1].scores = {{"patchwork", {.true_positives = 1000}}};
@@ -97,17 +97,17 @@ TEST(ScanReport, TheSummaryCountsScansAndGivesMeansOverThemNotOverPoints) {
   EXPECT_EQ(summary_text(reports),
             "protocol patchwork    precision 100.00  recall  75.00  F1  83.33  "
             "(mean of 2 scans, %)\n"
-            "2 of 3 scans segmented, 80 points, median 2.25 ms a scan\n");
+            "2 of 3 scans segmented, 80 points, median 2.25 ms per scan\n");
 }
 
-TEST(ScanReport, TheSummaryOfFailuresHasNoTime) {
+TEST(ScanReport, SummaryOfFailuresHasNoTime) {
   ScanReport failed;
   failed.error = "a.bin: byte 16: cut off";
 
   EXPECT_EQ(summary_text(std::vector{failed}), "0 of 1 scans segmented, 0 points\n");
 }
 
-TEST(ScanReport, MostPointsOutOfRangeIsAHintAtWrongUnits) {
+TEST(ScanReport, HintsAtWrongUnitsIfMostPointsAreOutOfRange) {
   ScanReport report = report_of("a.bin");
   report.counts = {5, 10, 0, 20, 5};
   EXPECT_EQ(hint_of(report), "");
@@ -118,7 +118,7 @@ TEST(ScanReport, MostPointsOutOfRangeIsAHintAtWrongUnits) {
   EXPECT_EQ(json::parse(json_line(report))["hint"], hint_of(report));
 }
 
-TEST(ScanReport, AFileNameCannotBreakTheLineNorCommandTheTerminal) {
+TEST(ScanReport, FileNameCannotBreakTheLineOrControlTheTerminal) {
   const std::string line = text_line(report_of("two\nlines\033[2J.bin"));
 
   EXPECT_THAT(line, testing::StartsWith("two\\x0alines\\x1b[2J.bin: "));
@@ -133,37 +133,38 @@ ScanReport timed_report(double read_ms, double segment_ms, double write_ms) {
   return report;
 }
 
-TEST(Throughput, IsOfTheWholeCrewAndItsSharesAddUp) {
+TEST(Throughput, PercentagesOfAllWorkersAddUp) {
   const std::vector reports(100, timed_report(4, 12, 2));
 
   EXPECT_EQ(
       throughput_text(reports, {.seconds = 1, .workers = 2}),
-      "100.0 scans a second, 200.0 MB/s read; time of 2 workers: 20 % reading, 60 % "
-      "segmenting, 10 % writing, 10 % other; segmenting binds: 6.000 ms of files, 12.000 ms of "
-      "segmenting a scan\n");
+      "100.0 scans per second, 200.0 MB/s read; 2 workers: 20 % reading, 60 % segmenting, 10 % "
+      "writing, 10 % other; bottleneck: segmentation (per scan 6.000 ms file I/O, 12.000 ms "
+      "segmentation)\n");
 }
 
-TEST(Throughput, SaysThatFilesBindWhereReadingAndWritingTogetherTakeLonger) {
+TEST(Throughput, ReportsFilesAsBottleneckIfReadingAndWritingTakeLonger) {
   EXPECT_THAT(
       throughput_text(std::vector{timed_report(3, 4, 2)}, {.seconds = 0.01, .workers = 1}),
-      HasSubstr("time of 1 worker: 30 % reading, 40 % segmenting, 20 % writing, 10 % other; "
-                "reading and writing bind: 5.000 ms of files, 4.000 ms of segmenting a scan"));
+      HasSubstr(
+          "1 worker: 30 % reading, 40 % segmenting, 20 % writing, 10 % other; bottleneck: file "
+          "I/O (per scan 5.000 ms file I/O, 4.000 ms segmentation)"));
 }
 
-TEST(Throughput, SaysThatNeitherBindsWherePicturesTakeLonger) {
+TEST(Throughput, ReportsNoBottleneckIfImagesTakeLonger) {
   EXPECT_THAT(throughput_text(std::vector{timed_report(1, 2, 1)}, {.seconds = 0.1, .workers = 1}),
-              HasSubstr("96 % other; neither binds: "));
+              HasSubstr("96 % other; bottleneck: neither ("));
 }
 
-TEST(Throughput, LeavesFailedScansOut) {
+TEST(Throughput, ExcludesFailedScans) {
   std::vector<ScanReport> reports(3, timed_report(1, 2, 1));
   reports[1].error = "a.bin: byte 16: cut off";
 
   EXPECT_THAT(throughput_text(reports, {.seconds = 1, .workers = 1}),
-              testing::StartsWith("2.0 scans a second, 4.0 MB/s read; "));
+              testing::StartsWith("2.0 scans per second, 4.0 MB/s read; "));
 }
 
-TEST(Throughput, OfNothingIsNotPrinted) {
+TEST(Throughput, IsEmptyWithoutScans) {
   ScanReport failed;
   failed.error = "a.bin: byte 16: cut off";
 

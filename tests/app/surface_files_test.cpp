@@ -47,21 +47,21 @@ class SurfaceFilesTest : public testing::Test {
   json frame_;
 };
 
-TEST_F(SurfaceFilesTest, AreAGridAndItsFrame) {
+TEST_F(SurfaceFilesTest, AreAGridAndItsGeometry) {
   write();
 
   EXPECT_THAT(names_below(folder_.path()),
               ElementsAre("000000.surface.json", "000000.surface.npy"));
 }
 
-TEST_F(SurfaceFilesTest, HaveTheSurfacesFinestCellsUnlessTold) {
+TEST_F(SurfaceFilesTest, HaveTheFinestCellSizeByDefault) {
   write();
 
   EXPECT_THAT(grid_.shape, ElementsAre(256, 256));
   EXPECT_EQ(frame_["resolution"], 0.25);
 }
 
-TEST_F(SurfaceFilesTest, HaveCellsOfTheSizeAskedFor) {
+TEST_F(SurfaceFilesTest, HaveTheGivenCellSize) {
   write(0.4);
 
   EXPECT_THAT(grid_.shape, ElementsAre(160, 160));
@@ -70,7 +70,7 @@ TEST_F(SurfaceFilesTest, HaveCellsOfTheSizeAskedFor) {
   EXPECT_EQ(frame_["columns"], 160);
 }
 
-TEST_F(SurfaceFilesTest, HoldTheHeightOfThePlaceThatTheGeotransformGives) {
+TEST_F(SurfaceFilesTest, HaveTheHeightsAtThePositionsOfTheGeotransform) {
   for (const double resolution : {0.0, 0.4, 3.0}) {
     write(resolution);
     const auto transform = frame_["geotransform"].get<std::vector<double>>();
@@ -79,7 +79,8 @@ TEST_F(SurfaceFilesTest, HoldTheHeightOfThePlaceThatTheGeotransformGives) {
     std::size_t known = 0;
 
     for (std::size_t i = 0; i < grid_.values.size(); ++i) {
-      const double column = static_cast<double>(i % columns) + 0.5;  // its centre, as GDAL counts
+      const double column =
+          static_cast<double>(i % columns) + 0.5;  // the centre of the cell, as in GDAL
       const std::size_t rows_before = i / columns;
       const double row = static_cast<double>(rows_before) + 0.5;
       const double x = transform[0] + transform[1] * column + transform[2] * row;
@@ -96,7 +97,7 @@ TEST_F(SurfaceFilesTest, HoldTheHeightOfThePlaceThatTheGeotransformGives) {
   }
 }
 
-TEST_F(SurfaceFilesTest, BeginWithTheLargestYAndTheSmallestX) {
+TEST_F(SurfaceFilesTest, StartWithTheLargestYAndTheSmallestX) {
   surface_ = tests::random_surface([](float x, float y) { return 100 * y + x; });
   write(1);
 
@@ -105,7 +106,7 @@ TEST_F(SurfaceFilesTest, BeginWithTheLargestYAndTheSmallestX) {
   EXPECT_FLOAT_EQ(grid_.values.back(), -100 * 31.5f + 31.5f);
 }
 
-TEST_F(SurfaceFilesTest, SayWhereTheyLieAndWhatTheyHold) {
+TEST_F(SurfaceFilesTest, DescribeTheirGeometryAndContents) {
   write();
 
   EXPECT_EQ(frame_["scan"], "000000.bin");
@@ -120,7 +121,7 @@ TEST_F(SurfaceFilesTest, SayWhereTheyLieAndWhatTheyHold) {
             json::parse(R"([{"cell":1,"extent":32},{"cell":0.25,"extent":8}])"));
 }
 
-TEST_F(SurfaceFilesTest, OfNamesThatAreNotUtf8AreJsonAllTheSame) {
+TEST_F(SurfaceFilesTest, AreJsonForNonUtf8Names) {
   files_.stem = folder_ / "\xff";
   files_.scan = "\xff.bin";
 
@@ -129,7 +130,7 @@ TEST_F(SurfaceFilesTest, OfNamesThatAreNotUtf8AreJsonAllTheSame) {
   EXPECT_EQ(frame_["scan"], "\uFFFD.bin");
 }
 
-TEST_F(SurfaceFilesTest, SayWhereTheyCannotBeWritten) {
+TEST_F(SurfaceFilesTest, NameTheFileThatCannotBeWritten) {
   files_.stem = folder_ / "missing/000000";
 
   const Status status = files_.write(surface_);

@@ -23,23 +23,23 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// What is said where `action` is refused.
+/// The error message of `action`; "no error" if there is none.
 template <class Action>
-std::string refusal(const Action& action) {
+std::string error_of(const Action& action) {
   try {
     action();
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
-  return "nothing was refused";
+  return "no error";
 }
 
-std::string refusal_of_value(const std::string& key, const std::string& value,
-                             MethodConfig config = PatchworkConfig{}) {
-  return refusal([&] { apply_axis(key, value, config); });
+std::string error_of_value(const std::string& key, const std::string& value,
+                           MethodConfig config = PatchworkConfig{}) {
+  return error_of([&] { apply_axis(key, value, config); });
 }
 
-TEST(SweepAxis, IsAKeyAndItsValuesInTheirOrder) {
+TEST(SweepAxis, HasAKeyAndItsValuesInOrder) {
   const SweepAxis axis = sweep_axis("elevation.scale=0.5,0.1,0");
 
   EXPECT_EQ(axis.key, "elevation.scale");
@@ -47,14 +47,14 @@ TEST(SweepAxis, IsAKeyAndItsValuesInTheirOrder) {
   EXPECT_THAT(sweep_axis("bins=30x108").values, ElementsAre("30x108"));
 }
 
-TEST(SweepAxis, WithoutKeyOrValuesIsRefusedWithAnExample) {
+TEST(SweepAxis, IsRejectedWithAnExampleWithoutKeyOrValues) {
   for (const std::string text : {"", "seed_count", "seed_count=", "=3"}) {
-    EXPECT_THAT(refusal([&] { static_cast<void>(sweep_axis(text)); }),
+    EXPECT_THAT(error_of([&] { static_cast<void>(sweep_axis(text)); }),
                 AllOf(HasSubstr("--param " + text), HasSubstr("KEY=VALUE,VALUE")));
   }
 }
 
-TEST(SweepAxis, SetsOneSettingOfAnyMethod) {
+TEST(SweepAxis, SetsASettingOfAnyMethod) {
   register_baselines();
   MethodConfig patchwork = PatchworkConfig{};
   MethodConfig gpf = GpfConfig{};
@@ -68,7 +68,7 @@ TEST(SweepAxis, SetsOneSettingOfAnyMethod) {
   EXPECT_EQ(gpf.get_if<GpfConfig>()->segments, 5);
 }
 
-TEST(SweepAxis, BinsMakeOneZoneOfEqualRingsOutToWhereTheLastZoneEnded) {
+TEST(SweepAxis, BinsSetOneZoneOfEqualRingsUpToTheOldOuterRadius) {
   MethodConfig config = PatchworkConfig{};
   const PatchworkConfig before;
 
@@ -87,7 +87,7 @@ TEST(SweepAxis, BinsMakeOneZoneOfEqualRingsOutToWhereTheLastZoneEnded) {
   EXPECT_EQ(radii.back(), outer);
 }
 
-TEST(SweepAxis, TheGridOfThePaperIsThatOfRGpf) {
+TEST(SweepAxis, BinsOfThePaperGiveTheGridOfRGpf) {
   MethodConfig config = r_gpf_config();
 
   apply_axis("bins", "30x108", config);
@@ -95,28 +95,28 @@ TEST(SweepAxis, TheGridOfThePaperIsThatOfRGpf) {
   EXPECT_TRUE(is_same(*config.get_if<PatchworkConfig>(), r_gpf_config()));
 }
 
-TEST(SweepAxis, BinsThatAreNoGridAreRefused) {
+TEST(SweepAxis, RejectsInvalidBins) {
   for (const std::string value :
        {"30", "x", "30x", "x108", "0x108", "30x0", "-3x108", "30x108x2", "30 x108", "1001x4"}) {
-    EXPECT_THAT(refusal_of_value("bins", value),
+    EXPECT_THAT(error_of_value("bins", value),
                 AllOf(HasSubstr("bins = " + value), HasSubstr("30x108")));
   }
 }
 
-TEST(SweepAxis, BinsOfAMethodWithoutZonesAreRefused) {
+TEST(SweepAxis, RejectsBinsForMethodsWithoutZones) {
   register_baselines();
-  EXPECT_THAT(refusal_of_value("bins", "30x108", GpfConfig{}), HasSubstr("of patchwork"));
+  EXPECT_THAT(error_of_value("bins", "30x108", GpfConfig{}), HasSubstr("--method patchwork"));
 }
 
-TEST(SweepAxis, WhatIsNoSettingOrNoValueNamesTheOption) {
-  EXPECT_THAT(refusal_of_value("seed_cuont", "3"),
+TEST(SweepAxis, NamesTheOptionForAnInvalidSettingOrValue) {
+  EXPECT_THAT(error_of_value("seed_cuont", "3"),
               AllOf(HasSubstr("--param seed_cuont=3"),
                     HasSubstr("no setting 'seed_cuont' (did you mean 'seed_count'?)")));
-  EXPECT_THAT(refusal_of_value("seed_count", "many"), HasSubstr("--param seed_count=many"));
-  EXPECT_THAT(refusal_of_value("seed_count", ""), HasSubstr("--param seed_count="));
+  EXPECT_THAT(error_of_value("seed_count", "many"), HasSubstr("--param seed_count=many"));
+  EXPECT_THAT(error_of_value("seed_count", ""), HasSubstr("--param seed_count="));
 }
 
-/// A point of a sweep whose scans have these F1, one in a hundred of 100 points each.
+/// A point of a sweep. Its scans of 100 points have these values of F1 in percent.
 eval::MethodResult point_of(const std::vector<int>& f1_percent) {
   eval::MethodResult result;
   std::vector<double> values;
@@ -145,7 +145,7 @@ Sweep sweep_of(const std::vector<std::string>& values,
   return sweep;
 }
 
-TEST(SweepResults, TheLastAxisChangesFastest) {
+TEST(SweepResults, LastAxisChangesFastest) {
   const Sweep sweep{
       .method = "", .axes = {{"a", {"1", "2"}}, {"b", {"x", "y", "z"}}}, .results = {}};
 
@@ -155,40 +155,44 @@ TEST(SweepResults, TheLastAxisChangesFastest) {
   EXPECT_THAT(sweep.values_at(5), ElementsAre("2", "z"));
 }
 
-TEST(SweepResults, TheWinnerIsAheadByMultiplesOfTheIntervalOfTheDifference) {
-  // Differences of 4, 6 and 5 points: mean 5, deviation 1, half width 4.303 / sqrt(3) = 2.484.
+TEST(SweepResults, WinnerTextComparesTheLeadWithItsConfidenceInterval) {
+  // Differences of 4, 6 and 5 percentage points: mean 5, standard deviation 1, half-width
+  // 4.303 / sqrt(3) = 2.484.
   const Sweep sweep = sweep_of({"5", "10", "20"}, {{50, 60, 70}, {80, 90, 95}, {76, 84, 90}});
 
   EXPECT_EQ(winner_text(sweep),
-            "Best F1: 88.33 % at seed_count = 10; 5.00 percentage points ahead of seed_count = 20, 2.0 times "
-            "the 95 % interval of the difference: more than noise.");
+            "Best F1: 88.33 % at seed_count = 10; 5.00 percentage points ahead of seed_count = 20, "
+            "2.0 times the half-width of its 95 % confidence interval: significant.");
 }
 
-TEST(SweepResults, ALeadWithinItsIntervalIsCalledNoise) {
+TEST(SweepResults, LeadWithinItsIntervalIsNotSignificant) {
   const Sweep sweep = sweep_of({"5", "10"}, {{50, 90}, {80, 61}});
 
   EXPECT_THAT(winner_text(sweep), HasSubstr("at seed_count = 10; 0.50 percentage points ahead"));
-  EXPECT_THAT(winner_text(sweep), HasSubstr("no more than noise"));
+  EXPECT_THAT(winner_text(sweep), HasSubstr(": not significant."));
 }
 
-TEST(SweepResults, ALeadThatEveryScanHasNeedsNoInterval) {
+TEST(SweepResults, LeadThatIsEqualOnEveryScanNeedsNoInterval) {
   const Sweep sweep = sweep_of({"5", "10"}, {{50, 50}, {50, 50}});
 
-  EXPECT_EQ(winner_text(sweep),
-            "Best F1: 50.00 % at seed_count = 5; 0.00 percentage points ahead of seed_count = 10, the same on "
-            "every scan.");
+  EXPECT_EQ(
+      winner_text(sweep),
+      "Best F1: 50.00 % at seed_count = 5; 0.00 percentage points ahead of seed_count = 10, the "
+      "same difference on every scan.");
 }
 
-TEST(SweepResults, OneScanGivesNoInterval) {
-  EXPECT_THAT(winner_text(sweep_of({"5", "10"}, {{50}, {60}})),
-              HasSubstr("10.00 percentage points ahead of seed_count = 5; one scan gives no interval."));
+TEST(SweepResults, OneScanHasNoConfidenceInterval) {
+  EXPECT_THAT(
+      winner_text(sweep_of({"5", "10"}, {{50}, {60}})),
+      HasSubstr("10.00 percentage points ahead of seed_count = 5; one scan gives no confidence "
+                "interval."));
 }
 
-TEST(SweepResults, OnePointWinsAlone) {
+TEST(SweepResults, OnePointIsTheWinner) {
   EXPECT_EQ(winner_text(sweep_of({"5"}, {{50, 70}})), "Best F1: 60.00 % at seed_count = 5.");
 }
 
-TEST(SweepResults, CsvHasARowPerPointAndEmptyCellsWhereThereIsNoNumber) {
+TEST(SweepResults, CsvHasARowPerPointAndEmptyCellsForMissingNumbers) {
   const std::string csv = to_csv(sweep_of({"5", "1,5"}, {{50}, {60}}));
 
   EXPECT_EQ(csv,
@@ -208,7 +212,7 @@ TEST(SweepResults, TextHasARowPerPointInPercent) {
   EXPECT_THAT(lines[2], testing::ContainsRegex("^ +10 +70.00 "));
 }
 
-TEST(SweepResults, ColumnsOfTheTextAreApartAndEndUnderTheirHeadings) {
+TEST(SweepResults, TextColumnsAreSeparatedAndAlignedWithTheirHeadings) {
   Sweep sweep = sweep_of({"true", "false"}, {{50, 60}, {70, 80}});
   sweep.axes[0].key = "sparse_bins_are_ground";
 

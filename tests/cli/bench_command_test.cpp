@@ -21,12 +21,12 @@ using nlohmann::json;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-/// Those of surface, the method that is timed unless another is named.
+/// The stages of surface, the default method.
 const std::vector<std::string> stages = {"bin",   "group", "gather", "seed",    "moments",
                                          "solve", "join",  "refine", "measure", "label"};
 
-/// A worker as bench/external_worker.py that is ready for pypatchworkpp's patchwork only, whose scans
-/// all take 5 ms and have `ground` ground points; `before_answer` is done before each answer.
+/// A worker like bench/external_worker.py that supports only patchwork of pypatchworkpp. Every scan
+/// takes 5 ms and has `ground` ground points. `before_answer` runs before each answer.
 void put_fake_worker(const std::filesystem::path& file, const std::string& ground,
                      const std::string& before_answer = ":") {
   io::put_file(file, R"([ "$1" = pypatchworkpp-patchwork ] || { echo "ImportError: no $1"; exit 1; }
@@ -49,7 +49,7 @@ std::vector<std::string> with_worker(const std::filesystem::path& scans,
           "--python", "sh",           "--compare-worker", worker.string()};
 }
 
-TEST(Bench, JsonHasTheTimesOfSegmentFloorAndEveryStage) {
+TEST(Bench, JsonHasTheTimesOfSegmentBaselineAndEveryStage) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scans/1.bin", small_scan(1000, 1));
   put_scan(folder / "scans/2.bin", small_scan(3000, 2));
@@ -80,7 +80,7 @@ TEST(Bench, JsonHasTheTimesOfSegmentFloorAndEveryStage) {
   EXPECT_EQ(bench["rounds"], 3);
 }
 
-TEST(Bench, PatchworkIsTimedWithItsOwnSettingsAndStages) {
+TEST(Bench, TimesPatchworkWithItsSettingsAndStages) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
   const std::string scan = (folder / "scan.bin").string();
@@ -102,7 +102,7 @@ TEST(Bench, PatchworkIsTimedWithItsOwnSettingsAndStages) {
   EXPECT_GT(ground_with("distance_margin=1"), ground_with("distance_margin=0.1"));
 }
 
-TEST(Bench, WithoutJsonPrintsATableOfCandidatesAndOneOfStages) {
+TEST(Bench, PrintsATableOfCandidatesAndATableOfStages) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
 
@@ -118,7 +118,7 @@ TEST(Bench, WithoutJsonPrintsATableOfCandidatesAndOneOfStages) {
   }
 }
 
-TEST(Bench, AScanThatCannotBeTimedCostsOneLine) {
+TEST(Bench, ReportsAnUntimeableScanOnOneLine) {
   const io::TemporaryFolder folder;
   put_scan(folder / "good.bin");
   io::put_file(folder / "cut.bin", "12345");
@@ -131,11 +131,11 @@ TEST(Bench, AScanThatCannotBeTimedCostsOneLine) {
   EXPECT_EQ(outcome.exit_code, 1);
   ASSERT_EQ(lines_of(outcome.err).size(), 2U);
   EXPECT_THAT(lines_of(outcome.err)[0], HasSubstr("cut.bin: byte"));
-  EXPECT_THAT(lines_of(outcome.err)[1], HasSubstr("empty.bin: no point in it"));
+  EXPECT_THAT(lines_of(outcome.err)[1], HasSubstr("empty.bin: has no points"));
   EXPECT_EQ(json::parse(outcome.out)["points"], json::array({4000}));
 }
 
-TEST(Bench, WithoutAnyScanToTimeListsTheErrorsAlone) {
+TEST(Bench, PrintsOnlyErrorsWithoutAScanToTime) {
   const io::TemporaryFolder folder;
 
   const Outcome outcome = run({"bench", (folder / "missing.bin").string(), "--json"});
@@ -148,7 +148,7 @@ TEST(Bench, WithoutAnyScanToTimeListsTheErrorsAlone) {
   EXPECT_THAT(outcome.err, is_one_line_with("missing.bin"));
 }
 
-TEST(Bench, ATrackedHeightIsOfOneThread) {
+TEST(Bench, RejectsATrackedHeightWithSeveralThreads) {
   const io::TemporaryFolder folder;
   put_scan(folder / "1.bin", small_scan(1000, 1));
 
@@ -160,7 +160,7 @@ TEST(Bench, ATrackedHeightIsOfOneThread) {
   EXPECT_THAT(outcome.err, is_one_line_with("--threads 5"));
 }
 
-TEST(Bench, APeerIsMeasuredByItsOwnClockAndAMissingOneIsLeftOutByName) {
+TEST(Bench, UsesTheClockOfAnExternalToolAndNamesMissingTools) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scans/1.bin", small_scan(1000, 1));
   put_scan(folder / "scans/2.bin", small_scan(3000, 2));
@@ -183,7 +183,7 @@ TEST(Bench, APeerIsMeasuredByItsOwnClockAndAMissingOneIsLeftOutByName) {
   EXPECT_TRUE(peers.contains("pcl-ransac"));
 }
 
-TEST(Bench, APeerThatFailsIsLeftOutAndTheOthersGoOn) {
+TEST(Bench, ContinuesWithoutAnExternalToolThatFails) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
   put_fake_worker(folder / "worker.sh", "1", "[ $runs -lt 3 ] || exit");
@@ -200,7 +200,7 @@ TEST(Bench, APeerThatFailsIsLeftOutAndTheOthersGoOn) {
   EXPECT_EQ(bench["external_tools"]["pypatchworkpp-patchwork"]["samples"], 1);
 }
 
-TEST(Bench, WithoutWorkerOrPythonPeersAreLeftOut) {
+TEST(Bench, SkipsExternalToolsWithoutWorkerOrPython) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
   const std::string scan = (folder / "scan.bin").string();
@@ -220,10 +220,10 @@ TEST(Bench, WithoutWorkerOrPythonPeersAreLeftOut) {
       HasSubstr("no-such-python cannot be started"));
 }
 
-TEST(Bench, InterruptedItPrintsWhatWasMeasured) {
+TEST(Bench, PrintsTheMeasurementsWhenInterrupted) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
-  // The second answer is that of the first round; the first one was to warm up.
+  // The first answer is the warm-up, the second one the first round.
   put_fake_worker(folder / "worker.sh", "1", "[ $runs -lt 2 ] || kill -INT $PPID");
 
   std::vector<std::string> arguments = with_worker(folder / "scan.bin", folder / "worker.sh");
@@ -232,13 +232,13 @@ TEST(Bench, InterruptedItPrintsWhatWasMeasured) {
   const Outcome outcome = run(arguments);
 
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, is_one_line_with("interrupted, 1 of 1000000 rounds were begun"));
+  EXPECT_THAT(outcome.err, is_one_line_with("interrupted: 1 of 1000000 rounds were started"));
   const json bench = json::parse(outcome.out);
   EXPECT_EQ(bench["rounds"], 1);
   EXPECT_GT(bench["segment"]["median_ms"].get<double>(), 0);
 }
 
-TEST(BenchCommand, AJsonObjectListsTheScansThatCannotBeRead) {
+TEST(BenchCommand, JsonListsUnreadableScans) {
   const io::TemporaryFolder folder;
   const std::string bad = (folder / "broken.bin").string();
   const std::string good = (folder / "good.bin").string();

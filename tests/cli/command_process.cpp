@@ -18,7 +18,7 @@
 namespace flagstone::cli {
 namespace {
 
-/// Where the three standard streams of a new process lead.
+/// The files of the three standard streams of a new process.
 class Streams {
  public:
   Streams() { ::posix_spawn_file_actions_init(&actions_); }
@@ -55,7 +55,8 @@ CommandProcess::CommandProcess(const std::vector<std::string>& arguments,
                O_WRONLY | O_CREAT);
   streams.lead(STDERR_FILENO, standard_error.empty() ? streams_ / "err" : standard_error,
                O_WRONLY | O_CREAT | O_NOCTTY);
-  // As a shell starts it: a test that ignores SIGXFSZ would make its children ignore it too.
+  // Restore the default as a shell does: a child of a test that ignores SIGXFSZ would ignore it
+  // too.
   posix_spawnattr_t attributes{};
   ::posix_spawnattr_init(&attributes);
   sigset_t defaults{};

@@ -12,17 +12,17 @@
 
 namespace flagstone::cli {
 
-/// How a run of the command ended and what it printed.
+/// Exit code and output of a run of the command.
 struct Outcome {
-  int exit_code = -1;  ///< -1 where a signal ended it
+  int exit_code = -1;  ///< -1 if a signal ended it
   std::string out;
   std::string err;
 };
 
-/// The `flagstone` command as built, running with these arguments.
+/// A running process of the built `flagstone` command.
 class CommandProcess {
  public:
-  /// Starts it; standard output and standard error go to these files if they are named.
+  /// Starts the command. Standard output and standard error go to these files, if given.
   explicit CommandProcess(const std::vector<std::string>& arguments,
                           const std::filesystem::path& standard_output = {},
                           const std::filesystem::path& standard_error = {});
@@ -32,12 +32,12 @@ class CommandProcess {
   CommandProcess& operator=(CommandProcess&&) = delete;
   ~CommandProcess();
 
-  /// Returns when it has printed something or a minute is over; whether it has.
+  /// Waits until the command has printed something; false if it has not within a minute.
   [[nodiscard]] bool prints_something() const;
 
   void send(int signal) const;
 
-  /// Waits for its end.
+  /// Waits for the end of the process.
   Outcome finish();
 
  private:
@@ -45,10 +45,10 @@ class CommandProcess {
   pid_t process_ = -1;
 };
 
-/// Runs the command to its end.
+/// Runs the command and waits for its end.
 Outcome run(const std::vector<std::string>& arguments);
 
-/// The lines of what was printed, without their newlines.
+/// The lines of `text`, without line breaks.
 std::vector<std::string> lines_of(const std::string& text);
 
 }  // namespace flagstone::cli

@@ -27,7 +27,7 @@ PatchworkConfig printed_config(std::vector<std::string> arguments) {
   return *config.get_if<PatchworkConfig>();
 }
 
-TEST(ConfigCommand, PrintsTheSettingsOfSurfaceUnlessAnotherMethodIsNamed) {
+TEST(ConfigCommand, PrintsTheSettingsOfSurfaceByDefault) {
   const Outcome outcome = run({"config"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -35,7 +35,7 @@ TEST(ConfigCommand, PrintsTheSettingsOfSurfaceUnlessAnotherMethodIsNamed) {
   EXPECT_THAT(outcome.out, testing::StartsWith("# flagstone, method surface\n"));
 }
 
-TEST(ConfigCommand, PrintsThePresetThatIsNamed) {
+TEST(ConfigCommand, PrintsTheNamedPreset) {
   for (const std::string_view name : PatchworkConfig::preset_names()) {
     EXPECT_TRUE(
         is_same(printed_config({"--preset", std::string(name)}), PatchworkConfig::preset(name)))
@@ -43,7 +43,7 @@ TEST(ConfigCommand, PrintsThePresetThatIsNamed) {
   }
 }
 
-TEST(ConfigCommand, PresetYieldsToFileFileToSettingSettingToSensorHeight) {
+TEST(ConfigCommand, AppliesPresetThenFileThenSettingThenSensorHeight) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "mine.toml", "iterations = 5\nseed_count = 5\nsensor_height = 5\n");
   PatchworkConfig expected = PatchworkConfig::preset("paper");
@@ -60,7 +60,7 @@ TEST(ConfigCommand, PresetYieldsToFileFileToSettingSettingToSensorHeight) {
   EXPECT_TRUE(is_same(config, expected));
 }
 
-TEST(ConfigCommand, WhatItPrintsGivesTheSameLabelsAsThePreset) {
+TEST(ConfigCommand, PrintedPresetGivesTheLabelsOfThePreset) {
   const io::TemporaryFolder folder;
   const std::string scan = (folder / "scan.bin").string();
   const std::string toml = (folder / "paper.toml").string();
@@ -84,7 +84,7 @@ TEST(ConfigCommand, WhatItPrintsGivesTheSameLabelsAsThePreset) {
       << "this scan does not tell presets apart";
 }
 
-TEST(ConfigCommand, StandardOutputThatCannotBeWrittenIsAnError) {
+TEST(ConfigCommand, ReportsUnwritableStandardOutput) {
   const Outcome outcome = CommandProcess({"config"}, "/dev/full").finish();
 
   EXPECT_EQ(outcome.exit_code, 1);

@@ -20,7 +20,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST(DemoCommand, MakesTheFilesItNamesAndTheSameBytesForTheSameSeed) {
+TEST(DemoCommand, WritesTheFilesItNamesAndIsDeterministicForASeed) {
   const io::TemporaryFolder folder;
 
   const Outcome outcome = run({"demo", "--output", (folder / "one").string(), "--seed", "5"});
@@ -51,7 +51,7 @@ TEST(DemoCommand, MakesTheFilesItNamesAndTheSameBytesForTheSameSeed) {
   EXPECT_EQ(one["predictions/000000.label"].size(), 4 * points);
 }
 
-TEST(DemoCommand, ASeedThatIsNoNumberOf64BitsIsOneLine) {
+TEST(DemoCommand, RejectsASeedThatIsNotA64BitNumber) {
   const io::TemporaryFolder folder;
   const std::vector<std::string> seeds = {"-1", "18446744073709551616", "1e3",
                                           std::string(309, '9')};
@@ -67,14 +67,14 @@ TEST(DemoCommand, ASeedThatIsNoNumberOf64BitsIsOneLine) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
-TEST(DemoCommand, AnOutputFolderThatCannotBeMadeIsOneLine) {
+TEST(DemoCommand, ReportsAnOutputDirectoryThatCannotBeCreated) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "taken", "mine");
 
   const Outcome outcome = run({"demo", "--output", (folder / "taken").string()});
 
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, is_one_line_with("cannot be made"));
+  EXPECT_THAT(outcome.err, is_one_line_with("cannot be created"));
 }
 
 }  // namespace

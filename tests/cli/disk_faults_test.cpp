@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Files that vanish, shrink or fill the disk while a run is under way, and a run that is killed.
+// Files that are deleted or truncated during a run, a full disk, and a run that is killed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,8 +29,7 @@ using testing::IsEmpty;
 constexpr std::size_t points_of_a_scan = 20000;
 constexpr std::size_t label_bytes = 4 * points_of_a_scan;
 
-/// A run over 2,000 scans that are one file under many names, far more than are done when something
-/// happens to them.
+/// A run over 2,000 names of one scan: far more than are done when the test changes the files.
 class DiskFault : public testing::Test {
  protected:
   static constexpr std::size_t count = 2000;
@@ -49,7 +48,7 @@ class DiskFault : public testing::Test {
             "--threads", "2"};
   }
 
-  /// The label files there are, each of them whole.
+  /// Number of label files; expects each to be complete.
   [[nodiscard]] std::size_t whole_label_files() const {
     std::size_t files = 0;
     for (const auto& entry : fs::directory_iterator(folder_ / "out")) {
@@ -63,14 +62,14 @@ class DiskFault : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-/// Every line complains of a scan by name.
+/// Expects every line to name a scan.
 void expect_lines_name_scans(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
     EXPECT_THAT(line, AllOf(testing::StartsWith("flagstone: "), HasSubstr(".bin: ")));
   }
 }
 
-TEST_F(DiskFault, ScansThatVanishMeanwhileCostALineEachAndTheOthersAreDone) {
+TEST_F(DiskFault, ReportsEachDeletedScanOnOneLineAndSegmentsTheOthers) {
   CommandProcess command(arguments());
   ASSERT_TRUE(command.prints_something());
 
@@ -86,7 +85,7 @@ TEST_F(DiskFault, ScansThatVanishMeanwhileCostALineEachAndTheOthersAreDone) {
   EXPECT_EQ(lines.size() + whole_label_files(), count);
 }
 
-TEST_F(DiskFault, ScansThatShrinkMeanwhileCostALineEach) {
+TEST_F(DiskFault, ReportsEachTruncatedScanOnOneLine) {
   CommandProcess command(arguments());
   ASSERT_TRUE(command.prints_something());
 
@@ -100,7 +99,7 @@ TEST_F(DiskFault, ScansThatShrinkMeanwhileCostALineEach) {
   EXPECT_EQ(lines.size() + whole_label_files(), count);
 }
 
-TEST_F(DiskFault, ARunThatIsKilledLeavesNoHalfFileAndCanBeRunAgain) {
+TEST_F(DiskFault, LeavesNoPartialFileWhenKilledAndCanBeRunAgain) {
   CommandProcess command(arguments());
   ASSERT_TRUE(command.prints_something());
 
@@ -113,7 +112,7 @@ TEST_F(DiskFault, ARunThatIsKilledLeavesNoHalfFileAndCanBeRunAgain) {
   EXPECT_EQ(whole_label_files(), count);
 }
 
-TEST(FullDisk, CostsALineForEveryOutputAndLeavesNoHalfFile) {
+TEST(FullDisk, ReportsEachOutputOnOneLineAndLeavesNoPartialFile) {
   for (const std::string format : {"label", "npy", "pcd", "ply"}) {
     const io::TemporaryFolder folder;
     put_scan(folder / "scan.bin");
@@ -129,7 +128,7 @@ TEST(FullDisk, CostsALineForEveryOutputAndLeavesNoHalfFile) {
   }
 }
 
-TEST(FullDisk, KeepsTheLabelsOfTheRunBefore) {
+TEST(FullDisk, KeepsTheLabelsOfThePreviousRun) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
   const std::vector<std::string> arguments = {"segment", (folder / "scan.bin").string(), "--output",
@@ -143,7 +142,7 @@ TEST(FullDisk, KeepsTheLabelsOfTheRunBefore) {
   EXPECT_EQ(files_below(folder / "out"), before);
 }
 
-TEST(FullDisk, EndsASimulationWithOneLineAndNoHalfFile) {
+TEST(FullDisk, EndsASimulationWithOneLineAndNoPartialFile) {
   const io::TemporaryFolder folder;
   const io::FileSizeLimit limit(20000);
 

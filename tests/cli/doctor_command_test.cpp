@@ -30,7 +30,7 @@ using testing::Not;
 
 Point upside_down(Point p) { return {p.x, -p.y, -p.z}; }
 
-/// Folders of scans in a folder that vanishes.
+/// Scans in a temporary directory.
 class DoctorCommand : public testing::Test {
  protected:
   [[nodiscard]] std::string fine_scan(const std::string& name = "fine.npy") const {
@@ -45,18 +45,18 @@ class DoctorCommand : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-TEST_F(DoctorCommand, OfAFineScanEndsWithZeroAndTheSettings) {
+TEST_F(DoctorCommand, ExitsWithZeroAndPrintsSettingsForAGoodScan) {
   const Outcome outcome = run({"doctor", fine_scan()});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
-  EXPECT_THAT(outcome.out, AllOf(HasSubstr("Nothing to fix. These settings fit:"),
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("Nothing to fix. Recommended settings:"),
                                  testing::EndsWith("sensor_height = 1.73  # metres above the "
                                                    "ground\n")));
   EXPECT_THAT(outcome.out, Not(HasSubstr("\033")));
 }
 
-TEST_F(DoctorCommand, OfAFaultSaysWhatToSetFirstAndEndsWithOne) {
+TEST_F(DoctorCommand, PrintsTheFixFirstAndExitsWithOne) {
   const Outcome outcome = run({"doctor", upside_down_scan()});
 
   EXPECT_EQ(outcome.exit_code, 1);
@@ -85,7 +85,7 @@ TEST_F(DoctorCommand, PrintsOneJsonObjectWithEveryFinding) {
   }
 }
 
-TEST_F(DoctorCommand, PrintsOrWritesTheSettingsAlone) {
+TEST_F(DoctorCommand, PrintsOrWritesOnlyTheSettings) {
   const std::string scan = upside_down_scan();
   const std::string file = (folder_ / "doctor.toml").string();
 
@@ -100,14 +100,14 @@ TEST_F(DoctorCommand, PrintsOrWritesTheSettingsAlone) {
   EXPECT_EQ(segmented.exit_code, 0) << segmented.err;
 }
 
-TEST_F(DoctorCommand, ComparesWithTheSettingsItIsGiven) {
+TEST_F(DoctorCommand, ComparesWithTheGivenSettings) {
   const Outcome outcome = run({"doctor", fine_scan(), "--sensor-height", "2.5", "--json"});
 
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(json::parse(outcome.out)["fix"], 1);
 }
 
-TEST_F(DoctorCommand, OfAnUnreadableScanIsOneLineAndTheOthersAreLookedAt) {
+TEST_F(DoctorCommand, ReportsAnUnreadableScanOnOneLineAndExaminesTheOthers) {
   io::put_file(folder_ / "broken.pcd", "VERSION 0.7\nFIELDS x y\n");
 
   const Outcome outcome = run({"doctor", (folder_ / "broken.pcd").string(), fine_scan()});
@@ -117,7 +117,7 @@ TEST_F(DoctorCommand, OfAnUnreadableScanIsOneLineAndTheOthersAreLookedAt) {
   EXPECT_THAT(outcome.out, HasSubstr("Nothing to fix"));
 }
 
-TEST_F(DoctorCommand, AJsonObjectListsTheScansThatCannotBeRead) {
+TEST_F(DoctorCommand, JsonListsUnreadableScans) {
   const std::string good = fine_scan();
   const std::string bad = (folder_ / "broken.pcd").string();
   io::put_file(bad, "VERSION 0.7\nFIELDS x y\n");
@@ -137,7 +137,7 @@ TEST_F(DoctorCommand, AJsonObjectListsTheScansThatCannotBeRead) {
   }
 }
 
-TEST_F(DoctorCommand, TakesAFewScansSpreadOverAFolder) {
+TEST_F(DoctorCommand, ExaminesEvenlySpacedScansOfADirectory) {
   const io::Cloud small = cloud_of({{1, 2, 3}});
   for (int i = 0; i < 10; ++i) put_scan(folder_ / ("scans/" + std::to_string(i) + ".npy"), small);
 
@@ -149,7 +149,7 @@ TEST_F(DoctorCommand, TakesAFewScansSpreadOverAFolder) {
   EXPECT_THAT(scans, ElementsAre(file("0.npy"), file("3.npy"), file("6.npy")));
 }
 
-TEST_F(DoctorCommand, OfAnEmptyScanSaysThereAreTooFewPoints) {
+TEST_F(DoctorCommand, ReportsTooFewPointsForAnEmptyScan) {
   io::put_file(folder_ / "empty.bin", "");
 
   const Outcome outcome = run({"doctor", (folder_ / "empty.bin").string(), "--json"});
@@ -161,7 +161,7 @@ TEST_F(DoctorCommand, OfAnEmptyScanSaysThereAreTooFewPoints) {
   EXPECT_TRUE(report["toml"].is_null());
 }
 
-TEST_F(DoctorCommand, RefusesWrongUsage) {
+TEST_F(DoctorCommand, RejectsUsageErrors) {
   EXPECT_EQ(run({"doctor"}).exit_code, 2);
   EXPECT_EQ(run({"doctor", "scan.bin", "--max-scans", "0"}).exit_code, 2);
   EXPECT_EQ(run({"doctor", "scan.bin", "--json", "--toml"}).exit_code, 2);

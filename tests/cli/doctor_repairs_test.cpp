@@ -24,7 +24,7 @@ namespace {
 using doctor::Fault;
 using doctor::street_scan;
 
-/// F1 of the street's scan, percent, as `points` have it, with these settings.
+/// F1 of the street scan, changed to `points`, with these settings; in percent.
 double f1_of(const std::vector<Point>& points, const config::MethodChoice& choice) {
   const auto [name, config, mount] = config::resolve_one(choice);
   const float height = sensor_height_of(config, mount.mount.sensor_height);
@@ -34,7 +34,7 @@ double f1_of(const std::vector<Point>& points, const config::MethodChoice& choic
   return 100 * eval::compare(result.labels(), doctor::street_truth()).f1();
 }
 
-/// Faults that settings can repair and that leave the points in their order.
+/// Faults that settings can repair and that do not change the order of the points.
 std::vector<Fault> repairable() {
   std::vector<Fault> found;
   for (const Fault& fault : doctor::faults()) {
@@ -48,7 +48,7 @@ std::vector<Fault> repairable() {
 
 class DoctorRepair : public testing::TestWithParam<Fault> {};
 
-TEST_P(DoctorRepair, BringsF1BackToThatOfTheScanWithoutTheFault) {
+TEST_P(DoctorRepair, RestoresTheF1OfTheScanWithoutTheFault) {
   const io::TemporaryFolder folder;
   const std::vector<Point> points = GetParam().apply(street_scan());
   const std::array scans{doctor::examine(doctor::cloud_of(points))};

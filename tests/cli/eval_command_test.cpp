@@ -46,7 +46,7 @@ using testing::StartsWith;
 
 constexpr double tiny = 1e-9;
 
-/// Points, or shares of cells, by what became of them.
+/// Points, or fractions of cells, by the outcome of the comparison.
 struct Counts {
   double tp = 0, fp = 0, fn = 0, tn = 0;
 
@@ -60,7 +60,8 @@ struct Counts {
   [[nodiscard]] double iou() const { return tp / (tp + fp + fn); }
 };
 
-/// A scan's counts under the paper's protocol, by hand: of what the library says.
+/// Counts of a scan under the protocol of the paper, computed independently from the labels of the
+/// library.
 struct Expected {
   Counts points;
   std::array<Counts, 4> by_range;
@@ -93,7 +94,7 @@ struct Expected {
   }
 };
 
-/// A folder with velodyne/ and labels/ of three scans, where every test has its files.
+/// A directory with velodyne/ and labels/ of three scans, for the files of a test.
 class EvalCommand : public testing::Test {
  protected:
   EvalCommand() {
@@ -106,7 +107,7 @@ class EvalCommand : public testing::Test {
     return small_scan(3000, static_cast<std::uint32_t>(name.back()));
   }
 
-  /// The true heights of the ground at the points of a scan.
+  /// Writes the true ground heights at the points of a scan.
   void put_ground(const std::string& name, const std::vector<float>& heights) const {
     fs::create_directories(folder_ / "kitti/ground");
     const Status status = io::write_npy_file(folder_ / "kitti/ground" / (name + ".ground.npy"),
@@ -126,7 +127,7 @@ class EvalCommand : public testing::Test {
     return run(arguments);
   }
 
-  /// What that leaves in the results file, if all goes well.
+  /// The results file; expects success.
   [[nodiscard]] json results(const std::string& dataset,
                              const std::vector<std::string>& more = {}) const {
     const Outcome outcome = eval(dataset, more);
@@ -135,7 +136,7 @@ class EvalCommand : public testing::Test {
     return json_of(folder_ / "results.json");
   }
 
-  /// A method's figures without its name, titles and times.
+  /// The results of a method without its name, titles and times.
   static json figures_of(const json& results, std::size_t method) {
     json figures = without_times(results)["methods"][method];
     figures.erase("name");
@@ -152,7 +153,7 @@ class EvalCommand : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-TEST_F(EvalCommand, JsonAgreesWithCountsMadeByHand) {
+TEST_F(EvalCommand, JsonMatchesIndependentCounts) {
   const std::vector<Expected> expected = {Expected(scan("a")), Expected(scan("b")),
                                           Expected(scan("c"))};
 
@@ -214,7 +215,7 @@ TEST_F(EvalCommand, JsonAgreesWithCountsMadeByHand) {
   EXPECT_EQ(method["by_range"][1]["to"], 20);
 }
 
-TEST_F(EvalCommand, TrueHeightsChangeNothingForMethodsThatGiveNone) {
+TEST_F(EvalCommand, TrueHeightsDoNotAffectMethodsWithoutHeights) {
   const std::vector<std::string> patchwork = {"--methods", "patchwork"};
   const json before = without_times(results("kitti", patchwork));
   for (const std::string name : {"a", "b", "c"}) {
@@ -224,7 +225,7 @@ TEST_F(EvalCommand, TrueHeightsChangeNothingForMethodsThatGiveNone) {
   EXPECT_EQ(without_times(results("kitti", patchwork)), before);
 }
 
-TEST_F(EvalCommand, TrueHeightsOfAnotherScanCostThatScanAndOneLine) {
+TEST_F(EvalCommand, ReportsTrueHeightsOfAnotherScanOnOneLine) {
   put_ground("b", std::vector<float>(7));
 
   const Outcome outcome = eval("kitti");
@@ -235,8 +236,8 @@ TEST_F(EvalCommand, TrueHeightsOfAnotherScanCostThatScanAndOneLine) {
   EXPECT_EQ(json_of(folder_ / "results.json")["scans"], 2);
 }
 
-/// Errors of heights, by hand: of what the library says.
-TEST_F(EvalCommand, HeightsAreJudgedWhereTheGroundIsKnown) {
+/// Height errors, computed independently from the heights of the library.
+TEST_F(EvalCommand, EvaluatesHeightsIfTheTrueGroundIsKnown) {
   const io::Cloud cloud = scan("a");
   std::vector<float> ground;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -275,18 +276,18 @@ TEST_F(EvalCommand, HeightsAreJudgedWhereTheGroundIsKnown) {
   EXPECT_FALSE(results["methods"][1].contains("heights")) << "patchwork has none";
 }
 
-TEST_F(EvalCommand, HeightsHaveTheirTablesWhereTheyAreJudged) {
+TEST_F(EvalCommand, PrintsHeightTablesOnlyIfHeightsAreEvaluated) {
   put_ground("a", std::vector<float>(scan("a").size(), -1.7F));
 
   const Outcome judged = eval("kitti", {"--methods", "surface", "--every", "3"});
   const Outcome not_judged = eval("kitti", {"--methods", "patchwork", "--every", "3"});
 
-  EXPECT_THAT(judged.out, AllOf(HasSubstr("Heights above the ground against the truth"),
+  EXPECT_THAT(judged.out, AllOf(HasSubstr("Error of the height above the ground"),
                                 HasSubstr("  0-20 m    95 %    bias   share")));
-  EXPECT_THAT(not_judged.out, Not(HasSubstr("Heights")));
+  EXPECT_THAT(not_judged.out, Not(HasSubstr("Error of the height")));
 }
 
-TEST_F(EvalCommand, OneScanHasNoDeviationAndNoInterval) {
+TEST_F(EvalCommand, OmitsDeviationAndIntervalForOneScan) {
   const json results = this->results("kitti", {"--every", "3"});
 
   EXPECT_EQ(results["scans"], 1);
@@ -296,7 +297,7 @@ TEST_F(EvalCommand, OneScanHasNoDeviationAndNoInterval) {
   EXPECT_TRUE(f1["ci95"].is_null());
 }
 
-TEST_F(EvalCommand, Table1HasNineRowsAndMarksTheBestOfEachColumn) {
+TEST_F(EvalCommand, PrintsNineRowsForTable1AndMarksTheBest) {
   const Outcome outcome = eval("kitti", {"--methods", "table1"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -321,7 +322,7 @@ TEST_F(EvalCommand, Table1HasNineRowsAndMarksTheBestOfEachColumn) {
   EXPECT_THAT(outcome.out, ContainsRegex("time: reading [0-9]+ %, segmenting [0-9]+ %, scoring"));
 }
 
-TEST_F(EvalCommand, SequencesOfATreeArePickedAndStrided) {
+TEST_F(EvalCommand, SelectsSequencesAndEveryNthScan) {
   for (const std::string name : {"000000", "000001", "000002", "000003"}) {
     put_labelled(folder_ / "tree/sequences/04", name, small_scan(200));
     put_labelled(folder_ / "tree/sequences/05", name, small_scan(200));
@@ -335,7 +336,7 @@ TEST_F(EvalCommand, SequencesOfATreeArePickedAndStrided) {
   EXPECT_THAT(scans_of(picked), ElementsAre("05/000000", "05/000003", "10/000000", "10/000003"));
 }
 
-TEST_F(EvalCommand, NuScenesFilesAreScoredUnderTheirProtocol) {
+TEST_F(EvalCommand, ScoresNuScenesFilesUnderTheLidarsegProtocol) {
   put_lidarseg(folder_ / "nuscenes", "n1", scan("a"));
   Counts counts;
   const std::vector<Label> labels = labels_of(scan("a"));
@@ -351,7 +352,7 @@ TEST_F(EvalCommand, NuScenesFilesAreScoredUnderTheirProtocol) {
   EXPECT_NEAR(results["methods"][0]["f1"]["mean"], counts.f1(), tiny);
 }
 
-TEST_F(EvalCommand, SeveralDatasetsAreScoredTogether) {
+TEST_F(EvalCommand, ScoresSeveralDatasetsTogether) {
   put_labelled(folder_ / "other", "a", scan("a"));
 
   const json results = this->results("kitti", {path("other")});
@@ -360,20 +361,20 @@ TEST_F(EvalCommand, SeveralDatasetsAreScoredTogether) {
   EXPECT_THAT(scans_of(results), ElementsAre("kitti/a", "kitti/b", "kitti/c", "other/a"));
 }
 
-TEST_F(EvalCommand, AProtocolForOtherIdsIsRefused) {
+TEST_F(EvalCommand, RejectsAProtocolForOtherClassIds) {
   put_lidarseg(folder_ / "nuscenes", "n1", small_scan(200));
 
   const Outcome kitti = eval("kitti", {"--protocol", "lidarseg"});
   const Outcome nuscenes = eval("nuscenes", {"--protocol", "patchwork++"});
 
   EXPECT_EQ(kitti.exit_code, 2);
-  EXPECT_THAT(kitti.err, is_one_line_with("use --protocol patchwork or patchwork++"));
+  EXPECT_THAT(kitti.err, is_one_line_with("(expected --protocol patchwork or patchwork++)"));
   EXPECT_EQ(nuscenes.exit_code, 2);
-  EXPECT_THAT(nuscenes.err, is_one_line_with("use --protocol lidarseg"));
+  EXPECT_THAT(nuscenes.err, is_one_line_with("(expected --protocol lidarseg)"));
   EXPECT_FALSE(fs::exists(folder_ / "results.json"));
 }
 
-TEST_F(EvalCommand, AProtocolFileSaysWhatIsGround) {
+TEST_F(EvalCommand, ReadsGroundClassesFromAProtocolFile) {
   io::put_file(folder_ / "low.toml",
                "ground = [40]\nignored = [0]\nlow_ground = [{id = 70, "
                "height = -1.5}]\n");
@@ -401,7 +402,7 @@ TEST_F(EvalCommand, AProtocolFileSaysWhatIsGround) {
   EXPECT_NEAR(by_json["methods"][0]["recall"]["mean"], classes_counts.recall(), tiny);
 }
 
-TEST_F(EvalCommand, AnUnreadableScanCostsOneLineAndNotTheRun) {
+TEST_F(EvalCommand, ReportsAnUnreadableScanOnOneLineAndContinues) {
   const json undisturbed = results("kitti", {"--methods", "patchwork,gpf"});
   io::put_file(folder_ / "kitti/velodyne/aa.bin", "17 bytes, no scan");
   io::put_file(folder_ / "kitti/labels/aa.label", "");
@@ -418,7 +419,7 @@ TEST_F(EvalCommand, AnUnreadableScanCostsOneLineAndNotTheRun) {
   EXPECT_EQ(without_times(results)["methods"], without_times(undisturbed)["methods"]);
 }
 
-TEST_F(EvalCommand, NoReadableScanAtAllIsOneLineEachAndNoResults) {
+TEST_F(EvalCommand, WritesNoResultsWithoutAReadableScan) {
   for (const char* name : {"a", "b", "c"}) {
     io::put_file(folder_ / ("kitti/velodyne/" + std::string(name) + ".bin"), "no scan");
   }
@@ -432,7 +433,7 @@ TEST_F(EvalCommand, NoReadableScanAtAllIsOneLineEachAndNoResults) {
   EXPECT_FALSE(fs::exists(folder_ / "results.json.checkpoint"));
 }
 
-TEST_F(EvalCommand, CsvHasARowPerMethodAndScan) {
+TEST_F(EvalCommand, WritesACsvRowPerMethodAndScan) {
   const json results =
       this->results("kitti", {"--methods", "patchwork,ransac", "--csv", path("results.csv")});
 
@@ -457,7 +458,7 @@ TEST_F(EvalCommand, CsvHasARowPerMethodAndScan) {
   }
 }
 
-TEST_F(EvalCommand, HtmlIsOneFileThatLoadsNothing) {
+TEST_F(EvalCommand, WritesASelfContainedHtmlReport) {
   const Outcome outcome = run({"eval", path("kitti"), "--methods", "patchwork,gpf", "--html",
                                path("report.html"), "--images", "1", "--output", path("drawn")});
 
@@ -474,7 +475,7 @@ TEST_F(EvalCommand, HtmlIsOneFileThatLoadsNothing) {
   EXPECT_FALSE(std::regex_search(html, loads));
 }
 
-TEST_F(EvalCommand, PicturesAreOfTheWorstScans) {
+TEST_F(EvalCommand, DrawsImagesOfTheWorstScans) {
   const Outcome outcome =
       eval("kitti", {"--methods", "patchwork,gpf", "--images", "2", "--output", path("drawn")});
 
@@ -493,18 +494,18 @@ TEST_F(EvalCommand, PicturesAreOfTheWorstScans) {
   for (const std::size_t i : {0U, 1U}) {
     ASSERT_TRUE(pictures.contains(order[i].second)) << order[i].second;
     EXPECT_THAT(pictures.at(order[i].second), StartsWith("\x89PNG\r\n\x1a\n"));
-    EXPECT_THAT(outcome.out, HasSubstr("drew " + path("drawn/" + order[i].second)));
+    EXPECT_THAT(outcome.out, HasSubstr("wrote " + path("drawn/" + order[i].second)));
   }
 }
 
-TEST_F(EvalCommand, FoldersOfResultsAreMade) {
+TEST_F(EvalCommand, CreatesTheDirectoriesOfResultFiles) {
   const Outcome outcome = run({"eval", path("kitti"), "--csv", path("new/deep/results.csv")});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(names_below(folder_ / "new"), ElementsAre("deep/results.csv"));
 }
 
-TEST_F(EvalCommand, AFolderThatCannotBeMadeIsOneLineBeforeAnyWork) {
+TEST_F(EvalCommand, ReportsAnUncreatableDirectoryBeforeTheRun) {
   io::put_file(folder_ / "taken", "mine");
 
   const Outcome outcome = run({"eval", path("kitti"), "--csv", path("taken/results.csv")});
@@ -514,7 +515,7 @@ TEST_F(EvalCommand, AFolderThatCannotBeMadeIsOneLineBeforeAnyWork) {
   EXPECT_THAT(outcome.err, is_one_line_with("taken: cannot be created"));
 }
 
-TEST_F(EvalCommand, ResultsThatCannotBeWrittenAreOneLineBeforeAnyWork) {
+TEST_F(EvalCommand, ReportsUnwritableResultsBeforeTheRun) {
   const std::string file = path("results");
   const std::vector<std::pair<std::vector<std::string>, std::string>> misuses = {
       {{"--json", path("kitti")}, "kitti: is a directory"},
@@ -532,14 +533,14 @@ TEST_F(EvalCommand, ResultsThatCannotBeWrittenAreOneLineBeforeAnyWork) {
   EXPECT_EQ(folder_.entries(), 1);
 }
 
-TEST_F(EvalCommand, AResultFileThatCannotBeWrittenIsNoUsageError) {
+TEST_F(EvalCommand, UnwritableResultsAreNotAUsageError) {
   const Outcome outcome = run({"eval", path("kitti"), "--json", "/proc/results.json"});
 
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, is_one_line_with("/proc/results.json"));
 }
 
-TEST_F(EvalCommand, NoResultFileReplacesAnInput) {
+TEST_F(EvalCommand, RejectsAResultFileThatIsAnInput) {
   const auto before = files_below(folder_.path());
   for (const char* input : {"kitti/labels/a.label", "kitti/velodyne/b.bin"}) {
     for (const char* option : {"--json", "--csv", "--html"}) {
@@ -552,7 +553,7 @@ TEST_F(EvalCommand, NoResultFileReplacesAnInput) {
   EXPECT_EQ(files_below(folder_.path()), before);
 }
 
-TEST_F(EvalCommand, AFolderForPicturesThatCannotBeMadeIsOneLineBeforeAnyWork) {
+TEST_F(EvalCommand, ReportsAnUncreatableImageDirectoryBeforeTheRun) {
   io::put_file(folder_ / "taken", "mine");
 
   const Outcome outcome = eval("kitti", {"--images", "1", "--output", path("taken/drawn")});
@@ -562,7 +563,7 @@ TEST_F(EvalCommand, AFolderForPicturesThatCannotBeMadeIsOneLineBeforeAnyWork) {
   EXPECT_THAT(outcome.err, is_one_line_with("taken/drawn: cannot be created"));
 }
 
-TEST_F(EvalCommand, SpeedStandsBesideThePapersOwn) {
+TEST_F(EvalCommand, PrintsSpeedNextToThePaperResults) {
   const Outcome outcome =
       eval("kitti", {"--methods", "patchwork,gpf,ransac", "--speed", "--threads", "2"});
 
@@ -574,7 +575,7 @@ TEST_F(EvalCommand, SpeedStandsBesideThePapersOwn) {
   EXPECT_EQ(json_of(folder_ / "results.json")["threads"], 1);
 }
 
-TEST_F(EvalCommand, AnyNumberOfThreadsComesToTheSame) {
+TEST_F(EvalCommand, ResultsDoNotDependOnTheNumberOfThreads) {
   const json one = results("kitti", {"--methods", "all", "--threads", "1"});
   const json two = results("kitti", {"--methods", "all", "--threads", "2"});
 
@@ -583,7 +584,7 @@ TEST_F(EvalCommand, AnyNumberOfThreadsComesToTheSame) {
   EXPECT_EQ(without_times(one), without_times(two));
 }
 
-/// What `flagstone segment` wrote is scored as `flagstone eval` scores the method itself.
+/// Labels of `flagstone segment` get the same scores as the method itself.
 class LabelsMadeElsewhere : public EvalCommand {
  protected:
   /// Labels of all three scans.
@@ -593,7 +594,7 @@ class LabelsMadeElsewhere : public EvalCommand {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   }
 
-  /// Scores method 0, GPF itself, and method 1, its labels in a folder.
+  /// Scores method 0, GPF itself, and method 1, its labels in a directory.
   [[nodiscard]] json both(const std::string& dataset, const std::string& labels,
                           const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = {"--methods", "gpf", "--labels", "peer=" + path(labels)};
@@ -605,7 +606,7 @@ class LabelsMadeElsewhere : public EvalCommand {
   }
 };
 
-TEST_F(LabelsMadeElsewhere, ScoreLikeTheMethodThatMadeThem) {
+TEST_F(LabelsMadeElsewhere, ScoreLikeTheMethodThatWroteThem) {
   for (const std::string label_map : {"flagstone", "semantic-kitti"}) {
     segment(label_map, label_map);
 
@@ -615,7 +616,7 @@ TEST_F(LabelsMadeElsewhere, ScoreLikeTheMethodThatMadeThem) {
   }
 }
 
-TEST_F(LabelsMadeElsewhere, MayBeNumPyArrays) {
+TEST_F(LabelsMadeElsewhere, CanBeNumPyArrays) {
   segment("made", "flagstone");
   for (const std::string name : {"a", "b", "c"}) {
     std::vector<Label> labels;
@@ -632,7 +633,7 @@ TEST_F(LabelsMadeElsewhere, MayBeNumPyArrays) {
   EXPECT_EQ(figures_of(found, 0), figures_of(found, 1));
 }
 
-TEST_F(LabelsMadeElsewhere, MayLieAsSemanticKittisPredictionsDo) {
+TEST_F(LabelsMadeElsewhere, CanHaveTheLayoutOfSemanticKittiPredictions) {
   segment("made", "semantic-kitti");
   fs::create_directories(folder_ / "tree/sequences");
   fs::rename(folder_ / "kitti", folder_ / "tree/sequences/08");
@@ -644,7 +645,7 @@ TEST_F(LabelsMadeElsewhere, MayLieAsSemanticKittisPredictionsDo) {
   EXPECT_EQ(figures_of(found, 0), figures_of(found, 1));
 }
 
-TEST_F(LabelsMadeElsewhere, MayBeWhatSegmentMakesOfTheWholeDataset) {
+TEST_F(LabelsMadeElsewhere, CanBeTheOutputOfSegmentForTheWholeDataset) {
   put_labelled(folder_ / "tree/sequences/08", "000000", scan("a"));
   for (const std::string dataset : {"kitti", "tree"}) {
     for (const std::string format : {"label", "u8"}) {
@@ -660,7 +661,7 @@ TEST_F(LabelsMadeElsewhere, MayBeWhatSegmentMakesOfTheWholeDataset) {
   }
 }
 
-TEST_F(LabelsMadeElsewhere, OfSeveralDatasetsHaveAFolderEach) {
+TEST_F(LabelsMadeElsewhere, HaveOneDirectoryPerDataset) {
   for (const std::string dataset : {"one", "two"}) {
     put_labelled(folder_ / (dataset + "/sequences/08"), "000000", scan(dataset));
     const Outcome outcome =
@@ -674,7 +675,7 @@ TEST_F(LabelsMadeElsewhere, OfSeveralDatasetsHaveAFolderEach) {
   EXPECT_EQ(figures_of(found, 0), figures_of(found, 1));
 }
 
-TEST_F(LabelsMadeElsewhere, ThatAreAllMissingHaveNoFigures) {
+TEST_F(LabelsMadeElsewhere, HaveNoResultsIfAllAreMissing) {
   fs::create_directories(folder_ / "made");
 
   const Outcome outcome = eval("kitti", {"--methods", "gpf", "--labels", "peer=" + path("made"),
@@ -693,7 +694,7 @@ TEST_F(LabelsMadeElsewhere, ThatAreAllMissingHaveNoFigures) {
   EXPECT_TRUE(fs::exists(folder_ / "report.html"));
 }
 
-TEST_F(LabelsMadeElsewhere, MissingOnesCostOneLineAndLeaveTheScanToTheOthers) {
+TEST_F(LabelsMadeElsewhere, AreReportedOnOneLineIfMissingForAScan) {
   segment("made", "flagstone");
   fs::remove(folder_ / "made/b.label");
 
@@ -709,7 +710,7 @@ TEST_F(LabelsMadeElsewhere, MissingOnesCostOneLineAndLeaveTheScanToTheOthers) {
   EXPECT_THAT(names_below(folder_ / "drawn"), ElementsAre("a.png", "b.png", "c.png"));
 }
 
-TEST_F(EvalCommand, WrongUsageIsOneLine) {
+TEST_F(EvalCommand, ReportsUsageErrorsOnOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> misuses = {
       {{"--methods", "magic"}, "no method is named 'magic'"},
       {{"--methods", "none"}, "no method to evaluate"},
@@ -741,7 +742,7 @@ TEST_F(EvalCommand, WrongUsageIsOneLine) {
   }
 }
 
-TEST_F(EvalCommand, AScanWithoutGroundInTheGroundTruthCountsInTheAccuracyAlone) {
+TEST_F(EvalCommand, ScanWithoutTrueGroundCountsOnlyForAccuracy) {
   const json before = results("kitti", {"--methods", "surface"});
   put_scan(folder_ / "kitti/velodyne/d.bin", scan("d"));
   const Status status = io::write_class_file(folder_ / "kitti/labels/d.label",
@@ -758,7 +759,7 @@ TEST_F(EvalCommand, AScanWithoutGroundInTheGroundTruthCountsInTheAccuracyAlone) 
   EXPECT_THAT(io::contents_of(folder_ / "results.csv"), HasSubstr("surface,d,,,,"));
 }
 
-TEST(EvalOnRealScans, SequencesInTheDataSetsOwnLayoutAndAProtocolOfTheirOwn) {
+TEST(EvalOnRealScans, ScoresSequencesInTheOriginalLayoutUnderACustomProtocol) {
   const fs::path data = tests::real_scan_folder();
   if (!fs::exists(data / "sequences") || !fs::exists(data / "pandaset")) {
     GTEST_SKIP() << "no drives in " << data;

@@ -37,7 +37,7 @@ const PatchworkConfig& patchwork_of(const eval::Method& method) {
   return *method.config->get_if<PatchworkConfig>();
 }
 
-/// Options as a user writes them.
+/// Options as the user writes them.
 struct Options {
   std::vector<std::string> names = {"surface", "patchwork"};
   std::string preset = "default";
@@ -61,17 +61,17 @@ struct Options {
   }
 };
 
-/// What is said where `options` come to nothing.
-std::string refusal(const Options& options) {
+/// The error message for `options`; "no error" if they are valid.
+std::string error_of(const Options& options) {
   try {
     static_cast<void>(options.resolve());
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
-  return "nothing was refused";
+  return "no error";
 }
 
-TEST(EvalMethods, Table1IsThePapersNineRowsInItsOrder) {
+TEST(EvalMethods, Table1ListsTheNineRowsOfThePaperInOrder) {
   std::vector<std::string> titles;
   for (const eval::Method& method : Options{.names = {"table1"}}.resolve()) {
     titles.push_back(method.title);
@@ -81,14 +81,14 @@ TEST(EvalMethods, Table1IsThePapersNineRowsInItsOrder) {
                                   "CZM + U", "CZM + U + E", "CZM + U + E + F"));
 }
 
-TEST(EvalMethods, AllIsEveryMethodThereIs) {
+TEST(EvalMethods, AllListsEveryMethod) {
   const auto all = config::method_names();
 
   EXPECT_EQ(names_of(Options{.names = {"all"}}.resolve()),
             std::vector<std::string>(all.begin(), all.end()));
 }
 
-TEST(EvalMethods, AreThoseListedInThatOrderEachOnce) {
+TEST(EvalMethods, AreListedInTheGivenOrderAndOnce) {
   EXPECT_THAT(names_of(Options{.names = {"gpf", "patchwork", "ransac", "gpf"}}.resolve()),
               ElementsAre("gpf", "patchwork", "ransac"));
   const auto names = names_of(Options{.names = {"patchwork", "table1", "gpf"}}.resolve());
@@ -96,7 +96,7 @@ TEST(EvalMethods, AreThoseListedInThatOrderEachOnce) {
   EXPECT_EQ(names.front(), "patchwork");
 }
 
-TEST(EvalMethods, ASettingOfAMethodIsThatMethodsAlone) {
+TEST(EvalMethods, SettingsApplyOnlyToTheirMethod) {
   const auto methods =
       Options{.names = {"all"}, .settings = {"gpf.segments=5", "czm+u.seed_count=7"}}.resolve();
 
@@ -106,7 +106,7 @@ TEST(EvalMethods, ASettingOfAMethodIsThatMethodsAlone) {
   EXPECT_EQ(patchwork_of(named(methods, "patchwork")).seed_count, PatchworkConfig{}.seed_count);
 }
 
-TEST(EvalMethods, PatchworksSettingsReachTheAblationAndNotRGpf) {
+TEST(EvalMethods, SettingsOfPatchworkApplyToTheAblationButNotToRGpf) {
   const auto methods =
       Options{.names = {"all"}, .settings = {"patchwork.distance_margin=0.31"}}.resolve();
 
@@ -117,7 +117,7 @@ TEST(EvalMethods, PatchworksSettingsReachTheAblationAndNotRGpf) {
   EXPECT_NE(patchwork_of(named(methods, "r_gpf+u")).distance_margin, 0.31f);
 }
 
-TEST(EvalMethods, PresetAndFileAreWherePatchworksSettingsStart) {
+TEST(EvalMethods, PresetAndFileApplyToPatchworkAndTheAblation) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "mine.toml", "seed_count = 11\n");
 
@@ -133,7 +133,7 @@ TEST(EvalMethods, PresetAndFileAreWherePatchworksSettingsStart) {
   }
 }
 
-TEST(EvalMethods, TheAblationHasTheTermsThatItsNameListsWhateverPatchworkHas) {
+TEST(EvalMethods, AblationEnablesTheTermsInItsName) {
   const auto methods =
       Options{.names = {"all"}, .settings = {"patchwork.elevation.enabled=false"}}.resolve();
 
@@ -144,7 +144,7 @@ TEST(EvalMethods, TheAblationHasTheTermsThatItsNameListsWhateverPatchworkHas) {
   EXPECT_TRUE(patchwork_of(named(methods, "czm+u+e+f")).flatness.enabled);
 }
 
-TEST(EvalMethods, TheSensorsHeightReachesEveryMethodThatHasOne) {
+TEST(EvalMethods, SensorHeightAppliesToEveryMethodThatHasIt) {
   std::vector<std::string> without;
   for (eval::Method& method :
        Options{.names = {"all"}, .mount = {.sensor_height = 1.25f}}.resolve()) {
@@ -159,7 +159,7 @@ TEST(EvalMethods, TheSensorsHeightReachesEveryMethodThatHasOne) {
   EXPECT_THAT(without, ElementsAre("ransac"));
 }
 
-TEST(EvalMethods, LabelsMadeElsewhereFollowUnderTheirOwnName) {
+TEST(EvalMethods, LabelsOfOtherProgramsFollowUnderTheirNames) {
   const io::TemporaryFolder folder;
   const std::string other = folder.path().string();
 
@@ -175,49 +175,49 @@ TEST(EvalMethods, LabelsMadeElsewhereFollowUnderTheirOwnName) {
   EXPECT_EQ(methods[1].label_map, io::LabelMap::semantic_kitti);
 }
 
-TEST(EvalMethods, NoneLeavesLabelsMadeElsewhereAlone) {
+TEST(EvalMethods, NoneKeepsOnlyLabelsOfOtherPrograms) {
   const io::TemporaryFolder folder;
 
   EXPECT_THAT(
       names_of(Options{.names = {"none"}, .labels = {"peer=" + folder.path().string()}}.resolve()),
       ElementsAre("peer"));
-  EXPECT_THAT(refusal({.names = {"none"}}), AllOf(HasSubstr("--methods"), HasSubstr("--labels")));
+  EXPECT_THAT(error_of({.names = {"none"}}), AllOf(HasSubstr("--methods"), HasSubstr("--labels")));
 }
 
-TEST(EvalMethods, ErrorsNameWhatIsAllowed) {
-  EXPECT_THAT(refusal({.names = {"magic"}}), AllOf(HasSubstr("magic"), HasSubstr("czm+u+e+f")));
-  EXPECT_THAT(refusal({.settings = {"segments=5"}}),
+TEST(EvalMethods, ErrorsNameTheAllowedValues) {
+  EXPECT_THAT(error_of({.names = {"magic"}}), AllOf(HasSubstr("magic"), HasSubstr("czm+u+e+f")));
+  EXPECT_THAT(error_of({.settings = {"segments=5"}}),
               AllOf(HasSubstr("--set segments=5"), HasSubstr("gpf.segments=5")));
-  EXPECT_THAT(refusal({.settings = {"magic.power=5"}}),
+  EXPECT_THAT(error_of({.settings = {"magic.power=5"}}),
               AllOf(HasSubstr("--set magic.power=5"), HasSubstr("line_fit")));
-  EXPECT_THAT(refusal({.names = {"gpf"}, .settings = {"gpf.segmentz=5"}}),
+  EXPECT_THAT(error_of({.names = {"gpf"}, .settings = {"gpf.segmentz=5"}}),
               AllOf(HasSubstr("--set gpf.segmentz=5"),
                     HasSubstr("no setting 'segmentz' (did you mean 'segments'?)")));
-  EXPECT_THAT(refusal({.names = {"gpf"}, .settings = {"gpf.segments=many"}}),
+  EXPECT_THAT(error_of({.names = {"gpf"}, .settings = {"gpf.segments=many"}}),
               HasSubstr("--set gpf.segments=many"));
 }
 
-TEST(EvalMethods, ASettingOfAMethodThatIsNotEvaluatedIsRefused) {
-  EXPECT_THAT(refusal({.names = {"ransac"}, .settings = {"gpf.segments=5"}}),
+TEST(EvalMethods, RejectsASettingOfAMethodThatIsNotEvaluated) {
+  EXPECT_THAT(error_of({.names = {"ransac"}, .settings = {"gpf.segments=5"}}),
               AllOf(HasSubstr("--set gpf.segments=5"), HasSubstr("not among --methods")));
 }
 
-TEST(EvalMethods, APresetWantsAMethodThatHasOne) {
+TEST(EvalMethods, RejectsAPresetWithoutAMethodThatHasPresets) {
   EXPECT_THAT(
-      refusal({.names = {"surface", "gpf"}, .preset = "paper"}),
+      error_of({.names = {"surface", "gpf"}, .preset = "paper"}),
       HasSubstr(
-          "--preset paper: surface, gpf have no presets; --method patchwork and czm+... have"));
-  EXPECT_EQ(refusal({.names = {"surface", "czm+u"}, .preset = "paper"}), "nothing was refused");
+          "--preset paper: surface, gpf have no presets (expected --method patchwork or czm+...)"));
+  EXPECT_EQ(error_of({.names = {"surface", "czm+u"}, .preset = "paper"}), "no error");
 }
 
-TEST(EvalMethods, PatchworksSettingsWantPatchworkOrTheAblation) {
-  EXPECT_THAT(refusal({.names = {"surface"}, .settings = {"patchwork.seed_count=5"}}),
-              HasSubstr("--set patchwork.seed_count=5: patchwork is not among --methods"));
-  EXPECT_EQ(refusal({.names = {"czm+u"}, .settings = {"patchwork.seed_count=5"}}),
-            "nothing was refused");
+TEST(EvalMethods, RejectsSettingsOfPatchworkWithoutPatchwork) {
+  EXPECT_THAT(
+      error_of({.names = {"surface"}, .settings = {"patchwork.seed_count=5"}}),
+      HasSubstr("--set patchwork.seed_count=5: patchwork is not one of the methods in --methods"));
+  EXPECT_EQ(error_of({.names = {"czm+u"}, .settings = {"patchwork.seed_count=5"}}), "no error");
 }
 
-TEST(EvalMethods, AFileHoldsForEveryMethodThatHasAllItsSettings) {
+TEST(EvalMethods, FileAppliesToEveryMethodThatHasAllItsSettings) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "mine.toml", "noise_depth = 3\n[mount]\nscale = 0.5\n");
 
@@ -231,28 +231,29 @@ TEST(EvalMethods, AFileHoldsForEveryMethodThatHasAllItsSettings) {
   for (const eval::Method& method : methods) EXPECT_EQ(method.mount.mount.scale, 0.5f);
 }
 
-TEST(EvalMethods, AFileThatHoldsForNoMethodIsRefused) {
+TEST(EvalMethods, RejectsAFileThatAppliesToNoMethod) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "mine.toml", "seed_count = 11\nmax_range = 50\n");
 
   EXPECT_THAT(
-      refusal({.names = {"surface", "gpf"}, .config_file = (folder / "mine.toml").string()}),
+      error_of({.names = {"surface", "gpf"}, .config_file = (folder / "mine.toml").string()}),
       AllOf(HasSubstr("mine.toml: line 1"), HasSubstr("seed_count")));
 }
 
-TEST(EvalMethods, LabelsNeedANameAndAFolderThatIsThere) {
+TEST(EvalMethods, LabelsNeedANameAndAnExistingDirectory) {
   const io::TemporaryFolder folder;
   const std::string there = folder.path().string();
   for (const std::string& wrong : {std::string("peer"), std::string("peer="), "=" + there}) {
-    EXPECT_THAT(refusal({.labels = {wrong}}),
+    EXPECT_THAT(error_of({.labels = {wrong}}),
                 AllOf(HasSubstr("--labels " + wrong), HasSubstr("NAME=DIR")));
   }
-  EXPECT_THAT(refusal({.labels = {"peer=" + there + "/gone"}}), HasSubstr("/gone: no such folder"));
-  EXPECT_THAT(refusal({.names = {"gpf"}, .labels = {"gpf=" + there}}),
-              HasSubstr("two methods are called gpf"));
+  EXPECT_THAT(error_of({.labels = {"peer=" + there + "/gone"}}),
+              HasSubstr("/gone is not a directory"));
+  EXPECT_THAT(error_of({.names = {"gpf"}, .labels = {"gpf=" + there}}),
+              HasSubstr("gpf: two methods have this name"));
 }
 
-TEST(EvalMethods, ASensorIsWhatTheSettingsOfAllAreDerivedFrom) {
+TEST(EvalMethods, SensorDeterminesTheSettingsOfAllMethods) {
   Sensor sensor = Sensor::named("vlp-16");
   sensor.height = 1.5;
   const auto methods = Options{.names = {"all"},
@@ -270,9 +271,9 @@ TEST(EvalMethods, ASensorIsWhatTheSettingsOfAllAreDerivedFrom) {
   EXPECT_EQ(named(methods, "surface").config->get_if<SurfaceConfig>()->max_range, 100);
 }
 
-TEST(EvalMethods, ASensorStandsBesideNoPreset) {
-  EXPECT_THAT(refusal({.names = {"patchwork"}, .preset = "paper", .sensor = "vlp-16"}),
-              HasSubstr("--sensor beside --preset paper"));
+TEST(EvalMethods, RejectsASensorWithAPreset) {
+  EXPECT_THAT(error_of({.names = {"patchwork"}, .preset = "paper", .sensor = "vlp-16"}),
+              HasSubstr("--sensor: cannot be combined with --preset paper"));
 }
 
 }  // namespace

@@ -27,13 +27,13 @@ using testing::HasSubstr;
 
 constexpr int scans = 150;
 
-/// A dataset, and an evaluation of it that takes long enough to be interrupted: GPF with many
+/// A data set, and an evaluation that takes long enough to be interrupted: GPF with many
 /// iterations.
 class EvalResume : public testing::Test {
  protected:
   EvalResume() { put_dataset("kitti", 1); }
 
-  /// Three different scans, and names of them.
+  /// Three different scans under many names.
   void put_dataset(const std::string& name, std::uint32_t seed) const {
     const fs::path folder = folder_ / name;
     for (int i = 0; i < scans; ++i) {
@@ -63,12 +63,12 @@ class EvalResume : public testing::Test {
     return io::contents_of(folder_ / "results.json.checkpoint");
   }
 
-  /// How many scans the checkpoint holds: one a line, below its heading.
+  /// Number of scans in the checkpoint: one per line, after the first line.
   [[nodiscard]] std::ptrdiff_t scans_in_checkpoint() const {
     return std::max<std::ptrdiff_t>(std::ranges::count(checkpoint(), '\n') - 1, 0);
   }
 
-  /// Interrupts the evaluation when it has done a few scans.
+  /// Interrupts the evaluation after a few scans.
   [[nodiscard]] Outcome interrupted() const {
     using namespace std::chrono_literals;
     CommandProcess command(arguments("results.json"));
@@ -82,7 +82,7 @@ class EvalResume : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-TEST_F(EvalResume, AnInterruptedRunKeepsItsJournalAndGoesOnToTheSameResults) {
+TEST_F(EvalResume, ResumedRunHasTheResultsOfAnUninterruptedRun) {
   const Outcome undisturbed = run(arguments("undisturbed.json"));
   ASSERT_EQ(undisturbed.exit_code, 0) << undisturbed.err;
 
@@ -92,9 +92,9 @@ TEST_F(EvalResume, AnInterruptedRunKeepsItsJournalAndGoesOnToTheSameResults) {
   const std::ptrdiff_t done = scans_in_checkpoint();
   EXPECT_GE(done, 3);
   EXPECT_LT(done, scans);
-  EXPECT_THAT(stopped.err, is_one_line_with("interrupted, " + std::to_string(done) +
-                                            " of 150 scans are done; the same command with "
-                                            "--resume continues from here"));
+  EXPECT_THAT(stopped.err, is_one_line_with("interrupted: " + std::to_string(done) +
+                                            " of 150 scans are done (run the same command with "
+                                            "--resume for the rest)"));
   EXPECT_THAT(stopped.out, HasSubstr(std::to_string(done) + " scans of kitti"));
   EXPECT_FALSE(fs::exists(folder_ / "results.json"));
 
@@ -106,7 +106,7 @@ TEST_F(EvalResume, AnInterruptedRunKeepsItsJournalAndGoesOnToTheSameResults) {
             without_times(json_of(folder_ / "undisturbed.json")));
 }
 
-TEST_F(EvalResume, ScansOfTheJournalAreNotDoneAgain) {
+TEST_F(EvalResume, SkipsTheScansInTheCheckpoint) {
   ASSERT_EQ(interrupted().exit_code, 1);
   std::string kept = checkpoint();
   const std::size_t from = kept.find("\"ms\":");
@@ -124,7 +124,7 @@ TEST_F(EvalResume, ScansOfTheJournalAreNotDoneAgain) {
             1);
 }
 
-TEST_F(EvalResume, AnotherEvaluationsJournalIsRefusedAndKept) {
+TEST_F(EvalResume, RejectsAndKeepsTheCheckpointOfAnotherEvaluation) {
   put_dataset("other", 7);
   ASSERT_EQ(interrupted().exit_code, 1);
   const std::string kept = checkpoint();
@@ -147,15 +147,15 @@ TEST_F(EvalResume, AnotherEvaluationsJournalIsRefusedAndKept) {
   }
 }
 
-TEST_F(EvalResume, NeedsTheResultsFileOfTheInterruptedRun) {
+TEST_F(EvalResume, RequiresTheResultsFileOfTheInterruptedRun) {
   const Outcome outcome = run({"eval", (folder_ / "kitti").string(), "--resume"});
 
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_THAT(outcome.err, is_one_line_with("--resume needs the results file"));
+  EXPECT_THAT(outcome.err, is_one_line_with("--resume: needs the results file"));
 }
 
-TEST_F(EvalResume, WithNothingToGoOnFromIsAnOrdinaryRun) {
+TEST_F(EvalResume, RunsNormallyWithoutACheckpoint) {
   const Outcome outcome = run(arguments("results.json", {"--every", "50", "--resume"}));
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -28,7 +28,7 @@ io::Cloud small_scan(std::size_t points, std::uint32_t seed) {
   if (points >= 100) {
     cloud[10] = {6, 6, -9};    // far below any ground
     cloud[20] = {500, 0, -1};  // beyond the last ring
-    cloud[30] = {0, 0, 0};     // no echo
+    cloud[30] = {0, 0, 0};     // missing return
     cloud[40] = {5, 5, std::numeric_limits<float>::quiet_NaN()};
   }
   std::vector<float> values;

@@ -14,26 +14,26 @@
 
 namespace flagstone::cli {
 
-/// A scan for tests, as KITTI has them: x, y, z, intensity; ground, walls, boxes, and a few points
-/// that are noise, out of range or invalid, so that every label occurs.
+/// A scan for tests in the layout of KITTI: x, y, z, intensity. It has ground, walls, boxes, and a
+/// few points that are noise, out of range or invalid, so that every label occurs.
 io::Cloud small_scan(std::size_t points = 4000, std::uint32_t seed = 1);
 
-/// Writes a scan in the format of the file's name, and the folders above it.
+/// Writes a scan in the format of the file extension; creates the directories above it.
 void put_scan(const std::filesystem::path& file, const io::Cloud& scan = small_scan());
 
-/// The scan of a file.
+/// Reads a scan.
 io::Cloud scan_of(const std::filesystem::path& file);
 
-/// What the library says of a scan, by the command's default method.
+/// The labels of the library for a scan, with the default method.
 std::vector<Label> labels_of(const io::Cloud& scan);
 
-/// The numbers of a .label file.
+/// The codes in a .label file.
 std::vector<std::uint32_t> codes_of(const std::filesystem::path& file);
 
-/// Every file below a folder by its name relative to it, with its contents.
+/// Contents of every file in a directory and below, by relative name.
 std::map<std::string, std::string> files_below(const std::filesystem::path& folder);
 
-/// The names of the files below a folder, sorted.
+/// Sorted relative names of the files in a directory and below.
 std::vector<std::string> names_below(const std::filesystem::path& folder);
 
 }  // namespace flagstone::cli

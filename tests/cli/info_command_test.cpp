@@ -48,7 +48,7 @@ TEST_P(InfoFormat, ShowsCountsFieldsBoundsAndHistograms) {
   EXPECT_THAT(lines, Contains(file));
   EXPECT_THAT(lines, Contains("points               10, 16 bytes each"));
   EXPECT_THAT(lines, Contains("not finite           1 (10.0 %)"));
-  EXPECT_THAT(lines, Contains("all zero (no echo)   2 (20.0 %)"));
+  EXPECT_THAT(lines, Contains("missing returns      2 (20.0 %)"));
   EXPECT_THAT(lines, Contains("  x                  float32    0 .. 9"));
   EXPECT_THAT(lines, Contains("  z                  float32    -1.5 .. 0"));
   EXPECT_THAT(lines, Contains("  intensity          float32    0.25 .. 0.5"));
@@ -61,7 +61,7 @@ TEST_P(InfoFormat, ShowsCountsFieldsBoundsAndHistograms) {
 INSTANTIATE_TEST_SUITE_P(All, InfoFormat, testing::Values(".bin", ".pcd", ".ply", ".npy"),
                          [](const auto& format) { return format.param.substr(1); });
 
-TEST(InfoCommand, OfAnEmptyFileSaysThereAreNoPoints) {
+TEST(InfoCommand, ReportsNoPointsForAnEmptyFile) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "empty.bin", "");
 
@@ -72,7 +72,7 @@ TEST(InfoCommand, OfAnEmptyFileSaysThereAreNoPoints) {
   EXPECT_THAT(outcome.out, HasSubstr("no points"));
 }
 
-TEST(InfoCommand, OfABrokenFileIsOneLineAndTheOthersAreShown) {
+TEST(InfoCommand, ReportsABrokenFileOnOneLineAndShowsTheOthers) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "broken.pcd", "VERSION 0.7\nFIELDS x y\n");
   put_scan(folder / "good.bin", ten_points());
@@ -85,7 +85,7 @@ TEST(InfoCommand, OfABrokenFileIsOneLineAndTheOthersAreShown) {
   EXPECT_THAT(lines_of(outcome.out), Contains("points               10, 16 bytes each"));
 }
 
-TEST(InfoCommand, OfTheLargestNumbersIsShown) {
+TEST(InfoCommand, ShowsTheLargestFloats) {
   const io::TemporaryFolder folder;
   io::Cloud scan;
   ASSERT_TRUE(io::Cloud::from_floats(std::vector<float>(4, 3e38f), 4, scan).ok());
@@ -97,7 +97,7 @@ TEST(InfoCommand, OfTheLargestNumbersIsShown) {
   EXPECT_THAT(lines_of(outcome.out), Contains("  z                  float32    3e+38 .. 3e+38"));
 }
 
-TEST(InfoCommand, ReadsAsManyColumnsAsItIsTold) {
+TEST(InfoCommand, ReadsTheGivenNumberOfColumns) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "scan.bin", std::string(6 * 7 * 4, '\0'));
 

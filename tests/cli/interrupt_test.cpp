@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t points = 20000;
 constexpr std::size_t many_scans = 3000;
 
-/// Far more scans than can be done before the signal arrives: names of one file.
+/// Many names of one file: far more scans than can be done before the signal arrives.
 void put_many_scans(const fs::path& folder) {
   put_scan(folder / "0.bin", small_scan(points));
   for (std::size_t i = 1; i < many_scans; ++i) {
@@ -30,7 +30,7 @@ void put_many_scans(const fs::path& folder) {
 
 class Interrupt : public testing::TestWithParam<int> {};
 
-TEST_P(Interrupt, FinishesTheScansInHandAndSaysHowManyAreDone) {
+TEST_P(Interrupt, FinishesTheScansInProgressAndReportsTheirNumber) {
   const io::TemporaryFolder folder;
   put_many_scans(folder / "scans");
   CommandProcess command({"segment", (folder / "scans").string(), "--output",
@@ -44,8 +44,8 @@ TEST_P(Interrupt, FinishesTheScansInHandAndSaysHowManyAreDone) {
   const auto files = files_below(folder / "out");
   EXPECT_GT(files.size(), 0U);
   EXPECT_LT(files.size(), many_scans);
-  EXPECT_THAT(outcome.err, is_one_line_with("interrupted, " + std::to_string(files.size()) +
-                                            " of 3000 scans are done"));
+  EXPECT_THAT(outcome.err, is_one_line_with("interrupted: " + std::to_string(files.size()) +
+                                            " of 3000 scans are segmented"));
   for (const auto& [name, contents] : files) {
     EXPECT_TRUE(name.ends_with(".label")) << name;
     EXPECT_EQ(contents.size(), 4 * points) << name;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Sensors whose height or tilt is not known: --sensor-height, --tilt, the table [mount].
+// Sensors of unknown height or tilt: --sensor-height, --tilt, the table [mount].
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Level ground around a sensor so high, a box on it, one point without an echo; turned about y by
-/// so many degrees.
+/// Level ground around a sensor at this height, a box on the ground and one missing return; rotated
+/// about y by `pitch` degrees.
 io::Cloud yard(float height, float pitch = 0) {
   std::vector<float> points;
   const float c = std::cos(pitch * 0.0174533f);
@@ -58,7 +58,7 @@ class MountOfScans : public testing::Test {
     return (folder_ / name).string();
   }
 
-  /// Segments the folder of scans, expecting success.
+  /// Segments the directory of scans.
   [[nodiscard]] Outcome segment(const std::vector<std::string>& more,
                                 const std::string& output = "out") const {
     std::vector<std::string> arguments = {"segment",    path("scans"), "--output",
@@ -70,7 +70,7 @@ class MountOfScans : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-TEST_F(MountOfScans, EstimatedHeightComesFromTheFirstScanThatTellsItAndIsSaid) {
+TEST_F(MountOfScans, EstimatesTheHeightFromTheFirstScanThatDeterminesIt) {
   put_scan(folder_ / "scans/0.bin", small_scan(30));
   put_scan(folder_ / "scans/1.bin", yard(0.8f));
   put_scan(folder_ / "scans/2.bin", yard(0.8f));
@@ -80,10 +80,10 @@ TEST_F(MountOfScans, EstimatedHeightComesFromTheFirstScanThatTellsItAndIsSaid) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(lines_of(outcome.out)[0],
               AllOf(HasSubstr("mount: sensor 0.80 m above the ground, confidence"),
-                    HasSubstr("told by " + path("scans/1.bin"))));
+                    HasSubstr("(estimated from " + path("scans/1.bin") + ")")));
 }
 
-TEST_F(MountOfScans, EstimatedHeightGivesTheLabelsOfASensorWhereTheMethodExpectsIt) {
+TEST_F(MountOfScans, EstimatedHeightGivesTheLabelsOfTheExpectedHeight) {
   put_scan(folder_ / "scans/0.bin", yard(4.2f));
   put_scan(folder_ / "usual/0.bin", yard(1.73f));
   ASSERT_EQ(run({"segment", path("usual"), "--output", path("expected"), "--method", "patchwork"})
@@ -106,7 +106,7 @@ TEST_F(MountOfScans, EstimatedHeightGivesTheLabelsOfASensorWhereTheMethodExpects
   EXPECT_GT(different("wrong"), 100U);
 }
 
-TEST_F(MountOfScans, EstimatedOnceTheBytesDoNotDependOnThreads) {
+TEST_F(MountOfScans, EstimateDoesNotDependOnTheNumberOfThreads) {
   for (int i = 0; i < 8; ++i) {
     put_scan(folder_ / ("scans/" + std::to_string(i) + ".bin"),
              yard(1 + 0.1f * static_cast<float>(i), 10));
@@ -121,7 +121,7 @@ TEST_F(MountOfScans, EstimatedOnceTheBytesDoNotDependOnThreads) {
   EXPECT_EQ(files_below(folder_ / "one"), files_below(folder_ / "four"));
 }
 
-TEST_F(MountOfScans, WhereNoScanTellsItTheGivenOneIsTakenAndThatIsSaid) {
+TEST_F(MountOfScans, UsesTheConfiguredHeightIfNoScanDeterminesIt) {
   for (int i = 0; i < 25; ++i) {
     put_scan(folder_ / ("scans/" + std::to_string(i + 10) + ".bin"), small_scan(5));
   }
@@ -129,12 +129,13 @@ TEST_F(MountOfScans, WhereNoScanTellsItTheGivenOneIsTakenAndThatIsSaid) {
   const Outcome outcome = segment({"--sensor-height", "estimate"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(lines_of(outcome.out)[0],
-              AllOf(HasSubstr("mount: sensor 1.73 m above the ground, as configured"),
-                    HasSubstr("told by none of the first 20 scans"), HasSubstr("too few points")));
+  EXPECT_THAT(
+      lines_of(outcome.out)[0],
+      AllOf(HasSubstr("mount: sensor 1.73 m above the ground, as configured"),
+            HasSubstr("(the first 20 scans do not determine it; "), HasSubstr("too few points")));
 }
 
-TEST_F(MountOfScans, ATiltedSensorIsSegmentedAsALevelOneIs) {
+TEST_F(MountOfScans, TiltedSensorGetsTheLabelsOfALevelSensor) {
   put_scan(folder_ / "scans/0.bin", yard(1.73f, 20));
   put_scan(folder_ / "level/0.bin", yard(1.73f));
   ASSERT_EQ(run({"segment", path("level"), "--output", path("expected"), "--method", "patchwork"})
@@ -153,11 +154,11 @@ TEST_F(MountOfScans, ATiltedSensorIsSegmentedAsALevelOneIs) {
     std::size_t different = 0;
     for (std::size_t i = 0; i < codes.size(); ++i) different += codes[i] != expected[i] ? 1U : 0U;
     EXPECT_LT(different, expected.size() / 50) << output;
-    EXPECT_EQ(codes.back(), 4U) << output;  // no echo
+    EXPECT_EQ(codes.back(), 4U) << output;  // missing return
   }
 }
 
-TEST_F(MountOfScans, TrackedHeightIsSaidOfEveryScanInOrder) {
+TEST_F(MountOfScans, PrintsTheTrackedHeightOfEveryScanInOrder) {
   for (int i = 0; i < 3; ++i) {
     put_scan(folder_ / ("scans/" + std::to_string(i) + ".bin"),
              yard(1 + 0.04f * static_cast<float>(i)));
@@ -168,14 +169,14 @@ TEST_F(MountOfScans, TrackedHeightIsSaidOfEveryScanInOrder) {
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto lines = lines_of(outcome.out);
-  EXPECT_THAT(lines[0], HasSubstr("sensor taken for 1.00 m high: sensor 1.00 m above the ground"));
-  EXPECT_THAT(lines[1], HasSubstr("sensor taken for 1.02 m high: sensor 1.04 m above the ground"));
-  EXPECT_THAT(lines[2], HasSubstr("sensor taken for 1.04 m high: sensor 1.08 m above the ground"));
-  EXPECT_THAT(lines[3], AllOf(HasSubstr("sensor taken for 1.04 m high: no estimate from this scan"),
+  EXPECT_THAT(lines[0], HasSubstr("sensor height 1.00 m: sensor 1.00 m above the ground"));
+  EXPECT_THAT(lines[1], HasSubstr("sensor height 1.02 m: sensor 1.04 m above the ground"));
+  EXPECT_THAT(lines[2], HasSubstr("sensor height 1.04 m: sensor 1.08 m above the ground"));
+  EXPECT_THAT(lines[3], AllOf(HasSubstr("sensor height 1.04 m: no estimate from this scan"),
                               HasSubstr("too far from the estimates of previous scans")));
 }
 
-TEST_F(MountOfScans, JsonHasWhatWasDecidedAndWhy) {
+TEST_F(MountOfScans, JsonHasTheDecisionAndItsReason) {
   put_scan(folder_ / "scans/0.bin", yard(0.8f));
 
   const Outcome estimated = segment({"--sensor-height", "estimate", "--json"});
@@ -190,7 +191,7 @@ TEST_F(MountOfScans, JsonHasWhatWasDecidedAndWhy) {
   EXPECT_FALSE(nlohmann::json::parse(fixed.out).contains("mount"));
 }
 
-TEST_F(MountOfScans, TheTableOfAConfigurationSaysIt) {
+TEST_F(MountOfScans, ReadsTheTableOfAConfiguration) {
   put_scan(folder_ / "scans/0.bin", yard(1.73f, 20));
   io::put_file(folder_ / "mine.toml",
                "[mount]\ntilt = \"fixed\"\nup = [-0.342, 0, 0.94]\norigin = [0, 0, 0]\n");
@@ -213,7 +214,7 @@ TEST_F(MountOfScans, IsPrintedWithTheConfigurationAndReadBack) {
   EXPECT_EQ(again.out, printed.out);
 }
 
-TEST_F(MountOfScans, EvalEstimatesEveryScanForItself) {
+TEST_F(MountOfScans, EvalEstimatesEveryScanSeparately) {
   for (int i = 0; i < 4; ++i) {
     put_labelled(folder_ / "set", std::to_string(i), yard(0.7f + 0.4f * static_cast<float>(i)));
   }
@@ -227,7 +228,7 @@ TEST_F(MountOfScans, EvalEstimatesEveryScanForItself) {
   EXPECT_EQ(scores("1"), scores("3"));
 }
 
-TEST_F(MountOfScans, EvalTakesSettingsOfTheMount) {
+TEST_F(MountOfScans, EvalAcceptsSettingsOfTheMount) {
   put_labelled(folder_ / "set", "0", yard(1.73f));
 
   const Outcome right = run({"eval", path("set"), "--methods", "surface", "--set",
@@ -240,7 +241,7 @@ TEST_F(MountOfScans, EvalTakesSettingsOfTheMount) {
   EXPECT_THAT(wrong.err, is_one_line_with("mount.max_tilt = 80 is out of range"));
 }
 
-TEST_F(MountOfScans, BenchAndSweepTakeIt) {
+TEST_F(MountOfScans, BenchAndSweepAcceptIt) {
   put_labelled(folder_ / "set", "0", yard(1.73f, 15));
 
   const Outcome bench = run({"bench", path("set/velodyne"), "--rounds", "1", "--tilt", "estimate"});
@@ -251,7 +252,7 @@ TEST_F(MountOfScans, BenchAndSweepTakeIt) {
   EXPECT_EQ(sweep.exit_code, 0) << sweep.err;
 }
 
-TEST_F(MountOfScans, WhatIsNoMountIsRefusedInOneLine) {
+TEST_F(MountOfScans, RejectsInvalidValuesOnOneLine) {
   put_scan(folder_ / "scans/0.bin", yard(1.73f));
   io::put_file(folder_ / "height.toml", "[mount]\nheight = \"guess\"\n");
   io::put_file(folder_ / "up.toml", "[mount]\nup = [1, 2]\n");
@@ -262,14 +263,17 @@ TEST_F(MountOfScans, WhatIsNoMountIsRefusedInOneLine) {
     EXPECT_FALSE(fs::exists(folder_ / "out"));
   };
 
-  refused({"--sensor-height", "high"}, "high is no number of metres, estimate or track");
-  refused({"--tilt", "1,2"}, "1,2 is not off, estimate or where up is, X,Y,Z");
+  refused({"--sensor-height", "high"},
+          "'high' is not a height (expected metres, estimate or track)");
+  refused({"--tilt", "1,2"},
+          "'1,2' is not a tilt (expected off, estimate or the up direction X,Y,Z)");
   refused({"--tilt", "0,0,0"}, "length of mount.up = 0");
   refused({"--tilt", "0,nan,1"}, "mount.up[1] = nan is out of range");
-  refused({"--sensor-height", "track", "--threads", "2"}, "--threads 2: with a tracked");
+  refused({"--sensor-height", "track", "--threads", "2"},
+          "--threads 2: a tracked sensor height needs one thread");
   refused({"--config", path("height.toml")},
-          R"(mount.height is one of "fixed", "estimate", "track")");
-  refused({"--config", path("up.toml")}, "mount.up is an array of three numbers");
+          R"(mount.height must be one of "fixed", "estimate", "track")");
+  refused({"--config", path("up.toml")}, "mount.up must be an array of three numbers");
   refused({"--set", "mount.reach=1"}, "mount.reach = 1 is out of range (expected 2 to 100 m)");
 }
 

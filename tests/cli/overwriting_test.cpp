@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// No command overwrites what it reads: it ends with 2 and one line before it writes anything.
+// No command overwrites its inputs: it prints one line and exits with 2 before it writes anything.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A folder with a scan, settings, a sensor, a protocol and a dataset.
+/// A directory with a scan, settings, a sensor, a protocol and a data set.
 class Overwriting : public testing::Test {
  protected:
   Overwriting() {
@@ -43,10 +43,10 @@ class Overwriting : public testing::Test {
     return (folder_ / name).string();
   }
 
-  /// Runs a command whose words @NAME stand for files of the folder, and expects it to name
-  /// output and input in one line, to end with 2 and to leave every file as it is.
-  void expect_refused(std::vector<std::string> words, const std::string& output,
-                      const std::string& input) const {
+  /// Runs a command, in which @NAME is a file of the directory. Expects one line that names output
+  /// and input, exit code 2 and unchanged files.
+  void expect_rejected(std::vector<std::string> words, const std::string& output,
+                       const std::string& input) const {
     const auto before = files_below(folder_.path());
     std::string whole;
     for (std::string& word : words) {
@@ -66,7 +66,7 @@ class Overwriting : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-TEST_F(Overwriting, IsRefusedForEveryOutputOfSegmentThroughLinksToo) {
+TEST_F(Overwriting, IsRejectedForEveryOutputOfSegmentAndThroughLinks) {
   struct Case {
     std::string output;
     std::vector<std::string> options;
@@ -90,15 +90,15 @@ TEST_F(Overwriting, IsRefusedForEveryOutputOfSegmentThroughLinksToo) {
     std::vector<std::string> words = {"segment", "@scan.bin", "--output", "@out"};
     words.insert(words.end(), each.options.begin(), each.options.end());
     fs::create_hard_link(folder_ / "scan.bin", folder_ / "out" / each.output);
-    expect_refused(words, "out/" + each.output, "scan.bin");
+    expect_rejected(words, "out/" + each.output, "scan.bin");
     fs::remove(folder_ / "out" / each.output);
     fs::create_symlink(folder_ / "scan.bin", folder_ / "out" / each.output);
-    expect_refused(words, "out/" + each.output, "scan.bin");
+    expect_rejected(words, "out/" + each.output, "scan.bin");
     fs::remove(folder_ / "out" / each.output);
   }
 }
 
-TEST_F(Overwriting, IsRefusedForEveryInputOfSegment) {
+TEST_F(Overwriting, IsRejectedForEveryInputOfSegment) {
   put_scan(folder_ / "other.bin");
   fs::create_directory(folder_ / "truth");
   io::put_file(folder_ / "truth/scan.label", std::string(16000, '\0'));
@@ -114,35 +114,35 @@ TEST_F(Overwriting, IsRefusedForEveryInputOfSegment) {
   };
 
   link("truth/scan.label");
-  expect_refused(with({"--reference", "@truth"}), "./scan.label", "truth/scan.label");
-  expect_refused(with({"--reference", "@scan.label"}), "./scan.label", "scan.label");
+  expect_rejected(with({"--reference", "@truth"}), "./scan.label", "truth/scan.label");
+  expect_rejected(with({"--reference", "@scan.label"}), "./scan.label", "scan.label");
   link("mine.toml");
-  expect_refused(with({"--config", "@mine.toml"}), "./scan.label", "mine.toml");
+  expect_rejected(with({"--config", "@mine.toml"}), "./scan.label", "mine.toml");
   link("sensor.toml");
-  expect_refused(with({"--sensor", "@sensor.toml"}), "./scan.label", "sensor.toml");
+  expect_rejected(with({"--sensor", "@sensor.toml"}), "./scan.label", "sensor.toml");
   io::put_file(folder_ / "names-it.toml", "sensor = \"sensor.toml\"\n");
-  expect_refused(with({"--config", "@names-it.toml"}), "./scan.label", "sensor.toml");
+  expect_rejected(with({"--config", "@names-it.toml"}), "./scan.label", "sensor.toml");
   link("other.bin");
-  expect_refused({"segment", "@scan.bin", "@other.bin", "-o", "@."}, "./scan.label", "other.bin");
+  expect_rejected({"segment", "@scan.bin", "@other.bin", "-o", "@."}, "./scan.label", "other.bin");
 }
 
-TEST_F(Overwriting, IsRefusedIfAScanIsCalledLikeAnOutputOfAnother) {
+TEST_F(Overwriting, IsRejectedIfAScanHasTheNameOfAnOutput) {
   put_scan(folder_ / "d/x.pcd");
   put_scan(folder_ / "d/x.ground.pcd", small_scan(300));
-  expect_refused({"segment", "@d", "-o", "@d", "--format", "split"}, "d/x.ground.pcd",
-                 "d/x.ground.pcd");
+  expect_rejected({"segment", "@d", "-o", "@d", "--format", "split"}, "d/x.ground.pcd",
+                  "d/x.ground.pcd");
 
   put_scan(folder_ / "heights/k.bin");
   put_scan(folder_ / "heights/k.heights.npy", small_scan(300));
-  expect_refused({"segment", "@heights", "-o", "@heights", "--heights"}, "heights/k.heights.npy",
-                 "heights/k.heights.npy");
+  expect_rejected({"segment", "@heights", "-o", "@heights", "--heights"}, "heights/k.heights.npy",
+                  "heights/k.heights.npy");
   put_scan(folder_ / "k.bin");
   put_scan(folder_ / "k.heights.npy", small_scan(300));
-  expect_refused({"segment", "@k.bin", "@k.heights.npy", "-o", "@.", "--heights"},
-                 "./k.heights.npy", "k.heights.npy");
+  expect_rejected({"segment", "@k.bin", "@k.heights.npy", "-o", "@.", "--heights"},
+                  "./k.heights.npy", "k.heights.npy");
 }
 
-TEST_F(Overwriting, TwoOutputsOfARunInOneFileAreRefused) {
+TEST_F(Overwriting, IsRejectedForTwoOutputsInOneFile) {
   put_scan(folder_ / "k.bin");
   put_scan(folder_ / "k.heights.pcd");
 
@@ -155,7 +155,7 @@ TEST_F(Overwriting, TwoOutputsOfARunInOneFileAreRefused) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
-TEST_F(Overwriting, AFolderIsSplitTwiceWithTheSameResult) {
+TEST_F(Overwriting, SplittingADirectoryTwiceGivesTheSameResult) {
   put_scan(folder_ / "d/x.pcd");
   put_scan(folder_ / "d/y.bin");
   const std::vector<std::string> words = {"segment",  path("d"), "-o",       path("d"),
@@ -171,21 +171,21 @@ TEST_F(Overwriting, AFolderIsSplitTwiceWithTheSameResult) {
   EXPECT_THAT(lines_of(again.out), testing::Contains(HasSubstr("2 of 2 scans segmented")));
 }
 
-TEST_F(Overwriting, IsRefusedForTheSettingsThatDoctorWrites) {
-  expect_refused({"doctor", "@scan.bin", "-o", "@scan.bin"}, "scan.bin", "scan.bin");
-  expect_refused({"doctor", "@scan.bin", "--config", "@mine.toml", "-o", "@mine.toml"}, "mine.toml",
-                 "mine.toml");
-  expect_refused({"doctor", "@scan.bin", "--sensor", "@sensor.toml", "-o", "@sensor.toml"},
-                 "sensor.toml", "sensor.toml");
+TEST_F(Overwriting, IsRejectedForTheSettingsThatDoctorWrites) {
+  expect_rejected({"doctor", "@scan.bin", "-o", "@scan.bin"}, "scan.bin", "scan.bin");
+  expect_rejected({"doctor", "@scan.bin", "--config", "@mine.toml", "-o", "@mine.toml"},
+                  "mine.toml", "mine.toml");
+  expect_rejected({"doctor", "@scan.bin", "--sensor", "@sensor.toml", "-o", "@sensor.toml"},
+                  "sensor.toml", "sensor.toml");
 }
 
-TEST_F(Overwriting, ADemoDoesNotReplaceTheScanOfADataset) {
+TEST_F(Overwriting, IsRejectedForADemoInADataset) {
   const auto before = files_below(folder_ / "data");
 
   const Outcome outcome = run({"demo", "-o", path("data")});
 
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, is_one_line_with("data/velodyne/000000.bin: is not of an earlier demo"));
+  EXPECT_THAT(outcome.err, is_one_line_with("data/velodyne/000000.bin: was not written by a demo"));
   EXPECT_EQ(files_below(folder_ / "data"), before);
 }
 

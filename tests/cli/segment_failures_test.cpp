@@ -23,7 +23,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A folder of two good scans and, between them, one that is cut off in its third point.
+/// A directory with two good scans and, between them, a scan that is truncated in its third point.
 class AmongGoodScans : public testing::Test {
  protected:
   AmongGoodScans() {
@@ -42,7 +42,7 @@ class AmongGoodScans : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-TEST_F(AmongGoodScans, ABadFileIsOneLineWithFileAndByteAndTheOthersAreDone) {
+TEST_F(AmongGoodScans, ReportsABadFileOnOneLineAndSegmentsTheOthers) {
   const Outcome outcome = segment();
 
   EXPECT_EQ(outcome.exit_code, 1);
@@ -50,11 +50,11 @@ TEST_F(AmongGoodScans, ABadFileIsOneLineWithFileAndByteAndTheOthersAreDone) {
               is_one_line_with("flagstone: " + (folder_ / "scans/b.bin").string() + ": byte 32: "));
   EXPECT_THAT(lines_of(outcome.out),
               ElementsAre(HasSubstr("a.bin: 4000 points"), HasSubstr("c.bin: 4000 points"),
-                          HasSubstr("2 of 3 scans segmented"), HasSubstr(" scans a second")));
+                          HasSubstr("2 of 3 scans segmented"), HasSubstr(" scans per second")));
   EXPECT_THAT(names_below(folder_ / "out"), ElementsAre("a.label", "c.label"));
 }
 
-TEST_F(AmongGoodScans, ABadFileIsAJsonObjectWithTheErrorInItsPlace) {
+TEST_F(AmongGoodScans, ReportsABadFileAsAJsonObjectInOrder) {
   const Outcome outcome = segment({"--json"});
 
   const std::vector<std::string> lines = lines_of(outcome.out);
@@ -64,7 +64,7 @@ TEST_F(AmongGoodScans, ABadFileIsAJsonObjectWithTheErrorInItsPlace) {
   EXPECT_EQ(json::parse(lines[2])["points"], 4000);
 }
 
-TEST(SegmentFailure, AFileThatIsNotThereIsOneLine) {
+TEST(SegmentFailure, ReportsAMissingFileOnOneLine) {
   const io::TemporaryFolder folder;
 
   const Outcome outcome =
@@ -74,7 +74,7 @@ TEST(SegmentFailure, AFileThatIsNotThereIsOneLine) {
   EXPECT_THAT(outcome.err, is_one_line_with((folder / "no.bin").string()));
 }
 
-TEST(SegmentFailure, AnUnknownEndingIsOneLineWithTheEndingsAllowed) {
+TEST(SegmentFailure, ReportsAnUnknownExtensionAndTheKnownOnes) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "scan.las", "LASF");
 
@@ -85,7 +85,7 @@ TEST(SegmentFailure, AnUnknownEndingIsOneLineWithTheEndingsAllowed) {
   EXPECT_THAT(outcome.err, AllOf(is_one_line_with("scan.las"), HasSubstr(".pcd")));
 }
 
-TEST(SegmentFailure, AFileNameOfTwoLinesIsStillOneLine) {
+TEST(SegmentFailure, ReportsAFileNameWithALineBreakOnOneLine) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "two\nlines.bin", "x");
 
@@ -96,7 +96,7 @@ TEST(SegmentFailure, AFileNameOfTwoLinesIsStillOneLine) {
   EXPECT_THAT(outcome.err, is_one_line_with("two\\x0alines.bin: byte 0"));
 }
 
-TEST(SegmentFailure, AnOutputFolderThatCannotBeMadeIsOneLine) {
+TEST(SegmentFailure, ReportsAnOutputDirectoryThatCannotBeCreated) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
   io::put_file(folder / "taken", "mine");
@@ -105,15 +105,15 @@ TEST(SegmentFailure, AnOutputFolderThatCannotBeMadeIsOneLine) {
       run({"segment", (folder / "scan.bin").string(), "--output", (folder / "taken").string()});
 
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, is_one_line_with((folder / "taken").string() + ": cannot be made: "));
+  EXPECT_THAT(outcome.err, is_one_line_with((folder / "taken").string() + ": cannot be created: "));
   EXPECT_EQ(io::contents_of(folder / "taken"), "mine");
 }
 
-TEST(SegmentFailure, AnOutputThatCannotBeWrittenIsOneLineAndLeavesNothing) {
+TEST(SegmentFailure, ReportsAnUnwritableOutputAndLeavesNothing) {
   for (const std::string format : {"label", "npy", "pcd", "ply"}) {
     const io::TemporaryFolder folder;
     put_scan(folder / "scan.bin");
-    fs::create_directories(folder / ("out/scan." + format));  // a folder where the file should be
+    fs::create_directories(folder / ("out/scan." + format));  // a directory in place of the file
 
     const Outcome outcome = run({"segment", (folder / "scan.bin").string(), "--output",
                                  (folder / "out").string(), "--format", format});
@@ -124,7 +124,7 @@ TEST(SegmentFailure, AnOutputThatCannotBeWrittenIsOneLineAndLeavesNothing) {
   }
 }
 
-TEST(SegmentFailure, StandardOutputThatCannotBeWrittenIsAnError) {
+TEST(SegmentFailure, ReportsUnwritableStandardOutput) {
   const io::TemporaryFolder folder;
   for (const char* name : {"a.bin", "b.bin", "c.bin"})
     put_scan(folder / (std::string("scans/") + name));

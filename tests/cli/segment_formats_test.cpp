@@ -21,7 +21,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// The scan itself with its labels, as the library makes it.
+/// The scan with the labels of the library.
 io::Cloud labelled_scan() {
   const io::Cloud scan = small_scan();
   io::Cloud labelled;
@@ -49,7 +49,7 @@ TEST_P(SegmentFormat, KeepsEveryFieldAndAddsTheLabel) {
 INSTANTIATE_TEST_SUITE_P(All, SegmentFormat, testing::Values("npy", "pcd", "ply"),
                          [](const auto& format) { return format.param; });
 
-TEST(SegmentU8, IsOneByteAPointInANumPyArray) {
+TEST(SegmentU8, WritesOneBytePerPointInANumPyArray) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
 
@@ -64,7 +64,7 @@ TEST(SegmentU8, IsOneByteAPointInANumPyArray) {
   EXPECT_EQ(labels, labels_of(small_scan()));
 }
 
-TEST(SegmentU8, IsFoundAsAReference) {
+TEST(SegmentU8, CanBeAReference) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
   const std::string scan = (folder / "scan.bin").string();
@@ -78,7 +78,7 @@ TEST(SegmentU8, IsFoundAsAReference) {
   EXPECT_THAT(outcome.out, testing::HasSubstr("F1 100.00 % (patchwork)"));
 }
 
-/// The points of `scan` whose label is, or is not, ground.
+/// The points of `scan` whose label is ground, or is not ground.
 io::Cloud part_of(const io::Cloud& scan, bool ground) {
   std::vector<std::uint8_t> mask;
   for (const Label label : labels_of(scan)) mask.push_back((label == Label::ground) == ground);
@@ -89,7 +89,7 @@ io::Cloud part_of(const io::Cloud& scan, bool ground) {
 
 class SegmentSplit : public testing::TestWithParam<std::string> {};
 
-TEST_P(SegmentSplit, DividesThePointsAndKeepsTheirFieldsInTheInputsFormat) {
+TEST_P(SegmentSplit, SplitsThePointsAndKeepsFieldsAndFormat) {
   const std::string extension = GetParam();
   const io::TemporaryFolder folder;
   put_scan(folder / ("scan" + extension));
@@ -112,7 +112,7 @@ TEST_P(SegmentSplit, DividesThePointsAndKeepsTheirFieldsInTheInputsFormat) {
   EXPECT_TRUE(std::ranges::equal(nonground.bytes(), part_of(scan, false).bytes()));
 }
 
-/// 4,000 points of four floats are 3,200 of five, which is what .pcd.bin holds.
+/// 4,000 points of four floats become 3,200 of five, because .pcd.bin has five floats per point.
 INSTANTIATE_TEST_SUITE_P(All, SegmentSplit,
                          testing::Values(".bin", ".pcd.bin", ".PCD.BIN", ".pcd", ".ply", ".npy"),
                          [](const auto& split) {

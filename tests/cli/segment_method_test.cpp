@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// The codes of the labels that a method of the library gives.
+/// The label codes of a method of the library.
 std::vector<std::uint32_t> codes_by(Segmenter& method, const io::Cloud& scan) {
   Segmentation result;
   EXPECT_TRUE(method.segment(scan.view(), result).ok());
@@ -49,7 +49,7 @@ class SegmentMethod : public testing::TestWithParam<std::string> {
   io::TemporaryFolder folder_;
 };
 
-TEST_P(SegmentMethod, LabelsAScanAsTheLibraryDoes) {
+TEST_P(SegmentMethod, WritesTheLabelsOfTheLibrary) {
   const Outcome outcome = segment({});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -76,14 +76,14 @@ TEST_P(SegmentMethod, PrintsItsSettingsAsTomlThatReadsBack) {
             codes_by(*make_segmenter(GetParam()), small_scan()));
 }
 
-TEST_P(SegmentMethod, DrawsAPicture) {
+TEST_P(SegmentMethod, DrawsAnImage) {
   const Outcome outcome = segment({"--image"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(io::contents_of(folder_ / "out/scan.png"), testing::StartsWith("\x89PNG\r\n\x1a\n"));
 }
 
-TEST_P(SegmentMethod, TintsPatchesIfItHasZonesAndElseSaysThatItHasNone) {
+TEST_P(SegmentMethod, ColorsPatchesIfItHasZonesAndOtherwiseRejectsTheOption) {
   const bool has_zones = default_config(GetParam()).get_if<PatchworkConfig>() != nullptr;
 
   const Outcome outcome = segment({"--image", "--color-patches"});
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, SegmentMethod, testing::ValuesIn(names()),
                            return name;
                          });
 
-TEST(SegmentWithMethod, SettingsAreThoseOfTheMethod) {
+TEST(SegmentWithMethod, AcceptsOnlySettingsOfTheMethod) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
   const auto segment = [&](const std::string& method, const std::string& setting) {

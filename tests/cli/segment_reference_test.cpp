@@ -37,7 +37,7 @@ std::vector<std::uint32_t> made_up_classes(const io::Cloud& scan) {
   return classes;
 }
 
-/// Two scans, and their labels in another folder of the same shape.
+/// Two scans, and their labels in another directory of the same structure.
 class WithReference : public testing::Test {
  protected:
   WithReference() {
@@ -72,10 +72,10 @@ TEST_F(WithReference, F1IsPrintedPerScanAndProtocolAndAsAMean) {
   EXPECT_THAT(lines_of(outcome.out),
               ElementsAre(has_both, has_both, HasSubstr("protocol patchwork "),
                           HasSubstr("protocol patchwork++ "), HasSubstr("2 of 2 scans"),
-                          HasSubstr(" scans a second")));
+                          HasSubstr(" scans per second")));
 }
 
-TEST_F(WithReference, ScoresAreThoseOfTheEvaluationLibrary) {
+TEST_F(WithReference, ScoresMatchTheEvaluationLibrary) {
   const io::Cloud scan = small_scan();
   const auto classes = made_up_classes(scan);
 
@@ -94,7 +94,7 @@ TEST_F(WithReference, ScoresAreThoseOfTheEvaluationLibrary) {
   }
 }
 
-TEST_F(WithReference, AScanWithoutGroundInTheReferenceHasNoF1AndIsLeftOutOfTheMeans) {
+TEST_F(WithReference, ScanWithoutTrueGroundHasNoF1AndIsNotInTheMeans) {
   const std::vector<std::uint32_t> buildings(small_scan().size(), 50);
   const Status status = io::write_class_file(folder_ / "labels/b.label", buildings);
   ASSERT_TRUE(status.ok()) << status.message();
@@ -103,11 +103,10 @@ TEST_F(WithReference, AScanWithoutGroundInTheReferenceHasNoF1AndIsLeftOutOfTheMe
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("; F1 n/a % (patchwork)"));
-  EXPECT_THAT(outcome.out,
-              HasSubstr("(mean of 1 scans, 1 without ground in the ground truth left out, %)"));
+  EXPECT_THAT(outcome.out, HasSubstr("(mean of 1 scans, without 1 that have no ground, %)"));
 }
 
-TEST_F(WithReference, LidarsegLabelsAreScoredUnderTheirOwnProtocol) {
+TEST_F(WithReference, ScoresLidarsegLabelsUnderTheirProtocol) {
   io::put_file(folder_ / "a_lidarseg.bin", std::string(4000, '\x18'));  // 24: driveable surface
 
   const json printed = json::parse(segment("scans/a.bin", "", "out", {"--json"}).out)["scores"];
@@ -116,7 +115,7 @@ TEST_F(WithReference, LidarsegLabelsAreScoredUnderTheirOwnProtocol) {
   EXPECT_EQ(printed[eval::lidarseg_protocol().name]["precision"], 1.0);
 }
 
-TEST_F(WithReference, AReferenceOfTheWrongSizeIsOneLineWithBothNumbers) {
+TEST_F(WithReference, ReportsAReferenceOfTheWrongSizeWithBothNumbers) {
   io::put_file(folder_ / "short.label", std::string(4 * 3999, '\0'));
 
   const Outcome outcome = segment("scans/a.bin", "short.label", "out");
@@ -126,7 +125,7 @@ TEST_F(WithReference, AReferenceOfTheWrongSizeIsOneLineWithBothNumbers) {
               AllOf(is_one_line_with("short.label"), HasSubstr("3999"), HasSubstr("4000")));
 }
 
-TEST_F(WithReference, AMissingReferenceIsOneLineWithTheNameThatWasLookedFor) {
+TEST_F(WithReference, ReportsTheNameOfAMissingReference) {
   fs::remove(folder_ / "labels/b.label");
 
   const Outcome outcome = segment("scans", "labels", "out");
@@ -136,7 +135,7 @@ TEST_F(WithReference, AMissingReferenceIsOneLineWithTheNameThatWasLookedFor) {
   EXPECT_THAT(outcome.out, HasSubstr("1 of 2 scans segmented"));
 }
 
-TEST_F(WithReference, TheReferenceIsNotOverwritten) {
+TEST_F(WithReference, DoesNotOverwriteTheReference) {
   const auto before = files_below(folder_ / "labels");
 
   const Outcome outcome = segment("scans/a.bin", "labels", "labels");

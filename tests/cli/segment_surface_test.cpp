@@ -41,35 +41,37 @@ class SegmentSurface : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-TEST_F(SegmentSurface, IsRefusedWhereTheMethodMakesNone) {
+TEST_F(SegmentSurface, IsRejectedForMethodsWithoutASurface) {
   for (const std::string option : {"--heights", "--surface"}) {
     const Outcome outcome = segment({"--method", "patchwork", option});
 
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.out, "");
-    EXPECT_THAT(outcome.err,
-                is_one_line_with(option + ": method patchwork makes no surface; --method surface"));
+    EXPECT_THAT(
+        outcome.err,
+        is_one_line_with(option + ": method patchwork computes no surface (expected --method "
+                                  "surface)"));
     EXPECT_FALSE(fs::exists(folder_ / "out"));
   }
 }
 
-TEST_F(SegmentSurface, ResolutionIsRefusedWithoutASurface) {
+TEST_F(SegmentSurface, RejectsAResolutionWithoutASurface) {
   const Outcome outcome = segment({"--surface-resolution", "0.5"});
 
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, is_one_line_with("--surface"));
+  EXPECT_THAT(outcome.err, is_one_line_with("--surface-resolution: needs --surface"));
 }
 
-TEST_F(SegmentSurface, ResolutionIsRefusedOutOfRange) {
+TEST_F(SegmentSurface, RejectsAResolutionOutOfRange) {
   for (const std::string resolution : {"0.09", "10.1", "-1", "nan", "fine"}) {
     const Outcome outcome = segment({"--surface", "--surface-resolution", resolution});
 
     EXPECT_EQ(outcome.exit_code, 2) << resolution;
-    EXPECT_THAT(outcome.err, is_one_line_with("--surface-resolution")) << resolution;
+    EXPECT_THAT(outcome.err, is_one_line_with("(expected 0.1 to 10)")) << resolution;
   }
 }
 
-/// With the method that makes a surface.
+/// With the method that computes a surface.
 class SegmentBySurface : public SegmentSurface {
  protected:
   void SetUp() override {
@@ -77,7 +79,7 @@ class SegmentBySurface : public SegmentSurface {
     ASSERT_TRUE(segmenter.segment(scan_.view(), expected_).ok());
   }
 
-  /// Runs it, expecting success.
+  /// Runs the command and expects success.
   Outcome segment_by_surface(std::vector<std::string> more) const {
     more.insert(more.end(), {"--method", "surface"});
     Outcome outcome = segment(more);
@@ -102,7 +104,7 @@ TEST_F(SegmentBySurface, WritesTheHeightOfEveryPoint) {
   EXPECT_THAT(heights.values, has_the_bits_of(expected_.heights()));
 }
 
-TEST_F(SegmentBySurface, AddsAFieldOfHeightsToALabelledCloud) {
+TEST_F(SegmentBySurface, AddsAHeightFieldToALabelledCloud) {
   for (const std::string format : {"npy", "pcd", "ply"}) {
     segment_by_surface({"--heights", "--format", format});
 
@@ -118,13 +120,13 @@ TEST_F(SegmentBySurface, AddsAFieldOfHeightsToALabelledCloud) {
   }
 }
 
-TEST_F(SegmentBySurface, AddsNoFieldUnlessHeightsAreAskedFor) {
+TEST_F(SegmentBySurface, AddsNoHeightFieldByDefault) {
   segment_by_surface({"--format", "pcd"});
 
   EXPECT_EQ(scan_of(folder_ / "out/scan.pcd").find("height"), nullptr);
 }
 
-TEST_F(SegmentBySurface, WritesTheGroundAsAGridItsFrameAndAMap) {
+TEST_F(SegmentBySurface, WritesTheGroundAsAGridWithGeometryAndMap) {
   segment_by_surface({"--surface"});
 
   EXPECT_THAT(names_below(folder_ / "out"), ElementsAre("scan.label", "scan.surface.json",
@@ -138,7 +140,7 @@ TEST_F(SegmentBySurface, WritesTheGroundAsAGridItsFrameAndAMap) {
               has_the_bits_of(std::span<const float>(map.heights)));
 }
 
-TEST_F(SegmentBySurface, WritesCellsOfTheSizeAskedFor) {
+TEST_F(SegmentBySurface, WritesCellsOfTheGivenSize) {
   segment_by_surface({"--surface", "--surface-resolution", "2"});
 
   const auto width = static_cast<std::size_t>(expected_.surface().extent());
@@ -146,7 +148,7 @@ TEST_F(SegmentBySurface, WritesCellsOfTheSizeAskedFor) {
               ElementsAre(width, width));
 }
 
-TEST_F(SegmentBySurface, NamesWhatItWroteInJson) {
+TEST_F(SegmentBySurface, ListsItsOutputsInJson) {
   const Outcome outcome = segment_by_surface({"--heights", "--surface", "--image", "--json"});
 
   const auto outputs = nlohmann::json::parse(outcome.out)["outputs"];

@@ -23,21 +23,21 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// The codes that the contract has for a scan's labels.
-std::vector<std::uint32_t> contract_codes(const io::Cloud& scan) {
+/// The label codes of a scan.
+std::vector<std::uint32_t> label_codes(const io::Cloud& scan) {
   std::vector<std::uint32_t> codes;
   for (const Label label : labels_of(scan)) codes.push_back(static_cast<std::uint32_t>(label));
   return codes;
 }
 
-/// A folder with scans of 0, 100, 200, ... points.
+/// Writes scans of 0, 100, 200, ... points to a directory.
 void put_scans(const fs::path& folder, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     put_scan(folder / (std::to_string(100 + i) + ".bin"), small_scan(100 * i, 1));
   }
 }
 
-TEST(Segment, WritesOneCodeOfTheContractPerPoint) {
+TEST(Segment, WritesOneLabelCodePerPoint) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
 
@@ -50,13 +50,13 @@ TEST(Segment, WritesOneCodeOfTheContractPerPoint) {
   EXPECT_THAT(names_below(folder / "deep/out"), ElementsAre("scan.label"));
   EXPECT_EQ(fs::file_size(folder / "deep/out/scan.label"), 4 * 4000U);
   const auto codes = codes_of(folder / "deep/out/scan.label");
-  EXPECT_EQ(codes, contract_codes(small_scan()));
+  EXPECT_EQ(codes, label_codes(small_scan()));
   for (std::uint32_t code = 0; code < label_count; ++code) {
     EXPECT_THAT(codes, testing::Contains(code));
   }
 }
 
-TEST(Segment, SemanticKittiCodesAre40ForGroundAnd0ForAllElse) {
+TEST(Segment, SemanticKittiCodesAre40ForGroundOtherwise0) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
   std::vector<std::uint32_t> expected;
@@ -71,27 +71,27 @@ TEST(Segment, SemanticKittiCodesAre40ForGroundAnd0ForAllElse) {
   EXPECT_EQ(codes_of(folder / "out/scan.label"), expected);
 }
 
-TEST(Segment, FiveColumnsAreReadFromNuScenesFilesAndByOption) {
+TEST(Segment, ReadsFiveColumnsFromNuScenesFilesAndByOption) {
   const io::TemporaryFolder folder;
   io::Cloud five;
   ASSERT_TRUE(io::Cloud::from_floats(std::vector<float>(300, 1.0f), 5, five).ok());
   put_scan(folder / "named.pcd.bin", five);
-  put_scan(folder / "told.bin", five);
+  put_scan(folder / "given.bin", five);
 
   EXPECT_EQ(
       run({"segment", (folder / "named.pcd.bin").string(), "--output", (folder / "out").string()})
           .exit_code,
       0);
-  EXPECT_EQ(run({"segment", (folder / "told.bin").string(), "--output", (folder / "out").string(),
+  EXPECT_EQ(run({"segment", (folder / "given.bin").string(), "--output", (folder / "out").string(),
                  "--columns", "5"})
                 .exit_code,
             0);
 
   EXPECT_EQ(codes_of(folder / "out/named.label").size(), 60U);
-  EXPECT_EQ(codes_of(folder / "out/told.label").size(), 60U);
+  EXPECT_EQ(codes_of(folder / "out/given.label").size(), 60U);
 }
 
-TEST(Segment, AnEmptyFileIsAScanOfNoPoints) {
+TEST(Segment, AcceptsAnEmptyFileAsAScanWithoutPoints) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "empty.bin", "");
 
@@ -129,7 +129,7 @@ TEST(Segment, JsonIsOneObjectPerScanInInputOrder) {
   }
 }
 
-TEST(Segment, AnyNumberOfThreadsWritesTheSameBytes) {
+TEST(Segment, OutputDoesNotDependOnTheNumberOfThreads) {
   const io::TemporaryFolder folder;
   put_scans(folder / "scans", 20);
 
@@ -145,7 +145,7 @@ TEST(Segment, AnyNumberOfThreadsWritesTheSameBytes) {
   EXPECT_EQ(files_below(folder / "5"), files_below(folder / "1"));
 }
 
-TEST(Segment, ManyScansEndInASummaryAndInWhatBinds) {
+TEST(Segment, EndsWithASummaryAndTheBottleneck) {
   const io::TemporaryFolder folder;
   put_scans(folder / "scans", 3);
 
@@ -155,11 +155,11 @@ TEST(Segment, ManyScansEndInASummaryAndInWhatBinds) {
   const std::vector<std::string> lines = lines_of(outcome.out);
   ASSERT_EQ(lines.size(), 5U);
   EXPECT_THAT(lines[3], StartsWith("3 of 3 scans segmented, 300 points, median "));
-  EXPECT_THAT(lines[4], testing::ContainsRegex("^[0-9.]+ scans a second, [0-9.]+ MB/s read; time "
-                                               "of 2 workers: .* binds?: .* segmenting a scan$"));
+  EXPECT_THAT(lines[4], testing::ContainsRegex("^[0-9.]+ scans per second, [0-9.]+ MB/s read; 2 "
+                                               "workers: .* bottleneck: .* ms segmentation\\)$"));
 }
 
-TEST(Segment, APictureIsAPngBesideTheLabels) {
+TEST(Segment, WritesAnImageNextToTheLabels) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
 
@@ -174,7 +174,7 @@ TEST(Segment, APictureIsAPngBesideTheLabels) {
   EXPECT_TRUE(scan["milliseconds"].contains("picture"));
 }
 
-TEST(Segment, PicturesAreTheSameBytesOnEveryRun) {
+TEST(Segment, ImagesAreDeterministic) {
   const io::TemporaryFolder folder;
   put_scan(folder / "scan.bin");
   for (const char* output : {"one", "two"}) {
@@ -188,7 +188,7 @@ TEST(Segment, PicturesAreTheSameBytesOnEveryRun) {
   EXPECT_EQ(files_below(folder / "one") == files_below(folder / "two"), true);
 }
 
-TEST(Segment, AScanInMillimetresIsSentToDoctor) {
+TEST(Segment, SuggestsTheDoctorForAScanInMillimetres) {
   const io::TemporaryFolder folder;
   const io::Cloud metres = small_scan();
   std::vector<float> values;

@@ -66,14 +66,15 @@ TEST_F(SensorOption, DerivesTheSettingsOfEveryKnownSensor) {
   }
 }
 
-TEST_F(SensorOption, TellsTheSensorAndTheRuleInTheHeader) {
+TEST_F(SensorOption, PrintsTheSensorAndTheRuleInTheHeader) {
   EXPECT_THAT(
       config_of_patchwork({"--sensor", "os0-128"}).out,
       AllOf(testing::StartsWith("# flagstone, method patchwork, derived from sensor os0-128\n"),
-            HasSubstr("h / tan(-elevation)"), HasSubstr("docs/reference/sensors.md")));
+            HasSubstr("h / tan(-elevation)"),
+            HasSubstr("docs/explanation/settings-from-a-sensor.md")));
 }
 
-TEST_F(SensorOption, TakesAFile) {
+TEST_F(SensorOption, AcceptsAFile) {
   const PatchworkConfig config = printed_config({"--sensor", put("robot.toml", robot)});
   const PatchworkConfig of_the_same_beams = PatchworkConfig::for_sensor("vlp-16");
 
@@ -81,7 +82,7 @@ TEST_F(SensorOption, TakesAFile) {
   EXPECT_EQ(config.zones.front().ring_radii, of_the_same_beams.zones.front().ring_radii);
 }
 
-TEST_F(SensorOption, IsAlsoAKeyOfTheConfigFileResolvedBeforeItsOtherKeys) {
+TEST_F(SensorOption, IsAKeyOfTheConfigFileThatIsAppliedFirst) {
   const std::string file = put("mine.toml", "distance_margin = 0.2\nsensor = \"vlp-16\"\n");
   PatchworkConfig expected = PatchworkConfig::for_sensor("vlp-16");
   expected.distance_margin = 0.2f;
@@ -89,14 +90,14 @@ TEST_F(SensorOption, IsAlsoAKeyOfTheConfigFileResolvedBeforeItsOtherKeys) {
   EXPECT_TRUE(is_same(printed_config({"--config", file}), expected));
 }
 
-TEST_F(SensorOption, FilesThatAConfigFileNamesLieBesideIt) {
+TEST_F(SensorOption, FileInAConfigFileIsRelativeToIt) {
   put("robot.toml", robot);
   const std::string file = put("mine.toml", "sensor = \"robot.toml\"\n");
 
   EXPECT_EQ(printed_config({"--config", file}).sensor_height, 0.6f);
 }
 
-TEST_F(SensorOption, DerivesForTheHeightThatIsSetWhereverItIs) {
+TEST_F(SensorOption, DerivesSettingsForTheConfiguredHeight) {
   const PatchworkConfig expected = derived("vlp-16", 1.5);
   const std::string file = put("mine.toml", "sensor_height = 1.5\n");
 
@@ -106,14 +107,14 @@ TEST_F(SensorOption, DerivesForTheHeightThatIsSetWhereverItIs) {
   EXPECT_TRUE(is_same(printed_config({"--sensor", "vlp-16", "--config", file}), expected));
 }
 
-TEST_F(SensorOption, KeepsItsZonesWhereTheOriginLiesOnTheGround) {
+TEST_F(SensorOption, KeepsItsZonesIfTheOriginIsOnTheGround) {
   PatchworkConfig expected = PatchworkConfig::for_sensor("os0-128");
   expected.sensor_height = 0;
 
   EXPECT_TRUE(is_same(printed_config({"--sensor", "os0-128", "--sensor-height", "0"}), expected));
 }
 
-TEST_F(SensorOption, YieldsToSettings) {
+TEST_F(SensorOption, SettingsOverrideIt) {
   PatchworkConfig expected = PatchworkConfig::for_sensor("at128");
   expected.uprightness.angle = 60;
   expected.zones = {{.ring_radii = {20, 40}, .sectors = 8}};
@@ -123,7 +124,7 @@ TEST_F(SensorOption, YieldsToSettings) {
                       expected));
 }
 
-TEST_F(SensorOption, ServesEveryMethod) {
+TEST_F(SensorOption, WorksWithEveryMethod) {
   for (const std::string_view method : config::method_names()) {
     MethodConfig config = default_config(method);
     const Outcome outcome = run({"config", "--method", std::string(method), "--sensor", "vlp-16"});
@@ -138,15 +139,15 @@ TEST_F(SensorOption, ServesEveryMethod) {
   }
 }
 
-TEST_F(SensorOption, IsRefusedBesideAPreset) {
+TEST_F(SensorOption, IsRejectedWithAPreset) {
   const Outcome outcome = config_of_patchwork({"--sensor", "vlp-16", "--preset", "paper"});
 
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("--sensor beside --preset paper"));
+  EXPECT_THAT(outcome.err, HasSubstr("--sensor: cannot be combined with --preset paper"));
   EXPECT_EQ(config_of_patchwork({"--sensor", "vlp-16", "--preset", "default"}).exit_code, 0);
 }
 
-TEST_F(SensorOption, IsRefusedInOneLineThatSaysWhatIsWrong) {
+TEST_F(SensorOption, RejectsInvalidSensorsOnOneLine) {
   const std::string named = put("named.toml", "sensor = \"vlp-16\"\n");
   const std::string wrong = put("wrong.toml", "sensor = 3\n");
   const std::string unknown = put("unknown.toml", "sensor = \"os9\"\n");
@@ -162,13 +163,13 @@ TEST_F(SensorOption, IsRefusedInOneLineThatSaysWhatIsWrong) {
   expect({"--sensor", "os9"}, "--sensor: no sensor is named 'os9' (expected hdl-64e");
   expect({"--sensor", bad}, "bad.toml: line 5, column 13: ");
   expect({"--sensor", blind}, "no beam meets flat ground");
-  expect({"--sensor", "vlp-16", "--config", named}, "named.toml names a sensor too");
+  expect({"--sensor", "vlp-16", "--config", named}, "named.toml also sets a sensor");
   expect({"--config", unknown}, "unknown.toml: sensor: no sensor is named");
-  expect({"--config", wrong}, "wrong.toml: line 1, column 10: sensor is a text");
-  expect({"--set", "sensor=\"vlp-16\""}, "a sensor is named by --sensor");
+  expect({"--config", wrong}, "wrong.toml: line 1, column 10: sensor must be a string");
+  expect({"--set", "sensor=\"vlp-16\""}, "cannot set the sensor (use --sensor");
 }
 
-TEST_F(SensorOption, OfSegmentAndEvalIsThatOfConfig) {
+TEST_F(SensorOption, IsTheSameInSegmentEvalAndConfig) {
   const std::string scan = put("velodyne.bin", "");
   put_scan(scan);
   const std::string settings = put("vlp.toml", config_of_patchwork({"--sensor", "vlp-16"}).out);
@@ -186,7 +187,7 @@ TEST_F(SensorOption, OfSegmentAndEvalIsThatOfConfig) {
   EXPECT_NE(by_name, labels("default", {}));
 }
 
-TEST(SensorsCommand, ListsEveryKnownSensorWithWhatFollowsFromIt) {
+TEST(SensorsCommand, ListsEveryKnownSensorWithItsZones) {
   const Outcome outcome = run({"sensors"});
 
   EXPECT_EQ(outcome.exit_code, 0);
@@ -194,7 +195,7 @@ TEST(SensorsCommand, ListsEveryKnownSensorWithWhatFollowsFromIt) {
   for (const Sensor& sensor : Sensor::known()) EXPECT_THAT(outcome.out, HasSubstr(sensor.title));
 }
 
-TEST(SensorsCommand, ListsThoseThatAreNamedAndSaysWhichItCannot) {
+TEST(SensorsCommand, ListsTheNamedSensorsAndReportsUnknownOnes) {
   const Outcome outcome = run({"sensors", "vlp-16", "os9"});
 
   EXPECT_EQ(outcome.exit_code, 2);

@@ -45,14 +45,14 @@ Outcome simulate(const fs::path& output, const std::string& scene,
   return run(arguments(output, scene, more));
 }
 
-TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
+TEST(SimulateCommand, WritesASequenceInTheLayoutOfSemanticKitti) {
   const io::TemporaryFolder folder;
 
   const Outcome outcome =
       simulate(folder / "out", "parked_cars", {"--frames", "2", "--sequence", "07", "--seed", "5"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("2 frames in 1 drive, 2 simulated, 0 kept"));
+  EXPECT_THAT(outcome.out, HasSubstr("2 frames in 1 environment, 2 simulated, 0 kept"));
   const fs::path sequence = folder / "out" / "sequences" / "07";
   EXPECT_THAT(names_below(folder / "out"),
               ElementsAre("sequences/07/calib.txt", "sequences/07/ground/000000.ground.npy",
@@ -92,7 +92,7 @@ TEST(SimulateCommand, WritesASequenceAsSemanticKittiLaysItOut) {
   EXPECT_EQ(scene["drives"][0]["first_frame"], 0);
 }
 
-TEST(SimulateCommand, WritesWhatSegmentAndEvalTakeAsAWhole) {
+TEST(SimulateCommand, WritesASequenceForSegmentAndEval) {
   const io::TemporaryFolder folder;
   const std::string tree = (folder / "tree").string();
   ASSERT_EQ(simulate(tree, "steps", {"--frames", "2"}).exit_code, 0);
@@ -101,12 +101,12 @@ TEST(SimulateCommand, WritesWhatSegmentAndEvalTakeAsAWhole) {
   const Outcome judged = run({"eval", tree, "--protocol", "simulation", "--methods", "surface"});
 
   EXPECT_EQ(segmented.exit_code, 0) << segmented.err;
-  EXPECT_THAT(names_below(folder / "out"), SizeIs(2)) << "the files of the ground are no scans";
+  EXPECT_THAT(names_below(folder / "out"), SizeIs(2)) << "ground files are not scans";
   EXPECT_EQ(judged.exit_code, 0) << judged.err;
-  EXPECT_THAT(judged.out, HasSubstr("Heights above the ground against the truth"));
+  EXPECT_THAT(judged.out, HasSubstr("Error of the height above the ground"));
 }
 
-TEST(SimulateCommand, SaysWhatEveryPointOfASensorInTheRainIsAnEchoOf) {
+TEST(SimulateCommand, WritesTheKindOfEveryReturnInTheRain) {
   const io::TemporaryFolder folder;
 
   const Outcome outcome =
@@ -142,7 +142,7 @@ TEST(SimulateCommand, SaysWhatEveryPointOfASensorInTheRainIsAnEchoOf) {
   EXPECT_EQ(scene["files"]["returns"], "returns/NNNNNN.return.npy");
 }
 
-TEST(SimulateCommand, TakesASensorFromAFile) {
+TEST(SimulateCommand, ReadsASensorFromAFile) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "mine.toml",
                "beams = 4\nelevation_top = -5.0\nelevation_bottom = -20.0\nfirings = 100\n"
@@ -159,7 +159,7 @@ TEST(SimulateCommand, TakesASensorFromAFile) {
   EXPECT_EQ(scene["sensor"]["elevations"], nlohmann::json::array({-5, -10, -15, -20}));
 }
 
-TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
+TEST(SimulateCommand, OutputDoesNotDependOnThreadsOrExistingFrames) {
   const io::TemporaryFolder folder;
   const fs::path resumed = folder / "resumed" / "sequences" / "00";
 
@@ -177,7 +177,7 @@ TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
   EXPECT_EQ(whole.exit_code, 0) << whole.err;
   EXPECT_EQ(begun.exit_code, 0) << begun.err;
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_THAT(finished.out, HasSubstr("12 frames in 2 drives, 11 simulated, 1 kept"));
+  EXPECT_THAT(finished.out, HasSubstr("12 frames in 2 environments, 11 simulated, 1 kept"));
   const auto expected = files_below(folder / "whole");
   const auto files = files_below(folder / "resumed");
   EXPECT_THAT(files, SizeIs(expected.size()));
@@ -186,7 +186,7 @@ TEST(SimulateCommand, BytesDependNeitherOnThreadsNorOnWhatWasThereBefore) {
   }
 }
 
-TEST(SimulateCommand, FinishesTheFramesInHandWhenInterrupted) {
+TEST(SimulateCommand, FinishesTheFramesInProgressWhenInterrupted) {
   const io::TemporaryFolder folder;
   CommandProcess command(arguments(folder / "out", "flat_street", {"--frames", "5000"}));
   const fs::path first = folder / "out" / "sequences" / "00" / "labels" / "000000.label";
@@ -209,21 +209,23 @@ TEST(SimulateCommand, FinishesTheFramesInHandWhenInterrupted) {
   }
   EXPECT_GT(frames, 0U);
   EXPECT_THAT(outcome.err,
-              is_one_line_with("interrupted, " + std::to_string(frames) + " of 5000 frames"));
+              is_one_line_with("interrupted: " + std::to_string(frames) + " of 5000 frames"));
 }
 
-TEST(SimulateCommand, AnUnknownSceneIsOneLineWithThoseThereAre) {
+TEST(SimulateCommand, ReportsAnUnknownSceneAndTheKnownOnes) {
   const io::TemporaryFolder folder;
 
   const Outcome outcome = simulate(folder / "out", "moon", {});
 
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, is_one_line_with("there is no 'moon'; choose flat_street, steep_street, "
-                                            "parked_cars, bushes_and_lawn, bumpy_field, steps"));
+  EXPECT_THAT(outcome.err,
+              is_one_line_with("--scene: no scene is named 'moon' (expected flat_street, "
+                               "steep_street, parked_cars, bushes_and_lawn, "
+                               "bumpy_field, steps"));
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
-TEST(SimulateCommand, NumbersOutsideTheirRangeAreOneLine) {
+TEST(SimulateCommand, RejectsInvalidValuesOnOneLine) {
   const io::TemporaryFolder folder;
   for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--frames", "0"},
                                                 {"--frames", "100001"},
@@ -251,7 +253,7 @@ TEST(SimulateCommand, NumbersOutsideTheirRangeAreOneLine) {
   }
 }
 
-TEST(SimulateCommand, RefusesAFolderThatHoldsSomethingElse) {
+TEST(SimulateCommand, RejectsADirectoryWithOtherData) {
   const io::TemporaryFolder folder;
   const fs::path velodyne = folder / "kitti" / "sequences" / "00" / "velodyne";
   fs::create_directories(velodyne);
@@ -260,11 +262,11 @@ TEST(SimulateCommand, RefusesAFolderThatHoldsSomethingElse) {
   const Outcome outcome = simulate(folder / "kitti", "flat_street", {"--frames", "1"});
 
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, is_one_line_with("is no simulated sequence"));
+  EXPECT_THAT(outcome.err, is_one_line_with("contains files that are not a simulated sequence"));
   EXPECT_THAT(names_below(folder / "kitti"), ElementsAre("sequences/00/velodyne/000000.bin"));
 }
 
-TEST(SimulateCommand, RefusesToMixScenesAndSeedsAndToForgetFrames) {
+TEST(SimulateCommand, RejectsMixedSequencesAndFewerFrames) {
   const io::TemporaryFolder folder;
   const Outcome first = simulate(folder / "out", "flat_street", {"--frames", "2"});
   ASSERT_EQ(first.exit_code, 0) << first.err;
@@ -289,7 +291,7 @@ TEST(SimulateCommand, RefusesToMixScenesAndSeedsAndToForgetFrames) {
   EXPECT_EQ(files_below(folder / "out") == before, true);
 }
 
-TEST(SimulateCommand, AnOutputFolderThatCannotBeMadeIsOneLine) {
+TEST(SimulateCommand, ReportsAnOutputDirectoryThatCannotBeCreated) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "taken", "mine");
 

@@ -46,7 +46,7 @@ class SweepCommand : public testing::Test {
     return run(arguments);
   }
 
-  /// What that leaves in the results file, if all goes well.
+  /// The results file; expects success.
   [[nodiscard]] json results(const std::vector<std::string>& more = {}) const {
     const Outcome outcome = sweep(more);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -57,7 +57,7 @@ class SweepCommand : public testing::Test {
   io::TemporaryFolder folder_;
 };
 
-TEST_F(SweepCommand, IsThePapersFigure5IfNothingElseIsSaid) {
+TEST_F(SweepCommand, ReproducesFigure5ByDefault) {
   const json found = results();
 
   EXPECT_EQ(found["method"], "r_gpf+u");
@@ -66,7 +66,7 @@ TEST_F(SweepCommand, IsThePapersFigure5IfNothingElseIsSaid) {
   EXPECT_EQ(found["cells"][7]["values"], json::array({"15x54", "15"}));
 }
 
-TEST_F(SweepCommand, EveryPointScoresAsEvalDoesWithThatSetting) {
+TEST_F(SweepCommand, EveryPointHasTheScoreOfEval) {
   const json found =
       results({"--method", "gpf", "--param", "segments=1,4", "--param", "seed_height=0.1,0.4"});
 
@@ -84,7 +84,7 @@ TEST_F(SweepCommand, EveryPointScoresAsEvalDoesWithThatSetting) {
   }
 }
 
-TEST_F(SweepCommand, PrintsARowPerPointAndWhichWon) {
+TEST_F(SweepCommand, PrintsARowPerPointAndTheBest) {
   const Outcome outcome = sweep({"--method", "patchwork", "--param", "distance_margin=0.05,0.2"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -95,7 +95,7 @@ TEST_F(SweepCommand, PrintsARowPerPointAndWhichWon) {
   EXPECT_THAT(outcome.out, ContainsRegex("\nBest F1: [0-9.]+ % at distance_margin = 0"));
 }
 
-TEST_F(SweepCommand, WritesCsvAndOneHtmlFileThatLoadsNothing) {
+TEST_F(SweepCommand, WritesCsvAndASelfContainedHtmlReport) {
   const Outcome outcome = sweep({"--method", "patchwork", "--param", "seed_count=5,10,20", "--csv",
                                  path("new/sweep.csv"), "--html", path("new/sweep.html")});
 
@@ -109,7 +109,7 @@ TEST_F(SweepCommand, WritesCsvAndOneHtmlFileThatLoadsNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "sweep.json.checkpoint"));
 }
 
-TEST_F(SweepCommand, AnyNumberOfThreadsComesToTheSame) {
+TEST_F(SweepCommand, ResultsDoNotDependOnTheNumberOfThreads) {
   const std::vector<std::string> over = {"--param", "bins=10x36,30x108"};
   const json one = results({over[0], over[1], "--threads", "1"});
   const json two = results({over[0], over[1], "--threads", "2"});
@@ -117,7 +117,7 @@ TEST_F(SweepCommand, AnyNumberOfThreadsComesToTheSame) {
   EXPECT_EQ(one["cells"], two["cells"]);
 }
 
-TEST_F(SweepCommand, AnUnreadableScanCostsOneLineAndNotTheRun) {
+TEST_F(SweepCommand, ReportsAnUnreadableScanOnOneLineAndContinues) {
   io::put_file(folder_ / "kitti/velodyne/b.bin", "no scan");
 
   const Outcome outcome = sweep({"--param", "bins=10x36"});
@@ -127,18 +127,18 @@ TEST_F(SweepCommand, AnUnreadableScanCostsOneLineAndNotTheRun) {
   EXPECT_EQ(json_of(folder_ / "sweep.json")["scans"], 1);
 }
 
-TEST_F(SweepCommand, WrongUsageIsOneLine) {
+TEST_F(SweepCommand, ReportsUsageErrorsOnOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> misuses = {
       {{"--param", "seed_count"}, "KEY=VALUE"},
       {{"--param", "seed_cuont=3"}, "no setting 'seed_cuont'"},
       {{"--param", "bins=many"}, "RINGSxSECTORS"},
       {{"--param", "bins=10x4000"}, "sectors = 4000"},
       {{"--param", "distance_margin=-1"}, "distance_margin = -1"},
-      {{"--method", "gpf", "--param", "bins=10x36"}, "of patchwork and its relatives"},
-      {{"--method", "gpf"}, "no setting 'uprightness'"},  // Fig. 5 is of zones
+      {{"--method", "gpf", "--param", "bins=10x36"}, "(expected RINGSxSECTORS"},
+      {{"--method", "gpf"}, "no setting 'uprightness'"},  // Fig. 5 needs zones
       {{"--method", "magic"}, "magic"},
       {{"--param", "a=1", "--param", "b=1", "--param", "c=1"}, "once or twice"},
-      {{"--param", "seed_count=5", "--param", "seed_count=6"}, "names seed_count twice"},
+      {{"--param", "seed_count=5", "--param", "seed_count=6"}, "seed_count is given twice"},
   };
   for (const auto& [arguments, said] : misuses) {
     const Outcome outcome = sweep(arguments);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// What reaches a terminal: a progress bar that fits, and file names without control characters.
+// Output to a terminal: a progress bar that fits, and file names without control characters.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,14 +28,14 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// A terminal of so many columns, and what was written to it.
+/// A terminal with this number of columns, and the text written to it.
 class Terminal {
  public:
   explicit Terminal(unsigned short columns) : master_(::posix_openpt(O_RDWR | O_NOCTTY)) {
     ::grantpt(master_);
     ::unlockpt(master_);
     name_ = ::ptsname(master_);
-    ours_ = ::open(name_.c_str(), O_RDWR | O_NOCTTY);  // else reading ends with the first writer
+    ours_ = ::open(name_.c_str(), O_RDWR | O_NOCTTY);  // keeps it open after the first writer
     winsize size{};
     size.ws_col = columns;
     size.ws_row = 24;
@@ -50,7 +50,7 @@ class Terminal {
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
-  /// All that was written.
+  /// The text written so far; closes the terminal.
   std::string text() {
     close();
     return text_;
@@ -80,7 +80,7 @@ class Terminal {
   std::thread reader_;
 };
 
-/// The longest text that was drawn between two deletions of the line, and how many there were.
+/// Length of the longest text between two deletions of the line; adds their number to `updates`.
 std::size_t widest(const std::string& text, std::size_t& updates) {
   constexpr std::string_view erase = "\r\x1b[K";
   std::size_t most = 0;
@@ -107,7 +107,7 @@ void expect_it_fits(const std::vector<std::string>& arguments, const std::string
   EXPECT_THAT(text, Not(HasSubstr("\n")));
 }
 
-TEST(ProgressBar, FitsATerminalOfFortyColumnsInEveryCommand) {
+TEST(ProgressBar, FitsFortyColumnsInEveryCommand) {
   const io::TemporaryFolder folder;
   for (char name = '0'; name < '8'; ++name) {
     put_labelled(folder / "data", std::string("00000") + name, small_scan(400));
@@ -120,7 +120,7 @@ TEST(ProgressBar, FitsATerminalOfFortyColumnsInEveryCommand) {
                  "");
 }
 
-TEST(FileName, CannotCommandTheTerminal) {
+TEST(FileName, CannotControlTheTerminal) {
   const io::TemporaryFolder folder;
   const std::string name = "two\nlines\033[2J.bin";
   put_scan(folder / name, small_scan(200));

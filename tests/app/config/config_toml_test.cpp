@@ -28,7 +28,7 @@ using testing::Not;
 using testing::SizeIs;
 using testing::StartsWith;
 
-/// Any float but NaN, which equals nothing: denormals, infinities and the largest among them.
+/// Any float except NaN, including denormals, infinities and the largest values.
 rc::Gen<float> any_number() {
   return rc::gen::suchThat(
       rc::gen::map(rc::gen::arbitrary<std::uint32_t>(),
@@ -40,7 +40,8 @@ rc::Gen<std::vector<float>> any_numbers() {
   return rc::gen::container<std::vector<float>>(any_number());
 }
 
-/// A configuration of any values; in range or not makes no difference to how it is written.
+/// A configuration of any values. They are written in the same way whether they are in range or
+/// not.
 PatchworkConfig any_config() {
   PatchworkConfig c;
   for (float* value :
@@ -72,7 +73,7 @@ void apply_toml(std::string_view text, std::string_view source, PatchworkConfig&
   config = *any.get_if<PatchworkConfig>();
 }
 
-/// What apply_toml says of a text; empty if it is content.
+/// The error message of apply_toml; empty if there is none.
 std::string complaint(const std::string& text) {
   PatchworkConfig config;
   try {
@@ -83,14 +84,14 @@ std::string complaint(const std::string& text) {
   return {};
 }
 
-/// One line that begins with source, line and column and says this.
+/// One line that starts with source, line and column and contains `reason`.
 auto points_at(int line, int column, const std::string& reason) {
   return AllOf(StartsWith("mine.toml: line " + std::to_string(line) + ", column " +
                           std::to_string(column) + ": "),
                HasSubstr(reason), Not(HasSubstr("\n")));
 }
 
-TEST(ConfigToml, EveryPresetReadsBackTheSameOverAnyOther) {
+TEST(ConfigToml, EveryPresetReadsBackUnchangedOverAnyOther) {
   for (const std::string_view name : PatchworkConfig::preset_names()) {
     for (const std::string_view other : PatchworkConfig::preset_names()) {
       const PatchworkConfig written = PatchworkConfig::preset(name);
@@ -103,7 +104,7 @@ TEST(ConfigToml, EveryPresetReadsBackTheSameOverAnyOther) {
   }
 }
 
-RC_GTEST_PROP(ConfigToml, AnyConfigurationReadsBackTheSame, ()) {
+RC_GTEST_PROP(ConfigToml, AnyConfigurationReadsBackUnchanged, ()) {
   const PatchworkConfig written = any_config();
   PatchworkConfig read;
 
@@ -112,7 +113,7 @@ RC_GTEST_PROP(ConfigToml, AnyConfigurationReadsBackTheSame, ()) {
   RC_ASSERT(is_same(read, written));
 }
 
-TEST(ConfigToml, EverySettingIsCommented) {
+TEST(ConfigToml, EverySettingHasAComment) {
   const std::string text = to_toml(PatchworkConfig{});
 
   EXPECT_THAT(text, HasSubstr("\ndistance_margin = 0.125  # M_d, eq. (6); above 0, up to 100 m\n"));
@@ -120,7 +121,7 @@ TEST(ConfigToml, EverySettingIsCommented) {
   EXPECT_THAT(text, HasSubstr("\n[[zones]]\n"));
 }
 
-TEST(ConfigToml, SettingsThatAreNotNamedStay) {
+TEST(ConfigToml, LeavesOtherSettingsUnchanged) {
   PatchworkConfig config = PatchworkConfig::preset("paper");
   PatchworkConfig expected = config;
   expected.seed_count = 7;
@@ -131,7 +132,7 @@ TEST(ConfigToml, SettingsThatAreNotNamedStay) {
   EXPECT_TRUE(is_same(config, expected));
 }
 
-TEST(ConfigToml, AWholeNumberIsTakenForANumber) {
+TEST(ConfigToml, AcceptsAnIntegerForAFloat) {
   PatchworkConfig config;
 
   apply_toml("sensor_height = 2", "mine.toml", config);
@@ -139,7 +140,7 @@ TEST(ConfigToml, AWholeNumberIsTakenForANumber) {
   EXPECT_EQ(config.sensor_height, 2.0f);
 }
 
-TEST(ConfigToml, ZonesAreReplacedAsAWhole) {
+TEST(ConfigToml, ReplacesZonesAsAWhole) {
   PatchworkConfig config;
 
   apply_toml("[[zones]]\nring_radii = [10, 20.5]\nsectors = 8\nheight_margin = -inf\n", "mine.toml",
@@ -151,7 +152,7 @@ TEST(ConfigToml, ZonesAreReplacedAsAWhole) {
   EXPECT_EQ(config.zones[0].height_margin, -inf);
 }
 
-TEST(ConfigToml, OnlyWhatIsWrittenAsInfIsInfinite) {
+TEST(ConfigToml, OnlyInfIsInfinite) {
   PatchworkConfig config;
 
   apply_toml("noise_depth = inf\nnoise_margin = 1e300", "mine.toml", config);
@@ -160,7 +161,7 @@ TEST(ConfigToml, OnlyWhatIsWrittenAsInfIsInfinite) {
   EXPECT_THROW(config.check(), std::invalid_argument);
 }
 
-TEST(ConfigToml, AWholeNumberTooLargeForItsSettingIsRefusedByTheCheckNotWrapped) {
+TEST(ConfigToml, RejectsAnIntegerThatIsTooLargeInsteadOfWrapping) {
   PatchworkConfig config;
 
   apply_toml("iterations = 4294967299", "mine.toml", config);  // 2^32 + 3
@@ -168,7 +169,7 @@ TEST(ConfigToml, AWholeNumberTooLargeForItsSettingIsRefusedByTheCheckNotWrapped)
   EXPECT_THROW(config.check(), std::invalid_argument);
 }
 
-TEST(ConfigToml, ASettingThereIsNoneOfIsRefusedWithItsPlace) {
+TEST(ConfigToml, RejectsAnUnknownSettingWithItsPosition) {
   EXPECT_THAT(complaint("seed_count = 7\nseed_cuont = 8\n"), points_at(2, 14, "seed_cuont"));
   EXPECT_THAT(complaint("[elevation]\nwidth = 8\n"), points_at(2, 9, "elevation.width"));
   EXPECT_THAT(complaint("[walls]\nenabled = true\n"), points_at(1, 1, "walls"));
@@ -177,35 +178,35 @@ TEST(ConfigToml, ASettingThereIsNoneOfIsRefusedWithItsPlace) {
   EXPECT_THAT(complaint("[[zones]]\nrings = 3\n"), points_at(2, 9, "zones[0].rings"));
 }
 
-TEST(ConfigToml, AValueOfTheWrongTypeIsRefusedWithItsPlaceAndTheTypeAllowed) {
+TEST(ConfigToml, RejectsAValueOfTheWrongTypeWithItsPosition) {
   EXPECT_THAT(complaint("\nseed_height = \"low\"\n"),
-              points_at(2, 15, "seed_height is a number, not a string"));
+              points_at(2, 15, "seed_height must be a number, got a string"));
   EXPECT_THAT(complaint("iterations = 3.5\n"),
-              points_at(1, 14, "iterations is a whole number, not a floating-point"));
+              points_at(1, 14, "iterations must be an integer, got a floating-point number"));
   EXPECT_THAT(complaint("evaluate_final_set = 1\n"),
-              points_at(1, 22, "evaluate_final_set is true or false, not a integer"));
+              points_at(1, 22, "evaluate_final_set must be true or false, got an integer"));
   EXPECT_THAT(complaint("flatness.thresholds = 0.1\n"),
-              points_at(1, 23, "flatness.thresholds is an array of numbers"));
+              points_at(1, 23, "flatness.thresholds must be an array of numbers"));
   EXPECT_THAT(complaint("flatness.thresholds = [0.1, true]\n"),
-              points_at(1, 29, "flatness.thresholds is a number, not a boolean"));
-  EXPECT_THAT(complaint("zones = 3\n"), points_at(1, 9, "zones is an array of tables"));
-  EXPECT_THAT(complaint("zones = [3]\n"), points_at(1, 10, "zones[0] is a table"));
+              points_at(1, 29, "flatness.thresholds must be a number, got a boolean"));
+  EXPECT_THAT(complaint("zones = 3\n"), points_at(1, 9, "zones must be an array of tables"));
+  EXPECT_THAT(complaint("zones = [3]\n"), points_at(1, 10, "zones[0] must be a table"));
 }
 
-TEST(ConfigToml, ASyntaxErrorIsRefusedWithItsPlace) {
+TEST(ConfigToml, RejectsASyntaxErrorWithItsPosition) {
   EXPECT_THAT(complaint("iterations = 3\nseed_count 7\n"), points_at(2, 12, "Error"));
   EXPECT_THAT(complaint("iterations = \n"), points_at(1, 14, "Error"));
   EXPECT_THAT(complaint("iterations = 3\niterations = 4\n"), points_at(2, 14, "iterations"));
 }
 
-RC_GTEST_PROP(ConfigToml, AnyTextIsReadOrRefusedOnOneLine, ()) {
+RC_GTEST_PROP(ConfigToml, AnyTextIsReadOrRejectedOnOneLine, ()) {
   const auto text = *rc::gen::container<std::string>(rc::gen::oneOf(
       rc::gen::arbitrary<char>(), rc::gen::elementOf(std::string("[]{}=.\"\n a1#"))));
 
-  const std::string said = complaint(text);
+  const std::string message = complaint(text);
 
-  RC_ASSERT(said.empty() || said.starts_with("mine.toml: line "));
-  RC_ASSERT(said.find('\n') == std::string::npos);
+  RC_ASSERT(message.empty() || message.starts_with("mine.toml: line "));
+  RC_ASSERT(message.find('\n') == std::string::npos);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ inline bool is_same(const Zone& a, const Zone& b) {
          a.height_margin == b.height_margin;
 }
 
-/// Whether every setting is the same number, bit for bit but for the sign of zero.
+/// True if all settings are equal, bit for bit except for the sign of zero.
 inline bool is_same(const PatchworkConfig& a, const PatchworkConfig& b) {
   const auto plain = [](const PatchworkConfig& c) {
     return std::tie(c.sensor_height, c.min_range, c.noise_depth, c.noise_slope, c.min_points,

@@ -30,18 +30,18 @@ io::Cloud street_as(const std::function<Point(Point)>& change) {
 
 TEST(Advice, NamesTheSensor) { EXPECT_EQ(advice_for(cloud_of(street_scan())).sensor, "hdl-64e"); }
 
-TEST(Advice, IsTheHeightOfTheGroundWhereAnotherIsSet) {
+TEST(Advice, HasTheMeasuredHeightIfAnotherIsConfigured) {
   const Advice advice = advice_for(cloud_of(street_scan()), {.sensor_height = 2.5f});
 
   EXPECT_NEAR(advice.mount.sensor_height, 1.73, 0.03);
 }
 
-TEST(Advice, KeepsTheHeightThatIsSetWhereTheGroundIsThere) {
+TEST(Advice, KeepsTheConfiguredHeightIfTheGroundIsThere) {
   EXPECT_EQ(advice_for(cloud_of(street_scan()), {.sensor_height = 1.74f}).mount.sensor_height,
             1.74f);
 }
 
-TEST(Advice, IsWhereTheBeamsComeFromWhereTheFrameLiesOnTheGround) {
+TEST(Advice, HasTheBeamOriginIfTheFrameIsOnTheGround) {
   const Mount mount =
       advice_for(street_as([](Point p) { return Point{p.x, p.y, p.z + 1.4f}; })).mount;
 
@@ -49,7 +49,7 @@ TEST(Advice, IsWhereTheBeamsComeFromWhereTheFrameLiesOnTheGround) {
   EXPECT_NEAR(mount.sensor_height, 1.73, 0.05);
 }
 
-TEST(Advice, OfATurnedFrameTurnsItBack) {
+TEST(Advice, UndoesTheRotationOfAFrame) {
   // z points forward, y down, x to the right, the origin below the ground, in millimetres.
   const Mount mount = advice_for(street_as([](Point p) {
                         return Point{-1000 * p.y, -1000 * (p.z + 2.5f), 1000 * p.x};
@@ -61,7 +61,7 @@ TEST(Advice, OfATurnedFrameTurnsItBack) {
   EXPECT_NEAR(mount.sensor_height, 1.73, 0.05);
 }
 
-TEST(Advice, OfATiltedFrameHasUpWhereItIs) {
+TEST(Advice, HasTheUpDirectionOfATiltedFrame) {
   const float sine = std::sin(0.3f);
   const float cosine = std::cos(0.3f);
   const Mount mount = advice_for(street_as([&](Point p) {
@@ -73,7 +73,7 @@ TEST(Advice, OfATiltedFrameHasUpWhereItIs) {
   EXPECT_NEAR(mount.up[2], cosine, 0.03);
 }
 
-/// What scans of a sensor show if every beam brings something back.
+/// The summary of scans of a sensor in which every beam has returns.
 Summary scans_of(const Sensor& sensor) {
   Summary summary;
   summary.view = {.beams = sensor.draws_rosette() ? 0 : static_cast<int>(sensor.elevations.size()),
@@ -91,7 +91,7 @@ std::vector<std::string> names_for(const Summary& summary) {
   return names;
 }
 
-TEST(MatchingSensors, BeginWithTheSensorItself) {
+TEST(MatchingSensors, StartWithTheSensorItself) {
   for (const Sensor& sensor : Sensor::known()) {
     const std::vector<std::string> names = names_for(scans_of(sensor));
     ASSERT_FALSE(names.empty()) << sensor.name;
@@ -99,7 +99,7 @@ TEST(MatchingSensors, BeginWithTheSensorItself) {
   }
 }
 
-TEST(MatchingSensors, BearASkyThatBringsNothingBack) {
+TEST(MatchingSensors, TolerateMissingReturnsFromTheSky) {
   Summary summary = scans_of(Sensor::named("hdl-32e"));
   summary.view.top = 3;
   summary.view.beams = 31;
@@ -107,47 +107,47 @@ TEST(MatchingSensors, BearASkyThatBringsNothingBack) {
   EXPECT_THAT(names_for(summary), testing::ElementsAre("hdl-32e"));
 }
 
-TEST(MatchingSensors, HaveAsManyBeams) {
+TEST(MatchingSensors, HaveTheSameNumberOfBeams) {
   Summary summary = scans_of(Sensor::named("vlp-16"));
   summary.view.beams = 32;
 
   EXPECT_THAT(names_for(summary), testing::IsEmpty());
 }
 
-TEST(MatchingSensors, LookAsWide) {
+TEST(MatchingSensors, HaveTheSameFieldOfView) {
   Summary summary = scans_of(Sensor::named("at128"));
   summary.view.azimuth_width = 360;
 
   EXPECT_THAT(names_for(summary), testing::IsEmpty());
 }
 
-TEST(MatchingSensors, ReachAsFar) {
+TEST(MatchingSensors, HaveTheSameRange) {
   Summary summary = scans_of(Sensor::named("vlp-16"));
   summary.reach = 180;
 
   EXPECT_THAT(names_for(summary), testing::IsEmpty());
 }
 
-TEST(AdviceToml, OfTheUsualMountIsTheHeightAlone) {
+TEST(AdviceToml, HasOnlyTheHeightForTheDefaultMount) {
   EXPECT_EQ(to_toml({}),
-            "# Settings by 'flagstone doctor', for --config\n"
+            "# Settings from 'flagstone doctor', for --config\n"
             "sensor_height = 1.73  # metres above the ground\n");
 }
 
-TEST(AdviceToml, HoldsOfTheMountWhatDiffers) {
+TEST(AdviceToml, HasTheMountSettingsThatDiffer) {
   Advice advice{.sensor = "os0-128", .has_mount = true};
   advice.mount = {
       .sensor_height = 2, .up = {0, -1, 0}, .origin = {0, 0.25f, -1.5f}, .scale = 0.01f};
 
   EXPECT_EQ(to_toml(advice),
-            "# Settings by 'flagstone doctor', for --config\n"
+            "# Settings from 'flagstone doctor', for --config\n"
             "sensor = \"os0-128\"\n"
             "sensor_height = 2.0  # metres above the ground\n"
             "\n[mount]\n"
             "tilt = \"fixed\"\n"
-            "up = [0.0, -1.0, 0.0]  # where up is in the cloud's frame\n"
-            "origin = [0.0, 0.25, -1.5]  # where the sensor is in the cloud's frame, metres\n"
-            "scale = 0.01  # metres a unit\n");
+            "up = [0.0, -1.0, 0.0]  # up direction in the cloud's frame\n"
+            "origin = [0.0, 0.25, -1.5]  # sensor position in the cloud's frame, metres\n"
+            "scale = 0.01  # metres per unit\n");
 }
 
 }  // namespace

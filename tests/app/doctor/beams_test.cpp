@@ -100,7 +100,7 @@ std::vector<Point> points_of(const tests::RealScan& scan) {
   return points;
 }
 
-TEST(BeamOrigin, OfAScanOfKittiWithItsOriginBelowTheGroundIsWhereTheSensorWas) {
+TEST(BeamOrigin, IsFoundInAKittiScanWithItsOriginBelowTheGround) {
   const auto scans = tests::real_scans("kitti");
   FLAGSTONE_REQUIRE_SCANS(scans);
   const auto raised =
@@ -117,7 +117,7 @@ TEST(BeamOrigin, OfAScanOfKittiWithItsOriginBelowTheGroundIsWhereTheSensorWas) {
   EXPECT_EQ(diagnosis.advice->mount.sensor_height, 1.73f);
 }
 
-TEST(BeamOrigin, OfRealScansIsNotMistaken) {
+TEST(BeamOrigin, IsNotMisplacedInRealScans) {
   const auto scans = tests::real_scans();
   FLAGSTONE_REQUIRE_SCANS(scans);
   for (const tests::RealScan& scan : scans) {

@@ -31,7 +31,7 @@ std::vector<Point> street_where(Keep keep) {
   return kept;
 }
 
-TEST(Examination, CountsWhatHasNoPlace) {
+TEST(Examination, CountsInvalidPoints) {
   std::vector<Point> points = street_scan();
   points[0] = {0, 0, 0};
   points[1] = {INFINITY, 0, 0};
@@ -47,7 +47,7 @@ TEST(Examination, CountsWhatHasNoPlace) {
   EXPECT_EQ(seen.repeated, 1u);
 }
 
-TEST(Examination, CountsTheBeamsOfPointsThatAreListedRingByRing) {
+TEST(Examination, CountsTheBeamsOfPointsListedRingByRing) {
   const Examination seen = examine(cloud_of(street_scan()));
 
   EXPECT_EQ(seen.rings, RingSource::order);
@@ -66,7 +66,7 @@ TEST(Examination, CountsTheRingsOfAFieldInAnyOrder) {
   EXPECT_EQ(seen.view.beams, 2);
 }
 
-TEST(Examination, CountsWellSeparatedBeamsByTheirElevationsInAnyOrder) {
+TEST(Examination, CountsSeparateBeamsByElevationInAnyOrder) {
   // Every fourth beam of the upper block, 4/3 of a degree apart.
   const auto is_one_of_eight = [](const Point& p) {
     const double beam = (2 - elevation(p)) * 3;
@@ -104,7 +104,7 @@ TEST(Examination, MeasuresTheReachInMetres) {
   EXPECT_NEAR(extent.farthest, 100 * *std::ranges::max_element(ranges), 1);
 }
 
-TEST(Examination, OfNoPointsSeesNothing) {
+TEST(Examination, FindsNothingWithoutPoints) {
   EXPECT_FALSE(examine(cloud_of({})).has_enough_points());
 }
 

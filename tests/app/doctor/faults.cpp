@@ -34,7 +34,7 @@ Points every_tenth_twice(const Points& points) {
   return result;
 }
 
-/// About x, then about y, degrees.
+/// Rotated about x, then about y, degrees.
 Point turned(Point p, double about_x, double about_y) {
   const double x_angle = about_x * std::numbers::pi / 180;
   const double y_angle = about_y * std::numbers::pi / 180;
@@ -45,7 +45,7 @@ Point turned(Point p, double about_x, double about_y) {
           static_cast<float>(-p.x * std::sin(y_angle) + z * std::cos(y_angle))};
 }
 
-/// In no order, and with beams a third of a degree thick, as far apart as they are.
+/// Shuffled, and with beams so thick (a third of a degree) that they touch each other.
 Points without_rings(const Points& points) {
   Random random(5);
   return shuffled(changed(points, [&](Point p) {
@@ -54,7 +54,7 @@ Points without_rings(const Points& points) {
   }));
 }
 
-/// A roof 30 cm below the sensor, in a sensor's way: more of it near by.
+/// With a roof 30 cm below the sensor, denser close to it.
 Points with_a_roof(const Points& points) {
   Points result = points;
   Random random(2);
@@ -67,8 +67,7 @@ Points with_a_roof(const Points& points) {
   return result;
 }
 
-/// Without what is near enough to tell the ground from.
-/// Only what stands higher than the sensor.
+/// Only the points above the sensor, so that no ground is left.
 Points above_the_sensor(const Points& points) {
   Points result;
   for (const Point& p : points) {
@@ -77,7 +76,8 @@ Points above_the_sensor(const Points& points) {
   return result;
 }
 
-/// What an aeroplane sees: hills, a point a metre, the origin on the ground in the middle.
+/// An airborne scan: hills, about one point per square metre, the origin on the ground in the
+/// centre.
 Points from_the_air(const Points&) {
   Points points;
   Random random(3);

@@ -13,20 +13,20 @@
 
 namespace flagstone::doctor {
 
-/// Something that can be wrong with a scan, and what the doctor has to find then.
+/// A fault of a scan, and the finding that the doctor must report.
 struct Fault {
   std::string name;
-  std::string finding;  ///< its id
+  std::string finding;  ///< id of the finding
   Severity severity;
   std::function<std::vector<Point>(const std::vector<Point>&)> apply;
-  Expected expected{};                 ///< the settings the scan is compared with
-  std::set<std::string> comes_with{};  ///< other findings that cannot be told from it
+  Expected expected{};                 ///< the settings that the scan is compared with
+  std::set<std::string> comes_with{};  ///< other findings that this fault also causes
 };
 
-/// Its name, where a test fails.
+/// Prints the name of the fault if a test fails.
 inline void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
-/// Every fault that there is a finding for.
+/// All faults that the doctor can find.
 const std::vector<Fault>& faults();
 
 }  // namespace flagstone::doctor

@@ -36,7 +36,7 @@ const Finding& finding_of(const Diagnosis& diagnosis, const std::string& id) {
   return *found;
 }
 
-TEST(Doctor, FindsNothingInAScanThatIsFine) {
+TEST(Doctor, FindsNothingInAGoodScan) {
   const Diagnosis diagnosis = diagnosis_of(street_scan());
 
   EXPECT_THAT(complaints(diagnosis), testing::IsEmpty());
@@ -47,7 +47,7 @@ TEST(Doctor, FindsNothingInAScanThatIsFine) {
   EXPECT_EQ(advice.mount.sensor_height, Expected().sensor_height);
 }
 
-TEST(Doctor, HasAFindingForEveryFaultAlsoWhereAllIsFine) {
+TEST(Doctor, ReportsEveryFindingForAGoodScan) {
   const Diagnosis diagnosis = diagnosis_of(street_scan());
 
   for (const Fault& fault : faults()) {
@@ -57,7 +57,7 @@ TEST(Doctor, HasAFindingForEveryFaultAlsoWhereAllIsFine) {
 
 class DoctorFault : public testing::TestWithParam<Fault> {};
 
-TEST_P(DoctorFault, IsFoundAndNothingElse) {
+TEST_P(DoctorFault, IsTheOnlyFinding) {
   const Fault& fault = GetParam();
 
   const Diagnosis diagnosis = diagnosis_of(fault.apply(street_scan()), fault.expected);
@@ -74,7 +74,7 @@ TEST_P(DoctorFault, IsFoundAndNothingElse) {
 INSTANTIATE_TEST_SUITE_P(All, DoctorFault, testing::ValuesIn(faults()),
                          [](const auto& fault) { return fault.param.name; });
 
-TEST(Doctor, GivesNoSettingsWhereNoneHelp) {
+TEST(Doctor, RecommendsNoSettingsIfNoneHelp) {
   for (const Fault& fault : faults()) {
     const std::set<std::string> hopeless{"points", "coordinates", "single_viewpoint", "ground"};
     if (!hopeless.contains(fault.finding)) continue;
@@ -83,7 +83,7 @@ TEST(Doctor, GivesNoSettingsWhereNoneHelp) {
   }
 }
 
-TEST(Doctor, OfScansThatDifferInHeightSaysSo) {
+TEST(Doctor, ReportsScansThatDifferInHeight) {
   const auto lower = [](Point p) { return Point{p.x, p.y, p.z - 0.45f}; };
   const std::array scans{examine(cloud_of(street_scan())),
                          examine(cloud_of(changed(street_scan(), lower)))};
@@ -91,10 +91,10 @@ TEST(Doctor, OfScansThatDifferInHeightSaysSo) {
   const Diagnosis diagnosis = diagnose(summarise(scans), {});
 
   EXPECT_THAT(finding_of(diagnosis, "sensor_height").sentence,
-              testing::HasSubstr("differs by 0.45 m"));
+              testing::HasSubstr("varies by 0.45 m"));
 }
 
-TEST(Doctor, GoesByWhatMostScansShow) {
+TEST(Doctor, FollowsTheMajorityOfScans) {
   const Examination fine = examine(cloud_of(street_scan()));
   const Examination odd =
       examine(cloud_of(changed(street_scan(), [](Point p) { return Point{p.x, -p.y, -p.z}; })));

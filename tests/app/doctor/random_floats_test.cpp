@@ -19,13 +19,13 @@ float any_float(Random& random) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(random.bits()));
 }
 
-/// Has something to say of each, and comes to an end.
+/// Expects that the diagnosis terminates and has findings.
 void expect_a_diagnosis(const std::vector<Point>& points) {
   const std::array scans{examine(cloud_of(points))};
   EXPECT_FALSE(diagnose(summarise(scans), {}).findings.empty());
 }
 
-TEST(Doctor, SaysSomethingOfAnyFloats) {
+TEST(Doctor, DiagnosesAnyFloats) {
   Random random(4);
   for (int round = 0; round < 8; ++round) {
     std::vector<Point> points;
@@ -36,7 +36,7 @@ TEST(Doctor, SaysSomethingOfAnyFloats) {
   }
 }
 
-TEST(Doctor, SaysSomethingOfFlatAndOfEqualPoints) {
+TEST(Doctor, DiagnosesFlatAndEqualPoints) {
   expect_a_diagnosis(std::vector<Point>(3000, {1, 2, 3}));
   expect_a_diagnosis(std::vector<Point>(3000, {3e38f, -3e38f, 3e38f}));
   expect_a_diagnosis(std::vector<Point>(3000, {1e-40f, 0, 0}));

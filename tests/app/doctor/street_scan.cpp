@@ -65,7 +65,7 @@ io::Cloud cloud_of(const std::vector<Point>& points, const std::vector<float>& r
   for (std::size_t i = 0; i < points.size(); ++i) {
     values.insert(values.end(), {points[i].x, points[i].y, points[i].z, 0, rings[i]});
   }
-  return cloud_of_floats(values, 5);  // the fifth is called ring
+  return cloud_of_floats(values, 5);  // the reader names the fifth field `ring`
 }
 
 std::vector<Point> changed(std::vector<Point> points, const std::function<Point(Point)>& change) {

@@ -12,25 +12,25 @@
 
 namespace flagstone::doctor {
 
-/// A scan of a simulated street by an HDL-64E 1.73 m above it: nothing is wrong with it.
+/// A simulated scan of a street by an HDL-64E at a height of 1.73 m, without faults.
 const std::vector<Point>& street_scan();
 
-/// Which of its points are ground.
+/// Ground truth of its points.
 const std::vector<Truth>& street_truth();
 
 /// Points as a cloud of x, y and z.
 io::Cloud cloud_of(const std::vector<Point>& points);
 
-/// The same with a field `ring`.
+/// Points as a cloud of x, y and z with a field `ring`.
 io::Cloud cloud_of(const std::vector<Point>& points, const std::vector<float>& rings);
 
-/// Every point as `change` makes it.
+/// Applies `change` to every point.
 std::vector<Point> changed(std::vector<Point> points, const std::function<Point(Point)>& change);
 
-/// The points in an order of chance, the same each time.
+/// The points in a random order, always the same one.
 std::vector<Point> shuffled(std::vector<Point> points);
 
-/// The mean of the points of each voxel, `side` metres wide.
+/// The mean of the points in each voxel of `side` metres.
 std::vector<Point> voxel_means(const std::vector<Point>& points, float side);
 
 }  // namespace flagstone::doctor
