@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Is this file a scan although its name is that of an array of labels or heights?
+/// True if this file is a scan although it has the name of an array of labels or heights.
 bool is_scan_despite_name(const fs::path& file) {
   constexpr std::array<std::string_view, 4> extensions{".label.npy", ".heights.npy", ".surface.npy",
                                                        ".ground.npy"};
@@ -42,7 +42,7 @@ bool is_scan_despite_name(const fs::path& file) {
   return header.is_structured || (header.shape.size() == 2 && header.shape[1] >= 3);
 }
 
-/// The scans in a directory and below; knows which of them `segment` wrote.
+/// The scans in a directory and below. Detects those that `segment` wrote.
 class Folder {
  public:
   explicit Folder(const fs::path& path) {

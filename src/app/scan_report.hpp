@@ -25,7 +25,7 @@ struct Score {
 /// The mounting pose that was used for a scan.
 struct MountReport {
   Mount mount;             ///< used to segment the scan
-  MountDecision decision;  ///< for this scan, or for the scan that determined the mount
+  MountDecision decision;  ///< for this scan, or for the scan that determined the pose
 };
 
 /// Outcome of one scan.
@@ -43,7 +43,7 @@ struct ScanReport {
   double picture_ms = 0;  ///< 0 without images
   std::vector<Score> scores;
   std::optional<MountReport> mount;  ///< if it was estimated
-  bool mount_is_own = false;         ///< estimated from this scan; text_line() says so
+  bool mount_is_own = false;         ///< estimated from this scan; text_line() prints it
   std::vector<std::filesystem::path> outputs;
 
   [[nodiscard]] double ground_share() const noexcept;

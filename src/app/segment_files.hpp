@@ -65,7 +65,7 @@ struct SegmentOutcome {
   [[nodiscard]] bool ok() const;
 };
 
-/// Segments scans and writes their labels, clouds, heights, surfaces and images. A scan that fails
+/// Segments scans and writes their labels, clouds, heights, surfaces and images. A failed scan
 /// does not affect the others. Throws std::invalid_argument, before anything is written, if options
 /// contradict each other or if an output would overwrite an input.
 SegmentOutcome segment_files(SegmentRequest request, const SegmentCallbacks& callbacks);

@@ -126,8 +126,8 @@ class SequenceRun {
   [[nodiscard]] std::size_t missing() const noexcept { return missing_.size(); }
 
   RunOutcome run(unsigned threads, const RunCallbacks& callbacks) {
-    // Each thread starts with a different drive, so that environments are built in parallel. All
-    // threads share the last drives.
+    // Each thread starts with a different environment, so that they are built in parallel. All
+    // threads share the last environments.
     const std::size_t side_by_side = threads_or_cores(threads);
     std::ranges::sort(missing_, {}, [&](std::size_t frame) {
       const std::size_t drive = frame / drive_length;
@@ -144,7 +144,7 @@ class SequenceRun {
         [](std::size_t, bool) {});
   }
 
-  /// Pose of the sensor in the environment of its drive, for every frame.
+  /// Pose of the sensor in its environment, for every frame.
   [[nodiscard]] std::vector<sim::Frame> poses() const {
     std::vector<sim::Frame> poses;
     for (std::size_t index = 0; index < worlds_.size(); ++index) {
@@ -188,7 +188,7 @@ class SequenceRun {
   const SimulatedSequence& files_;
   const sim::SceneKind& scene_;
   const SequenceOrigin& origin_;
-  std::vector<World> worlds_;  // by drive
+  std::vector<World> worlds_;  // by index of the environment
   std::vector<std::size_t> missing_;
 };
 

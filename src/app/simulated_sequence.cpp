@@ -125,7 +125,7 @@ std::string scene_text(const SequenceOrigin& origin) {
   return scene.dump(1) + '\n';
 }
 
-// KITTI's readers look for the cameras too; here all frames are the sensor's.
+// Readers of KITTI expect the cameras too. Here all frames are the sensor frame.
 std::string calibration_text() {
   std::string text;
   for (const char* name : {"P0", "P1", "P2", "P3", "Tr"}) {

@@ -50,8 +50,8 @@ class SimulatedSequence {
   void write(std::size_t frame, const sim::SimulatedScan& scan,
              std::span<const float> ground) const;
 
-  /// Writes poses.txt: per frame one line with the rows of the 3x4 matrix from the sensor to the
-  /// environment of its drive.
+  /// Writes poses.txt: per frame one line with the rows of the 3x4 matrix from the sensor to its
+  /// environment.
   void write_poses(std::span<const sim::Frame> poses) const;
 
  private:

@@ -32,7 +32,7 @@ struct NameList {
   std::vector<std::pair<std::string, std::string>> names{};
 };
 
-/// The parts of a help text that CLI11 does not know. The rest is made from the description of the
+/// The parts of a help text that CLI11 does not have. The rest is made from the description of the
 /// command and from its options.
 struct Help {
   std::vector<Example> examples;

@@ -40,14 +40,14 @@ Help help_text() {
     sensors.names.emplace_back(sensor.name, sensor.title);
   return {
       .examples =
-          {{"flagstone simulate --scene street --output simulated"},
+          {{"flagstone simulate --scene flat_street --output simulated"},
            {"flagstone simulate --scene steep_street --sensor vlp-16 --weather rain -o out"}},
       .lists = {summaries("Scenes", sim::scene_kinds()), summaries("Noise", sim::noise_levels()),
                 summaries("Weather", sim::weathers()), sensors},
       .notes =
-          "The output is a SemanticKITTI sequence with exact ground truth. The same options "
-          "always give the same bytes. Frames that already exist are kept, so the same "
-          "command resumes an interrupted run.",
+          "The output is a SemanticKITTI sequence with exact ground truth. The output "
+          "depends only on the options. Frames that already exist are kept, so the same command "
+          "resumes an interrupted run.",
       .exit_codes = "0, success; 1, interrupted, or a file cannot be written; 2, usage error."};
 }
 
@@ -140,7 +140,7 @@ std::unique_ptr<Command> add_simulate_command(CLI::App& app) {
       ->type_name("NN")
       ->capture_default_str();
   command->add_flag("--keep-no-returns", options->keep_no_returns,
-                    "Write missing returns as points at (0, 0, 0), as many drivers do");
+                    "Write missing returns as points at (0, 0, 0), as drivers often do");
   add_threads_option(*command, options->threads);
   return made;
 }

@@ -12,7 +12,7 @@ namespace flagstone::cli {
 /// file names and settings may contain, are escaped as in "\x0a".
 void print_error(std::string_view message);
 
-/// Handles signals from now on: after the first SIGINT or SIGTERM, the run stops when the scans in
+/// Installs signal handlers: after the first SIGINT or SIGTERM, the run stops when the scans in
 /// progress are done; the second one ends the program immediately.
 void catch_interrupts();
 

@@ -81,7 +81,7 @@ TEST(ConfigCommand, PrintedPresetGivesTheLabelsOfThePreset) {
   EXPECT_EQ(printed.exit_code, 0);
   EXPECT_EQ(files_below(folder / "named"), files_below(folder / "printed"));
   EXPECT_NE(files_below(folder / "named"), files_below(folder / "default"))
-      << "this scan does not tell presets apart";
+      << "the presets give equal labels for this scan";
 }
 
 TEST(ConfigCommand, ReportsUnwritableStandardOutput) {

@@ -313,7 +313,7 @@ TEST_F(EvalCommand, PrintsNineRowsForTable1AndMarksTheBest) {
   const std::array titles = {"RANSAC ",    "GPF ",     "LineFit ",     "CascadedSeg ",   "R-GPF ",
                              "R-GPF + U ", "CZM + U ", "CZM + U + E ", "CZM + U + E + F"};
   for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_THAT(rows[i], StartsWith(titles[i]));
-  // Seven columns and two deviations have a best one; output that is no terminal has no bold.
+  // Seven columns and two deviations have a best one; output that is not a terminal has no bold.
   std::string table;
   for (const std::string& row : rows) table += row;
   EXPECT_GE(std::ranges::count(table, '*'), 9);
@@ -762,7 +762,7 @@ TEST_F(EvalCommand, ScanWithoutTrueGroundCountsOnlyForAccuracy) {
 TEST(EvalOnRealScans, ScoresSequencesInTheOriginalLayoutUnderACustomProtocol) {
   const fs::path data = tests::real_scan_folder();
   if (!fs::exists(data / "sequences") || !fs::exists(data / "pandaset")) {
-    GTEST_SKIP() << "no drives in " << data;
+    GTEST_SKIP() << "no sequences in " << data;
   }
   const io::TemporaryFolder folder;
   const std::string file = (folder / "results.json").string();

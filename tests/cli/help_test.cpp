@@ -83,7 +83,7 @@ TEST(Help, NotesDefaultsAndRequirementsAfterTheDescription) {
   EXPECT_THAT(help, ContainsRegex("\n +split +separate clouds"));
 }
 
-TEST(Help, VersionIsThatOfTheLibrary) {
+TEST(Help, PrintsTheVersionOfTheLibrary) {
   const Outcome outcome = run({"--version"});
 
   EXPECT_EQ(outcome.exit_code, 0);

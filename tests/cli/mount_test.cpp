@@ -228,7 +228,7 @@ TEST_F(MountOfScans, EvalEstimatesEveryScanSeparately) {
   EXPECT_EQ(scores("1"), scores("3"));
 }
 
-TEST_F(MountOfScans, EvalAcceptsSettingsOfTheMount) {
+TEST_F(MountOfScans, EvalAcceptsMountSettings) {
   put_labelled(folder_ / "set", "0", yard(1.73f));
 
   const Outcome right = run({"eval", path("set"), "--methods", "surface", "--set",

@@ -140,7 +140,7 @@ class Resolver {
     return {.name = std::string(method.name), .config = std::move(config), .mount = mount};
   }
 
-  /// Sets the mount. Afterwards the method and the mount have the same sensor height.
+  /// Sets height and tilt. Afterwards both results have the same sensor height.
   void apply_mount(MethodConfig& config, MountSettings& mount) const {
     const MountChoice& chosen = choice_.mount;
     if (chosen.sensor_height) set_sensor_height(*chosen.sensor_height, config);

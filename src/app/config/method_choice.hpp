@@ -34,7 +34,7 @@ struct MountChoice {
 
 /// Settings given by name.
 struct GivenSettings {
-  std::string method{};  ///< owner; empty for the only method and for the mount
+  std::string method{};  ///< owner; empty for the only method and for `mount`
   Value table{};
   std::string source{};  ///< "--set gpf.segments=5", for messages
 };

@@ -137,7 +137,7 @@ void assign(const Value& from, std::vector<Zone>& zones) {
   }
 }
 
-/// The settings of a method and of the mount, by key.
+/// The settings of a method and of the mounting pose, by key.
 class Settings {
  public:
   Settings(MethodConfig& config, MountSettings& mount) : settings_(config.settings()) {

@@ -222,7 +222,7 @@ double ring_sharpness(const std::vector<std::vector<Vector3f>>& rings, const Pla
   return sum > 0 ? count / sum : 0;
 }
 
-/// Searches the place from which the beams are sharpest, along one axis after the other.
+/// Searches the position from which the beams are sharpest, along one axis after the other.
 class SharpestPlace {
  public:
   /// Sensors are mounted from 0.1 to 6 m above the ground.
@@ -251,7 +251,7 @@ class SharpestPlace {
   }
 
  private:
-  /// Moves the place to the best position along an axis, metres. Returns the best sharpness that is
+  /// Moves to the best position along an axis, metres. Returns the best sharpness that is
   /// not near this position.
   double search(std::size_t axis, double from, double to, double step) {
     constexpr double near = 0.35;

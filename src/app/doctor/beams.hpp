@@ -38,13 +38,13 @@ struct BeamOrigin {
   double sharpness = 0;            ///< of the elevations computed from `place`
   double sharpness_at_origin = 0;  ///< of the elevations computed from the origin of the cloud
 
-  /// True if the place is clearly not the origin of the cloud.
+  /// True if the position is clearly not the origin of the cloud.
   [[nodiscard]] bool is_elsewhere() const noexcept;
 };
 
 /// Finds the origin from the comb that the elevations of all points form, without ring numbers.
 /// `places`: metres; z is the rotation axis of the sensor, the ground is at z = `ground`. Returns
-/// nothing if no place gives a clear comb: too few points above the ground, a rosette, beams closer
+/// nothing if no position gives a clear comb: too few points above the ground, a rosette, beams closer
 /// together than the noise, or another rotation axis.
 std::optional<BeamOrigin> find_beam_origin(std::span<const Vector3f> places, double ground);
 

@@ -15,7 +15,7 @@ namespace flagstone::doctor {
 /// Importance of a finding.
 enum class Severity {
   fine,  ///< no problem
-  note,  ///< worth knowing; no action is needed
+  note,  ///< for information; no action is needed
   fix,   ///< harms the labels until it is fixed
 };
 

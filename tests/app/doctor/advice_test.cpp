@@ -134,7 +134,7 @@ TEST(AdviceToml, HasOnlyTheHeightForTheDefaultMount) {
             "sensor_height = 1.73  # metres above the ground\n");
 }
 
-TEST(AdviceToml, HasTheMountSettingsThatDiffer) {
+TEST(AdviceToml, HasTheSettingsThatDiffer) {
   Advice advice{.sensor = "os0-128", .has_mount = true};
   advice.mount = {
       .sensor_height = 2, .up = {0, -1, 0}, .origin = {0, 0.25f, -1.5f}, .scale = 0.01f};

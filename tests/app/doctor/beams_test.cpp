@@ -25,7 +25,7 @@
 namespace flagstone::doctor {
 namespace {
 
-/// The upper of two stacked sensors of 32 beams, as Argoverse 2 drives them: 1.97 m above the
+/// The upper of two stacked sensors of 32 beams, as on the vehicles of Argoverse 2: 1.97 m above the
 /// ground.
 Sensor upper_sensor() {
   return {.name = "upper",

@@ -21,7 +21,7 @@ double elevation(const Point& p) {
   return std::atan2(p.z, std::hypot(p.x, p.y)) * 180 / std::numbers::pi;
 }
 
-/// Those points of the street for which `keep` holds.
+/// The points of the street for which `keep` is true.
 template <class Keep>
 std::vector<Point> street_where(Keep keep) {
   std::vector<Point> kept;
