@@ -39,8 +39,8 @@ struct Entry {
 
 /// Sets the settings in `table` and leaves the others unchanged. Keys are dotted or in nested
 /// tables. Zones are replaced as a whole. The table `mount` sets `mount`. The key `sensor` is
-/// ignored. Ranges are not checked. Throws std::invalid_argument, one line that starts with
-/// Value::place, for an unknown key or a value of the wrong type.
+/// ignored. Ranges are not checked. Throws std::invalid_argument, one line that starts with the
+/// position, for an unknown key or a value of the wrong type.
 void apply(const Value& table, MethodConfig& config, MountSettings& mount);
 
 /// True if the method has all settings in `table`, not counting `mount` and `sensor`.

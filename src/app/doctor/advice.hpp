@@ -34,8 +34,8 @@ double height_doubt(const CommonOrientation& orientation);
 /// The known sensors that could have recorded these scans, the most likely first.
 std::vector<const Sensor*> matching_sensors(const Summary& summary);
 
-/// Recommended settings for scans in which the ground was found. `orientation`: that of the
-/// summary. `sensors`: see matching_sensors().
+/// Recommended settings for scans in which the ground was found. `orientation`: of the summary.
+/// `sensors`: see matching_sensors().
 Advice advise(const Summary& summary, const CommonOrientation& orientation,
               const Expected& expected, const std::vector<const Sensor*>& sensors);
 
