@@ -157,7 +157,7 @@ def test_repr_is_a_table(evaluation: flagstone.Evaluation, simulated: Path) -> N
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"protocol": "kitti"}, 'no protocol is named "kitti" .expected patchwork'),
+        ({"protocol": "kitti"}, "no protocol is named 'kitti' .expected patchwork"),
         ({"methods": "surfaces"}, "no method is named 'surfaces'"),
         ({"sensor_height": "high"}, "sensor_height: high is no number of metres"),
         ({"tilt": "left"}, "tilt: 'left' is not a tilt"),

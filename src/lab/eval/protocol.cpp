@@ -20,6 +20,7 @@
 
 #include "files/io/load_bytes.hpp"
 #include "files/io/message.hpp"
+#include "library/core/did_you_mean.hpp"
 
 namespace flagstone::eval {
 namespace {
@@ -264,19 +265,19 @@ Status read_protocol(const std::filesystem::path& path, Protocol& out) {
 }
 
 Status find_protocol(const std::string& name_or_file, Protocol& out) {
-  std::string known;
+  std::vector<std::string_view> names;
   for (const Protocol* protocol : known_protocols()) {
     if (protocol->name == name_or_file) {
       out = *protocol;
       return {};
     }
-    known += protocol->name + ", ";
+    names.push_back(protocol->name);
   }
   if (name_or_file.ends_with(".toml") || name_or_file.ends_with(".json")) {
     return read_protocol(name_or_file, out);
   }
-  return io::invalid("no protocol is named \"{}\" (expected {}or a .toml or .json file)",
-                     name_or_file, known);
+  names.emplace_back("or a .toml or .json file");
+  return io::invalid("{}", io::printable(no_such("protocol", name_or_file, names)));
 }
 
 }  // namespace flagstone::eval
