@@ -51,11 +51,7 @@ DoctorReport examine_files(const DoctorRequest& request, const RunCallbacks& cal
 /// findings. `bold`: emphasise `fix` and `note` with terminal escape codes.
 std::string text_of(const DoctorReport& report, bool bold);
 
-<<<<<<< HEAD
-/// One object; docs/reference/doctor-json.md lists its keys.
-=======
 /// One JSON object, see docs/reference/doctor-json.md.
->>>>>>> 9cd5bbe (Comments of commands use the glossary's terms)
 std::string json_of(const DoctorReport& report);
 
 /// The recommended settings as TOML; a comment if there are none.
