@@ -65,7 +65,7 @@ std::vector<eval::LabelledScan> list_scans(const EvaluationOptions& options) {
   std::ranges::sort(names);
   if (const auto twice = std::ranges::adjacent_find(names); twice != names.end()) {
     throw std::invalid_argument(fmt::format(
-        "{}: this scan is listed twice (name each data set and sequence once, and evaluate data "
+        "{}: this scan is listed twice (name each dataset and sequence once, and evaluate data "
         "sets of the same name separately)",
         *twice));
   }
@@ -202,7 +202,7 @@ std::string Evaluation::fingerprint() const {
   }
   text += fmt::format("\ncolumns {}", options_.columns);
   for (const std::string& dataset :
-       options_.datasets) {  // scans of two data sets may have the same names
+       options_.datasets) {  // scans of two datasets may have the same names
     std::error_code ignored;
     text += fmt::format("\n{}", fs::canonical(dataset, ignored).string());
   }

@@ -55,11 +55,11 @@ struct EvaluationOptions {
   std::vector<std::string> settings_files{};  ///< inputs that must not be overwritten
 };
 
-/// Runs methods on the scans of data sets, in parallel. A run can be stopped and resumed.
+/// Runs methods on the scans of datasets, in parallel. A run can be stopped and resumed.
 class Evaluation {
  public:
   /// Creates the directories of the result files. Throws std::invalid_argument, one line, if the
-  /// options, methods or data sets are invalid, and std::runtime_error if a directory cannot be
+  /// options, methods or datasets are invalid, and std::runtime_error if a directory cannot be
   /// created.
   Evaluation(EvaluationOptions options, std::vector<eval::Method> methods);
 

@@ -183,7 +183,8 @@ std::unique_ptr<Command> add_bench_command(CLI::App& app) {
       ->needs(peers)
       ->capture_default_str()
       ->type_name("COMMAND");
-  command->add_option("--compare-worker", options->places.worker, "Path of bench/external_worker.py")
+  command
+      ->add_option("--compare-worker", options->places.worker, "Path of bench/external_worker.py")
       ->needs(peers)
       ->default_str("in the source tree of this command")
       ->type_name("FILE");

@@ -13,7 +13,7 @@ class App;
 
 namespace flagstone::cli {
 
-/// Adds the data sets and the options of `eval` and `sweep`: protocol, scans to use, result files.
+/// Adds the datasets and the options of `eval` and `sweep`: protocol, scans to use, result files.
 void add_evaluation_options(CLI::App& command, app::EvaluationOptions& options);
 
 /// Writes `text` to `file` and prints its name; does nothing if `file` is empty. Throws

@@ -27,7 +27,7 @@ using testing::HasSubstr;
 
 constexpr int scans = 150;
 
-/// A data set, and an evaluation that takes long enough to be interrupted: GPF with many
+/// A dataset, and an evaluation that takes long enough to be interrupted: GPF with many
 /// iterations.
 class EvalResume : public testing::Test {
  protected:

@@ -25,7 +25,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A directory with a scan, settings, a sensor, a protocol and a data set.
+/// A directory with a scan, settings, a sensor, a protocol and a dataset.
 class Overwriting : public testing::Test {
  protected:
   Overwriting() {
