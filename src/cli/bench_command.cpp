@@ -137,8 +137,7 @@ class BenchCommand final : public Command {
 
 std::unique_ptr<Command> add_bench_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "bench",
-      "Time a method on scans, stage by stage, and compare it with other implementations.");
+      "bench", "Time a method on scans and compare it with other implementations.");
   set_help(
       *command,
       {.examples = {{"flagstone bench scans/"},

@@ -47,8 +47,8 @@ class ConfigCommand final : public Command {
 }  // namespace
 
 std::unique_ptr<Command> add_config_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "config", "Print all settings of a method as a commented TOML file for --config.");
+  CLI::App* command =
+      app.add_subcommand("config", "Print all settings of a method as a TOML file for --config.");
   set_help(*command,
            {.examples = {{"flagstone config > mine.toml"},
                          {"flagstone config --method patchwork --sensor os0-128 > mine.toml"}},

@@ -34,7 +34,7 @@ class DemoCommand final : public Command {
 
 std::unique_ptr<Command> add_demo_command(CLI::App& parser) {
   CLI::App* command = parser.add_subcommand(
-      "demo", "Simulate a street, then segment it, score the labels and draw images.");
+      "demo", "Simulate a street, segment it, score the labels and draw images.");
   set_help(*command, {.examples = {{"flagstone demo", "write to flagstone-demo/"},
                                    {"flagstone demo --output demo --seed 11", "another street"}},
                       .exit_codes = "0, success; 1, error; 2, usage error."});

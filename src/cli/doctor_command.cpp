@@ -72,7 +72,7 @@ class DoctorCommand final : public Command {
 
 std::unique_ptr<Command> add_doctor_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "doctor", "Check a few scans for common problems and print settings that fix them.");
+      "doctor", "Check scans for common problems and print settings that fix them.");
   set_help(*command,
            {.examples = {{"flagstone doctor scans/ --output doctor.toml"},
                          {"flagstone segment scans/ --output labels --config doctor.toml"}},

@@ -23,6 +23,7 @@ namespace {
 
 constexpr std::size_t indent = 2;
 constexpr std::size_t meaning_column = 29;
+constexpr char hard_space = '\x1f';  // becomes a space after lines are wrapped
 
 /// Between 80 and 100 columns on a terminal; 80 in files, so that the text is always the same.
 std::size_t help_width() {
@@ -46,7 +47,7 @@ std::string notes_of(const CLI::Option& option) {
     notes.emplace_back("repeatable");
   }
   if (!option.get_default_str().empty()) {
-    notes.push_back(fmt::format("default: {}", option.get_default_str()));
+    notes.push_back(fmt::format("default:{}{}", hard_space, option.get_default_str()));
   }
   for (const CLI::Option* const needed : option.get_needs()) {
     notes.push_back(fmt::format("needs {}", needed->get_name()));
@@ -147,7 +148,9 @@ class CommandHelp final : public CLI::FormatterBase {
 
   static std::string options(const CLI::App& command, const Page& page) {
     std::vector<std::string> groups = command.get_groups();
-    std::ranges::stable_partition(groups, [](const auto& name) { return name != other_group; });
+    std::ranges::stable_sort(groups, {}, [](const std::string& name) {
+      return name == input_group ? 0 : name == output_group ? 2 : name == other_group ? 3 : 1;
+    });
     std::string text;
     for (const std::string& group : groups) {
       std::string entries;
@@ -162,8 +165,8 @@ class CommandHelp final : public CLI::FormatterBase {
   }
 
   static std::string option_entry(const CLI::Option& option, const Page& page) {
-    constexpr std::size_t table_column = meaning_column + 10;
-    std::string_view rest = option.get_description();
+    const std::string description = option.get_description();
+    std::string_view rest = description;
     const auto next_line = [&rest] {
       const std::string_view line = rest.substr(0, rest.find('\n'));
       rest.remove_prefix(std::min(line.size() + 1, rest.size()));
@@ -171,10 +174,17 @@ class CommandHelp final : public CLI::FormatterBase {
     };
     const std::string meaning = std::string(next_line()) + notes_of(option);
     std::string text = page.entry(label_of(option), meaning, meaning_column);
+    std::ranges::replace(text, hard_space, ' ');
+    std::vector<std::pair<std::string_view, std::string_view>> table;
+    std::size_t widest = 0;
     while (!rest.empty()) {
       const std::string_view line = next_line();
       const std::size_t tab = line.find('\t');
-      text += page.entry(line.substr(0, tab), line.substr(tab + 1), table_column, meaning_column);
+      table.emplace_back(line.substr(0, tab), line.substr(tab + 1));
+      widest = std::max(widest, tab);
+    }
+    for (const auto& [name, value] : table) {
+      text += page.entry(name, value, meaning_column + widest + 2, meaning_column);
     }
     return text;
   }
@@ -198,6 +208,7 @@ class CommandHelp final : public CLI::FormatterBase {
 }  // namespace
 
 void set_help(CLI::App& command, Help help) {
+  command.set_help_flag("-h,--help", "Show this help")->group(other_group);
   command.formatter(std::make_shared<CommandHelp>(std::move(help)));
 }
 

@@ -13,12 +13,12 @@ class Option;
 
 namespace flagstone::cli {
 
-/// @name Groups of options, for Option::group()
+/// @name Groups of options, for Option::group(). Help lists Input first, Output and Other last.
 /// @{
 inline constexpr const char* input_group = "Input";
 inline constexpr const char* method_group = "Method and settings";
 inline constexpr const char* output_group = "Output";
-inline constexpr const char* other_group = "Other";  ///< always listed last
+inline constexpr const char* other_group = "Other";
 /// @}
 
 struct Example {

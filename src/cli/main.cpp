@@ -40,16 +40,18 @@ std::vector<std::unique_ptr<flagstone::cli::Command>> add_commands(CLI::App& app
 
 int run(int argc, char** argv) {
   using namespace flagstone::cli;
-  CLI::App app("Ground segmentation for 3D LiDAR.", "flagstone");
+  CLI::App app("Ground segmentation for 3D LiDAR: labels, heights and the ground surface.",
+               "flagstone");
   app.option_defaults()->group(other_group);
-  app.set_help_flag("-h,--help", "Show this help");
   app.set_version_flag("--version", FLAGSTONE_VERSION, "Show the version");
   app.require_subcommand(1);
   const std::vector<std::unique_ptr<Command>> commands = add_commands(app);
-  set_help(app, {.examples = {{"flagstone demo", "try it on a simulated street"},
-                              {"flagstone doctor scans/", "find settings for your sensor"},
-                              {"flagstone segment scans/ --output labels", "label your scans"}},
-                 .notes = "'flagstone COMMAND --help' shows the options of a command."});
+  set_help(
+      app,
+      {.examples = {{"flagstone demo", "try it on a simulated street"},
+                    {"flagstone doctor scans/", "find settings for your sensor"},
+                    {"flagstone segment scans/ --output labels", "label the points of your scans"}},
+       .notes = "'flagstone COMMAND --help' shows the options of a command."});
   if (argc > 1) check_command(app, argv[1]);
   try {
     app.parse(argc, argv);

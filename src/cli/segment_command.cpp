@@ -108,8 +108,8 @@ class SegmentCommand final : public Command {
 }  // namespace
 
 std::unique_ptr<Command> add_segment_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "segment", "Label every point of one or more LiDAR scans as ground or non-ground.");
+  CLI::App* command =
+      app.add_subcommand("segment", "Label every point of LiDAR scans as ground or non-ground.");
   set_help(
       *command,
       {.examples = {{"flagstone segment scans/ --output labels", "write one .label file per scan"},
@@ -172,7 +172,7 @@ std::unique_ptr<Command> add_segment_command(CLI::App& app) {
       command->add_flag("--image", options->picture, "Draw a bird's-eye view of each scan as PNG");
   command
       ->add_flag("--color-patches", options->tint_patches,
-                 "Colour each patch in the image by its status (patchwork, r_gpf, czm+...)")
+                 "Colour each patch in the image by its status, with patchwork, r_gpf or czm+...")
       ->needs(image);
   command->add_flag("--json", options->json, "Print one JSON object per scan instead of text");
   add_threads_option(*command, options->threads, "all cores; 1 with --sensor-height track");

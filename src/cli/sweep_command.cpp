@@ -70,8 +70,7 @@ std::unique_ptr<Command> add_sweep_command(CLI::App& app) {
   set_help(
       *command,
       {.examples = {{"flagstone sweep SemanticKITTI --every 100 --html sweep.html"},
-                    {"flagstone sweep SemanticKITTI --method patchwork --param "
-                     "distance_margin=0.1,0.15"}},
+                    {"flagstone sweep SemanticKITTI --method patchwork --param seed_count=10,20"}},
        .notes = "Without --param, the sweep reproduces Fig. 5 of the Patchwork paper: bin sizes of "
                 "the uniform grid and uprightness angles."});
   auto made = std::make_unique<SweepCommand>(*command);
