@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
         segmenting("ThreadsWithoutNumber", {"--threads", "x"}, {"--threads: x is not a number"}),
         Misuse{"OptionsThatExclude",
                {"doctor", "SCAN", "--json", "--toml"},
-               {"--toml: cannot be combined with --json"}},
+               {"--json: cannot be combined with --toml"}},
         Misuse{"UnexpectedArgument", {"demo", "street"}, {"street: unexpected argument"}},
         segmenting("MisspelledMethod", {"--method", "surfce"}, {"did you mean 'surface'?"}),
         segmenting("MisspelledPreset", {"--method", "patchwork", "--preset", "papr"},
