@@ -58,7 +58,7 @@ wheel: ## build the Python wheel into dist/ and test it in an empty environment;
 bench-compare: build ## compare the speed of METHOD in the working tree and in REVISION on SCANS
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(SCANS)
 
-bench-scaling: PROGRAM = growth ## time and memory by points, beams, bins and threads
+bench-scaling: PROGRAM = scaling ## time and memory by points, beams, bins and threads
 bench-steps: PROGRAM = sharpness ## errors of the surface at kerbs, ditches and drops
 bench-edges: PROGRAM = edges ## labels at kerbs, ditches and drops, and of ghost points
 latency: PROGRAM = latency ## time of 10,000 different scans, including adversarial ones

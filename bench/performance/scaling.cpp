@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Measures how time and memory of Patchwork or surface scale with points, beams, bins and threads
-// on simulated streets. Prints JSON. bench/growth.py runs this program and draws the plot.
+// on simulated streets. Prints JSON. bench/scaling.py runs this program and draws the plot.
 
 #include <algorithm>
 #include <array>
@@ -321,7 +321,7 @@ int main(int argc, char** argv) {
   if (argc > 3 || (method != "patchwork" && method != "surface") || max_points < 1000 ||
       max_points > all) {
     std::fputs(
-        "usage: growth patchwork|surface [POINTS]\n"
+        "usage: scaling patchwork|surface [POINTS]\n"
         "POINTS: size of the largest cloud, 1000 to 10000000 (default: 10000000)\n",
         stderr);
     return 2;
@@ -331,7 +331,7 @@ int main(int argc, char** argv) {
     return method == "surface" ? run(flagstone::SurfaceConfig{}, max_points)
                                : run(flagstone::PatchworkConfig{}, max_points);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "growth: %s\n", error.what());
+    std::fprintf(stderr, "scaling: %s\n", error.what());
     return 1;
   }
 }

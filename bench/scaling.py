@@ -3,10 +3,10 @@
 """Measures how time and memory of both methods scale, draws the plot and prints the tables. Needs Matplotlib.
 
     make bench-scaling                                       # both methods, a minute or two
-    scripts/benchmark growth --method surface                # one method; the results of the other are kept
-    python3 bench/growth.py --from docs/results/growth.json  # plot and tables from earlier results
+    scripts/benchmark scaling --method surface                # one method; the results of the other are kept
+    python3 bench/scaling.py --from docs/results/scaling.json  # plot and tables from earlier results
 
-Results are written to docs/results/growth.json, the plot to docs/images/growth.png, and Markdown tables to standard
+Results are written to docs/results/scaling.json, the plot to docs/images/scaling.png, and Markdown tables to standard
 output. All clouds are simulated.
 """
 
@@ -17,8 +17,8 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-RESULTS = ROOT / "docs" / "results" / "growth.json"
-IMAGE = ROOT / "docs" / "images" / "growth.png"
+RESULTS = ROOT / "docs" / "results" / "scaling.json"
+IMAGE = ROOT / "docs" / "images" / "scaling.png"
 LIMIT = 64  # maximum memory, bytes per point
 
 METHODS = ("patchwork", "surface")
@@ -294,7 +294,7 @@ def tables(results):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "bench" / "performance" / "growth")
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "bench" / "performance" / "scaling")
     parser.add_argument("--points", type=int, default=10000000, help="points of the largest cloud, 1,000 to 10,000,000")
     parser.add_argument("--method", choices=METHODS, help="measure only this method")
     parser.add_argument(
