@@ -65,8 +65,8 @@ std::vector<eval::LabelledScan> list_scans(const EvaluationOptions& options) {
   std::ranges::sort(names);
   if (const auto twice = std::ranges::adjacent_find(names); twice != names.end()) {
     throw std::invalid_argument(fmt::format(
-        "{}: this scan is listed twice (name each dataset and sequence once, and evaluate data "
-        "sets of the same name separately)",
+        "{}: this scan is listed twice (name each dataset and sequence once, and evaluate "
+        "datasets of the same name separately)",
         *twice));
   }
   return scans;
