@@ -159,7 +159,7 @@ def test_repr_is_a_table(evaluation: flagstone.Evaluation, simulated: Path) -> N
     [
         ({"protocol": "kitti"}, "no protocol is named 'kitti' .expected patchwork"),
         ({"methods": "surfaces"}, "no method is named 'surfaces'"),
-        ({"sensor_height": "high"}, "sensor_height: high is no number of metres"),
+        ({"sensor_height": "high"}, "sensor_height: 'high' is not a height"),
         ({"tilt": "left"}, "tilt: 'left' is not a tilt"),
         ({"sensor": "hdl-65"}, "sensor: "),
         ({"every": 0}, "every: 0 is out of range \\(expected 1 to 1000000\\)"),

@@ -156,7 +156,7 @@ class SequenceRun {
   }
 
  private:
-  /// The environment of a drive: built by the first thread that needs it, freed after its last
+  /// The environment of a sequence: built by the first thread that needs it, freed after its last
   /// frame.
   struct World {
     std::once_flag built;

@@ -597,10 +597,10 @@ class LabelsMadeElsewhere : public EvalCommand {
   /// Scores method 0, GPF itself, and method 1, its labels in a directory.
   [[nodiscard]] json both(const std::string& dataset, const std::string& labels,
                           const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments = {"--methods", "gpf", "--labels", "peer=" + path(labels)};
+    std::vector<std::string> arguments = {"--methods", "gpf", "--labels", "other=" + path(labels)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     json found = results(dataset, arguments);
-    EXPECT_EQ(found["methods"][1]["name"], "peer");
+    EXPECT_EQ(found["methods"][1]["name"], "other");
     EXPECT_TRUE(found["methods"][1]["hz"].is_null());
     return found;
   }
@@ -678,18 +678,18 @@ TEST_F(LabelsMadeElsewhere, HaveOneDirectoryPerDataset) {
 TEST_F(LabelsMadeElsewhere, HaveNoResultsIfAllAreMissing) {
   fs::create_directories(folder_ / "made");
 
-  const Outcome outcome = eval("kitti", {"--methods", "gpf", "--labels", "peer=" + path("made"),
+  const Outcome outcome = eval("kitti", {"--methods", "gpf", "--labels", "other=" + path("made"),
                                          "--html", path("report.html")});
 
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(lines_of(outcome.err), SizeIs(3));
-  EXPECT_THAT(outcome.out, ContainsRegex("\npeer +- +- +- "));
-  const json peer = json_of(folder_ / "results.json")["methods"][1];
+  EXPECT_THAT(outcome.out, ContainsRegex("\nother +- +- +- "));
+  const json other = json_of(folder_ / "results.json")["methods"][1];
   for (const char* figure : {"precision", "recall", "f1", "accuracy", "iou"}) {
-    EXPECT_TRUE(peer[figure]["mean"].is_null()) << figure;
-    EXPECT_TRUE(peer["pooled"][figure].is_null()) << figure;
-    EXPECT_TRUE(peer["by_area"][figure].is_null()) << figure;
-    EXPECT_TRUE(peer["by_range"][0][figure].is_null()) << figure;
+    EXPECT_TRUE(other[figure]["mean"].is_null()) << figure;
+    EXPECT_TRUE(other["pooled"][figure].is_null()) << figure;
+    EXPECT_TRUE(other["by_area"][figure].is_null()) << figure;
+    EXPECT_TRUE(other["by_range"][0][figure].is_null()) << figure;
   }
   EXPECT_TRUE(fs::exists(folder_ / "report.html"));
 }
@@ -698,11 +698,11 @@ TEST_F(LabelsMadeElsewhere, AreReportedOnOneLineIfMissingForAScan) {
   segment("made", "flagstone");
   fs::remove(folder_ / "made/b.label");
 
-  const Outcome outcome = eval("kitti", {"--methods", "gpf", "--labels", "peer=" + path("made"),
+  const Outcome outcome = eval("kitti", {"--methods", "gpf", "--labels", "other=" + path("made"),
                                          "--images", "3", "--output", path("drawn")});
 
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, AllOf(is_one_line_with("method peer"), HasSubstr("made/b.label")));
+  EXPECT_THAT(outcome.err, AllOf(is_one_line_with("method other"), HasSubstr("made/b.label")));
   const json found = json_of(folder_ / "results.json");
   EXPECT_THAT(found["methods"][0]["per_scan"], SizeIs(3));
   EXPECT_THAT(found["methods"][1]["per_scan"], SizeIs(2));
@@ -719,7 +719,7 @@ TEST_F(EvalCommand, ReportsUsageErrorsOnOneLine) {
       {{"--sequences", "05"}, "has no sequences/"},
       {{"--every", "0"}, "--every"},
       {{"--threads", "0"}, "--threads"},
-      {{"--labels", "peer"}, "NAME=DIR"},
+      {{"--labels", "other"}, "NAME=DIR"},
       {{"--set", "patchwork.seed_cuont=3"}, "no setting 'seed_cuont'"},
       {{"--set", "patchwork.distance_margin=-1"}, "distance_margin = -1"},
       {{"--set", "surface.distance_margin=1"},

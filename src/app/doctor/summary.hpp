@@ -53,7 +53,7 @@ struct Summary {
                                           ///< axis is z; empty if it is the origin or unknown
   RingSource rings = RingSource::none;
   FieldOfView view{};
-  double growth = 0;  ///< Downsampling::growth
+  double growth = 0;  ///< `Downsampling::growth`
   bool is_voxel_averaged = false;
   EgoVehicle vehicle{};
 
