@@ -113,7 +113,7 @@ TEST(ScanReport, HintsAtWrongUnitsIfMostPointsAreOutOfRange) {
   EXPECT_EQ(hint_of(report), "");
 
   report.counts = {5, 9, 0, 21, 5};
-  EXPECT_THAT(text_line(report), HasSubstr("; most points are out of range (expected metres, "));
+  EXPECT_THAT(text_line(report), HasSubstr("; most points are out of range (expected metres and "));
   EXPECT_THAT(text_line(report), HasSubstr("'flagstone doctor'"));
   EXPECT_EQ(json::parse(json_line(report))["hint"], hint_of(report));
 }
