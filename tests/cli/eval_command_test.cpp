@@ -283,7 +283,7 @@ TEST_F(EvalCommand, PrintsHeightTablesOnlyIfHeightsAreEvaluated) {
   const Outcome not_judged = eval("kitti", {"--methods", "patchwork", "--every", "3"});
 
   EXPECT_THAT(judged.out, AllOf(HasSubstr("Error of the height above the ground"),
-                                HasSubstr("  0-20 m    95 %    bias   share")));
+                                HasSubstr("  0-20 m    95 %    bias  coverage")));
   EXPECT_THAT(not_judged.out, Not(HasSubstr("Error of the height")));
 }
 
@@ -301,7 +301,7 @@ TEST_F(EvalCommand, PrintsNineRowsForTable1AndMarksTheBest) {
   const Outcome outcome = eval("kitti", {"--methods", "table1"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, StartsWith("Protocol patchwork, 3 scans of kitti; percent."));
+  EXPECT_THAT(outcome.out, StartsWith("Protocol patchwork, 3 scans of kitti. Percentages, "));
   const std::vector<std::string> lines = lines_of(outcome.out);
   const auto heading =
       std::ranges::find_if(lines, [](const auto& line) { return line.starts_with("Method"); });

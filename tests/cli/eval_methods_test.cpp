@@ -199,7 +199,7 @@ TEST(EvalMethods, ErrorsNameTheAllowedValues) {
 
 TEST(EvalMethods, RejectsASettingOfAMethodThatIsNotEvaluated) {
   EXPECT_THAT(error_of({.names = {"ransac"}, .settings = {"gpf.segments=5"}}),
-              AllOf(HasSubstr("--set gpf.segments=5"), HasSubstr("not among --methods")));
+              AllOf(HasSubstr("--set gpf.segments=5"), HasSubstr("not one of the methods in --methods")));
 }
 
 TEST(EvalMethods, RejectsAPresetWithoutAMethodThatHasPresets) {
