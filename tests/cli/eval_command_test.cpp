@@ -723,13 +723,13 @@ TEST_F(EvalCommand, ReportsUsageErrorsOnOneLine) {
       {{"--set", "patchwork.seed_cuont=3"}, "no setting 'seed_cuont'"},
       {{"--set", "patchwork.distance_margin=-1"}, "distance_margin = -1"},
       {{"--set", "surface.distance_margin=1"},
-       "no setting 'distance_margin'; --method patchwork has"},
+       "no setting 'distance_margin' (--method patchwork has it)"},
       {{"--methods", "surface", "--preset", "paper"}, "surface has no presets"},
       {{"--images", "-1"}, "--images"},
-      {{"--label-map", "mine"}, "{flagstone,semantic-kitti}"},
+      {{"--label-map", "mine"}, "expected flagstone, semantic-kitti"},
       {{path("empty")}, "empty: not a dataset"},
       {{path("gone")}, "gone: no such directory"},
-      {{path("kitti")}, "scan kitti/a is listed twice"},
+      {{path("kitti")}, "kitti/a: this scan is listed twice"},
   };
   fs::create_directories(folder_ / "empty");
   for (const auto& [arguments, said] : misuses) {
