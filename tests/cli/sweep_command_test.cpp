@@ -103,7 +103,7 @@ TEST_F(SweepCommand, WritesCsvAndASelfContainedHtmlReport) {
   EXPECT_THAT(lines_of(io::contents_of(folder_ / "new/sweep.csv")), SizeIs(1 + 3));
   const std::string html = io::contents_of(folder_ / "new/sweep.html");
   EXPECT_TRUE(html.starts_with("<!doctype html>"));
-  EXPECT_NE(html.find("seed_count of patchwork"), std::string::npos);
+  EXPECT_NE(html.find("seed_count for patchwork"), std::string::npos);
   const std::regex loads(R"((src|href)\s*=\s*["']?\s*(https?:|//)|@import|url\()");
   EXPECT_FALSE(std::regex_search(html, loads));
   EXPECT_FALSE(fs::exists(folder_ / "sweep.json.checkpoint"));
