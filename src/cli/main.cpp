@@ -38,6 +38,8 @@ std::vector<std::unique_ptr<flagstone::cli::Command>> add_commands(CLI::App& app
   return commands;
 }
 
+constexpr const char* unwritable = "standard output: cannot be written (is the disk full?)";
+
 int run(int argc, char** argv) {
   using namespace flagstone::cli;
   CLI::App app("Ground segmentation for 3D LiDAR: labels, heights and the ground surface.",
@@ -65,9 +67,7 @@ int run(int argc, char** argv) {
   for (const auto& command : commands) {
     if (command->parser().parsed()) exit_code = command->run();
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    throw std::runtime_error("standard output cannot be written");
-  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw std::runtime_error(unwritable);
   return exit_code;
 }
 
@@ -82,7 +82,8 @@ int main(int argc, char** argv) {
     flagstone::cli::print_error(error.what());
     return usage_error;
   } catch (const std::exception& error) {
-    flagstone::cli::print_error(error.what());
+    // fmt::print throws its own message if standard output is full.
+    flagstone::cli::print_error(std::ferror(stdout) != 0 ? unwritable : error.what());
     return 1;
   }
 }

@@ -110,7 +110,7 @@ TEST(Bench, PrintsATableOfCandidatesAndATableOfStages) {
 
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.out, HasSubstr("1 scan of 4000 points (mean) in rotation, 2 rounds"));
-  for (const char* row : {"segment ", "read baseline", "segment, scalar build"}) {
+  for (const char* row : {"segment ", "read-only baseline", "segment, scalar build"}) {
     EXPECT_THAT(outcome.out, ContainsRegex(std::string("\n") + row));
   }
   for (const std::string& stage : stages) {

@@ -141,8 +141,9 @@ TEST_F(EvalResume, RejectsAndKeepsTheCheckpointOfAnotherEvaluation) {
 
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.out, "");
-    EXPECT_THAT(outcome.err, is_one_line_with("results.json.checkpoint: is of an evaluation with "
-                                              "other datasets, methods, settings or protocol"));
+    EXPECT_THAT(outcome.err,
+                is_one_line_with("results.json.checkpoint: belongs to an evaluation with "
+                                 "other datasets, methods, settings or protocol"));
     EXPECT_EQ(checkpoint() == kept, true);
   }
 }

@@ -135,7 +135,7 @@ TEST(SegmentFailure, ReportsUnwritableStandardOutput) {
                               .finish();
 
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, is_one_line_with("standard output cannot be written"));
+  EXPECT_THAT(outcome.err, is_one_line_with("standard output: cannot be written"));
 }
 
 }  // namespace

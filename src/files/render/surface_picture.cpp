@@ -201,7 +201,7 @@ void draw_surface_legend(const Canvas& canvas, const Rectangle& legend, const Re
   const double number_line = legend.y + 56 * unit;
 
   draw_text(context, legend.x, name_line, "Height", bold_font);
-  draw_text(context, legend.x, number_line, "z in metres", number_font);
+  draw_text(context, legend.x, number_line, "z in m", number_font);
   const Rectangle bar{legend.x + 150 * unit, legend.y + 6 * unit, legend.width * 0.4, 24 * unit};
   draw_colors(context, bar, unit);
   draw_heights(context, bar, look.heights, step, unit);
