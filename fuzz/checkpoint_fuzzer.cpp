@@ -17,8 +17,8 @@ constexpr const char* evaluation = "fuzzed";
 
 }  // namespace
 
-// The first byte selects the number of methods, and whether the rest follows the heading of a checkpoint
-// or is the whole file.
+// The first byte selects the number of methods, and whether the rest follows the heading of a
+// checkpoint or is the whole file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   if (size == 0) return 0;
@@ -43,7 +43,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   eval::Checkpoint again;
   std::map<std::string, eval::ScanOutcome> kept;
-  fuzz::require(again.resume(file.path(), evaluation, methods, kept).ok(), "it can be resumed again");
+  fuzz::require(again.resume(file.path(), evaluation, methods, kept).ok(),
+                "it can be resumed again");
   fuzz::require(kept.size() == finished.size(), "finished scans are kept");
   return 0;
 }

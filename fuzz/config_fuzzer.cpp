@@ -49,8 +49,8 @@ void segment(std::string_view method, const MethodConfig& config) {
 }  // namespace
 }  // namespace flagstone
 
-// The first byte selects the method, the rest is the text of its settings. They are rejected with one
-// line, or the method works with them.
+// The first byte selects the method, the rest is the text of its settings. They are rejected with
+// one line, or the method works with them.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   register_baselines();

@@ -7,8 +7,8 @@
 #include "cloud_properties.hpp"
 #include "files/io/label_files.hpp"
 
-// The first byte selects the layout, the next two the number of points of the scan, and the rest is the
-// file.
+// The first byte selects the layout, the next two the number of points of the scan, and the rest is
+// the file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   if (size < 3) return 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-// Writes the initial corpus of the fuzzers: make_seeds DIR writes DIR/pcd/..., DIR/ply/... . The files
-// are few and small; the fuzzers find more.
+// Writes the initial corpus of the fuzzers: make_seeds DIR writes DIR/pcd/..., DIR/ply/... . The
+// files are few and small; the fuzzers find more.
 
 #include <cstdint>
 #include <cstdio>
@@ -150,7 +150,8 @@ void add_labels(SeedFolder& seeds) {
                     npy_file("{'descr': '>i4', 'fortran_order': False, 'shape': (10,), }", 40)}));
 }
 
-/// A few hundred ground points, as input for the fuzzer of segmenters, for the settings of each method.
+/// A few hundred ground points, as input for the fuzzer of segmenters, for the settings of each
+/// method.
 void add_segment(SeedFolder& seeds) {
   Bytes places;
   for (int i = 0; i < 300; ++i) {

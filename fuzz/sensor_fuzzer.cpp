@@ -12,8 +12,8 @@
 #include "flagstone/surface_config.hpp"
 #include "text_properties.hpp"
 
-// Any text as a sensor file. Reading it and deriving the settings of the methods either succeed or report
-// one line.
+// Any text as a sensor file. Reading it and deriving the settings of the methods either succeed or
+// report one line.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   const std::string_view text(reinterpret_cast<const char*>(data), size);

@@ -11,8 +11,8 @@ namespace flagstone::fuzz {
 /// An error message is one printable line.
 void check_line(std::string_view message);
 
-/// A file that is rewritten for every input. It is in a temporary directory of this process, in memory
-/// if possible, which is removed at exit.
+/// A file that is rewritten for every input. It is in a temporary directory of this process, in
+/// memory if possible, which is removed at exit.
 class ScratchFile {
  public:
   explicit ScratchFile(std::string_view name);

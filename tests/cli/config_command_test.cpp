@@ -88,7 +88,8 @@ TEST(ConfigCommand, ReportsUnwritableStandardOutput) {
   const Outcome outcome = CommandProcess({"config"}, "/dev/full").finish();
 
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, is_one_line_with("standard output: cannot be written (is the disk full?)"));
+  EXPECT_THAT(outcome.err,
+              is_one_line_with("standard output: cannot be written (is the disk full?)"));
 }
 
 }  // namespace

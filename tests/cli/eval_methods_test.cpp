@@ -198,8 +198,9 @@ TEST(EvalMethods, ErrorsNameTheAllowedValues) {
 }
 
 TEST(EvalMethods, RejectsASettingOfAMethodThatIsNotEvaluated) {
-  EXPECT_THAT(error_of({.names = {"ransac"}, .settings = {"gpf.segments=5"}}),
-              AllOf(HasSubstr("--set gpf.segments=5"), HasSubstr("not one of the methods in --methods")));
+  EXPECT_THAT(
+      error_of({.names = {"ransac"}, .settings = {"gpf.segments=5"}}),
+      AllOf(HasSubstr("--set gpf.segments=5"), HasSubstr("not one of the methods in --methods")));
 }
 
 TEST(EvalMethods, RejectsAPresetWithoutAMethodThatHasPresets) {

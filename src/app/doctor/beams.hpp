@@ -44,8 +44,8 @@ struct BeamOrigin {
 
 /// Finds the origin from the comb that the elevations of all points form, without ring numbers.
 /// `places`: metres; z is the rotation axis of the sensor, the ground is at z = `ground`. Returns
-/// nothing if no position gives a clear comb: too few points above the ground, a rosette, beams closer
-/// together than the noise, or another rotation axis.
+/// nothing if no position gives a clear comb: too few points above the ground, a rosette, beams
+/// closer together than the noise, or another rotation axis.
 std::optional<BeamOrigin> find_beam_origin(std::span<const Vector3f> places, double ground);
 
 /// Finds only the height of the origin, from the elevations of the points of each ring; use it if

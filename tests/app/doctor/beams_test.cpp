@@ -25,8 +25,8 @@
 namespace flagstone::doctor {
 namespace {
 
-/// The upper of two stacked sensors of 32 beams, as on the vehicles of Argoverse 2: 1.97 m above the
-/// ground.
+/// The upper of two stacked sensors of 32 beams, as on the vehicles of Argoverse 2: 1.97 m above
+/// the ground.
 Sensor upper_sensor() {
   return {.name = "upper",
           .title = "Velodyne VLP-32C",

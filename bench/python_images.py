@@ -6,7 +6,7 @@
 Needs the package with its extras (pip install 'flagstone[all]'), playwright (pip install playwright) and Chromium
 (apt-get install chromium). Chromium renders the viewer in software, without a GPU. This takes about a minute.
 
-    python3 bench/python_pictures.py [--only birds-eye|viewer]
+    python3 bench/python_images.py [--only birds-eye|viewer]
 """
 
 from __future__ import annotations
