@@ -146,26 +146,34 @@ class CommandHelp final : public CLI::FormatterBase {
     return text;
   }
 
+  static std::string options_of_group(const CLI::App& command, const std::string& group,
+                                      const Page& page) {
+    std::string entries;
+    std::string last;
+    for (const CLI::Option* const option : command.get_options()) {
+      if (option->get_positional() || option->get_group() != group) continue;
+      (option == command.get_help_ptr() ? last : entries) += option_entry(*option, page);
+    }
+    return (entries + last).empty() ? "" : fmt::format("\n{}:\n{}{}", group, entries, last);
+  }
+
   static std::string options(const CLI::App& command, const Page& page) {
-    std::vector<std::string> groups = command.get_groups();
-    std::ranges::stable_sort(groups, {}, [](const std::string& name) {
+    // Input comes first, then the groups of the command in their order, then output and other.
+    constexpr int group_ranks = 4;
+    const auto rank_of = [](const std::string& name) {
       return name == input_group ? 0 : name == output_group ? 2 : name == other_group ? 3 : 1;
-    });
+    };
     std::string text;
-    for (const std::string& group : groups) {
-      std::string entries;
-      std::string last;
-      for (const CLI::Option* const option : command.get_options()) {
-        if (option->get_positional() || option->get_group() != group) continue;
-        (option == command.get_help_ptr() ? last : entries) += option_entry(*option, page);
+    for (int rank = 0; rank < group_ranks; ++rank) {
+      for (const std::string& group : command.get_groups()) {
+        if (rank_of(group) == rank) text += options_of_group(command, group, page);
       }
-      if (!(entries + last).empty()) text += fmt::format("\n{}:\n{}{}", group, entries, last);
     }
     return text;
   }
 
   static std::string option_entry(const CLI::Option& option, const Page& page) {
-    const std::string description = option.get_description();
+    const std::string& description = option.get_description();
     std::string_view rest = description;
     const auto next_line = [&rest] {
       const std::string_view line = rest.substr(0, rest.find('\n'));

@@ -88,8 +88,8 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error)
   const std::string see = chosen.empty()
                               ? "see 'flagstone --help'"
                               : fmt::format("see 'flagstone {} --help'", command.get_name());
+  if (is<CLI::ValidationError>(error)) return error.what();
   const std::string message = error.what();
-  if (is<CLI::ValidationError>(error)) return message;
   if (is<CLI::ExtrasError>(error)) return unexpected_argument(command, see);
   if (is<CLI::RequiredError>(error)) return missing_argument(program, command, see);
   if (is<CLI::ArgumentMismatch>(error)) return wrong_count(command, message, see);
