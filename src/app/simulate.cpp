@@ -216,7 +216,7 @@ Simulation simulate(const SimulateOptions& options, const RunCallbacks& callback
                         .interrupted = run.done < sequence.missing()};
   if (simulation.interrupted) {
     callbacks.say(
-        fmt::format("interrupted: {} of {} frames are done (run the command again for the rest)",
+        fmt::format("interrupted: {} of {} frames are done (run the command again for all)",
                     simulation.kept + simulation.simulated, options.frames));
   } else {
     files.write_poses(sequence.poses());

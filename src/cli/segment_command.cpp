@@ -98,7 +98,8 @@ class SegmentCommand final : public Command {
     }
     if (outcome.reports.size() < outcome.scans) {
       print_error(fmt::format(
-          "interrupted: {} of {} scans are segmented (run the command again for the rest)",
+          "interrupted: {} of {} scans are segmented (their files are complete; run the command "
+          "again for all scans)",
           outcome.reports.size(), outcome.scans));
     }
     return outcome.ok() ? 0 : 1;
