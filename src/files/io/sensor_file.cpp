@@ -229,8 +229,9 @@ Status find_sensor(const std::string& name_or_file, Sensor& out) {
     out = Sensor::named(name_or_file);
     return {};
   } catch (const std::invalid_argument& error) {
-    return Status(StatusCode::invalid_argument,
-                  printable(fmt::format("{}; or pass the path of a .toml file", error.what())));
+    std::string message = error.what();
+    message.insert(message.size() - (message.ends_with(')') ? 1 : 0), "; or name a .toml file");
+    return Status(StatusCode::invalid_argument, printable(message));
   }
 }
 
