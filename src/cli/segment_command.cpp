@@ -146,7 +146,7 @@ std::unique_ptr<Command> add_segment_command(CLI::App& app) {
                                   "Output format"
                                   "\nlabel\tlabels only, one uint32 per point"
                                   "\nu8\tlabels only, one uint8 per point, as a NumPy array"
-                                  "\nnpy\tthe cloud with an added field 'label'; so do pcd and ply"
+                                  "\nnpy, pcd, ply\tthe cloud with an added field 'label'"
                                   "\nsplit\tseparate clouds of ground and non-ground points")
       ->default_str("label")
       ->type_name("FORMAT");
