@@ -144,6 +144,7 @@ std::unique_ptr<Command> add_bench_command(CLI::App& app) {
                     {"flagstone bench scans/ --compare", "with PCL, Open3D and pypatchworkpp"}},
        .notes = "The scans are processed in rotation. The read-only baseline reads x, y and z "
                 "of every point and writes one byte per point: a lower bound for any method. "
+                "It runs over all scans twice in a row, and only the second pass is timed. "
                 "Ratios are medians over pairs of times of the same scan and round."});
   auto made = std::make_unique<BenchCommand>(*command);
   BenchOptions* const options = &made->options;

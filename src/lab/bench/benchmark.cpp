@@ -28,6 +28,18 @@ std::vector<std::size_t> order_of_round(std::size_t candidates, std::size_t roun
   return order;
 }
 
+void run_passes(Candidate& candidate, std::size_t scans,
+                const std::function<void(std::size_t scan, const Trial&)>& note,
+                const std::function<bool()>& stop) {
+  const std::size_t untimed = candidate.untimed_passes();
+  for (std::size_t pass = 0; pass <= untimed; ++pass) {
+    for (std::size_t scan = 0; scan < scans && !stop(); ++scan) {
+      const Trial trial = candidate.run_trial(scan);
+      if (pass == untimed) note(scan, trial);
+    }
+  }
+}
+
 namespace {
 
 constexpr double seconds_by_default = 10;
@@ -207,14 +219,14 @@ class Benchmark {
     drop_failed();
   }
 
-  /// Runs a candidate on all scans. Times are recorded only if `round` is set. If an external tool
-  /// fails, its result contains the reason.
+  /// Runs the passes of a candidate over all scans. Times are recorded only if `round` is set. If
+  /// an external tool fails, its result contains the reason.
   void try_all(Entrant& entrant, std::optional<std::size_t> round) {
     try {
-      for (std::size_t scan = 0; scan < scans_.size() && !watch_.stop(); ++scan) {
-        const Trial trial = entrant.candidate->run_trial(scan);
+      const auto note = [&](std::size_t scan, const Trial& trial) {
         if (round) entrant.note(*round, scan, trial);
-      }
+      };
+      run_passes(*entrant.candidate, scans_.size(), note, watch_.stop);
     } catch (const ExternalToolError& error) {
       if (!watch_.stop()) entrant.tool->left_out = error.what();
       entrant.candidate = nullptr;

@@ -20,6 +20,12 @@ namespace flagstone::bench {
 /// every second round is reversed, so that no candidate always follows the same one.
 [[nodiscard]] std::vector<std::size_t> order_of_round(std::size_t candidates, std::size_t round);
 
+/// Runs a candidate on the scans 0 to `scans` - 1 in turn: first in its untimed passes, then in a
+/// pass whose trials are passed to `note`. Returns early if `stop` returns true.
+void run_passes(Candidate& candidate, std::size_t scans,
+                const std::function<void(std::size_t scan, const Trial&)>& note,
+                const std::function<bool()>& stop);
+
 /// Settings of a benchmark.
 struct BenchmarkSettings {
   TimedConfig config = {};   ///< settings of the timed method
@@ -41,6 +47,8 @@ struct BenchmarkWatch {
 /// build of the method and external tools. Each scan must have at least one point. In a round, each
 /// candidate processes all scans before the next candidate starts, so a scan is not accessed for a
 /// whole rotation and is not in the cache. The order of candidates changes from round to round.
+/// The read-only baseline processes all scans twice and only the second pass is timed, so it finds
+/// the caches as another pass of the baseline left them.
 /// External tools are slow and run in fewer rounds, so that they take about as long as all others
 /// together. If `watch.stop` returns true, the results measured so far are returned. Throws
 /// std::invalid_argument for invalid settings, and std::runtime_error if a scan cannot be

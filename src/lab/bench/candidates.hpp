@@ -46,6 +46,9 @@ class Candidate {
   /// Processes scan number `scan`. Throws std::runtime_error with a one-line message on failure.
   virtual Trial run_trial(std::size_t scan) = 0;
 
+  /// Number of untimed passes over all scans directly before each timed pass.
+  [[nodiscard]] virtual std::size_t untimed_passes() const noexcept { return 0; }
+
  protected:
   Candidate() = default;
 };
@@ -98,7 +101,9 @@ class TimedSegment final : public Candidate {
   std::size_t allocations_ = 0;
 };
 
-/// The read-only baseline, run with one instruction set.
+/// The read-only baseline, run with one instruction set. An untimed pass comes before each timed
+/// one. Directly after another candidate, the time would depend on how much of the scans that
+/// candidate had left in the cache.
 class TimedReadBaseline final : public Candidate {
  public:
   TimedReadBaseline(std::span<const CloudView> scans, std::string target)
@@ -114,6 +119,8 @@ class TimedReadBaseline final : public Candidate {
     read_baseline(scans_[scan], bytes_);
     return {.milliseconds = stopwatch.lap()};
   }
+
+  [[nodiscard]] std::size_t untimed_passes() const noexcept override { return 1; }
 
  private:
   std::span<const CloudView> scans_;

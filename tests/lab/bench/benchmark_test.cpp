@@ -34,6 +34,67 @@ io::Cloud cloud_of(std::size_t points, std::uint32_t seed) {
 
 const BenchmarkWatch no_watch = {.progress = [](auto, auto) {}, .stop = [] { return false; }};
 
+/// Records the scans it was run on. The time of each trial is its number.
+class RecordingCandidate final : public Candidate {
+ public:
+  explicit RecordingCandidate(std::size_t untimed_passes) : untimed_passes_(untimed_passes) {}
+
+  Trial run_trial(std::size_t scan) override {
+    scans.push_back(scan);
+    return {.milliseconds = static_cast<double>(scans.size() - 1)};
+  }
+  [[nodiscard]] std::size_t untimed_passes() const noexcept override { return untimed_passes_; }
+
+  std::vector<std::size_t> scans;
+
+ private:
+  std::size_t untimed_passes_;
+};
+
+/// The numbers of the trials that run_passes() notes for three scans.
+std::vector<double> noted_trials(RecordingCandidate& candidate) {
+  std::vector<double> noted;
+  run_passes(
+      candidate, 3,
+      [&](std::size_t scan, const Trial& trial) {
+        EXPECT_EQ(candidate.scans.back(), scan);
+        noted.push_back(trial.milliseconds);
+      },
+      [] { return false; });
+  return noted;
+}
+
+TEST(Passes, OnlyThePassAfterTheUntimedOnesIsNoted) {
+  RecordingCandidate candidate(1);
+
+  EXPECT_THAT(noted_trials(candidate), ElementsAre(3, 4, 5));
+
+  EXPECT_THAT(candidate.scans, ElementsAre(0, 1, 2, 0, 1, 2));
+}
+
+TEST(Passes, WithoutUntimedPassesEveryTrialIsNoted) {
+  RecordingCandidate candidate(0);
+
+  EXPECT_THAT(noted_trials(candidate), ElementsAre(0, 1, 2));
+}
+
+TEST(Passes, EndWhenStopped) {
+  RecordingCandidate candidate(1);
+  const auto no_note = [](std::size_t, const Trial&) { ADD_FAILURE() << "untimed pass noted"; };
+
+  run_passes(candidate, 3, no_note, [&] { return candidate.scans.size() == 2; });
+
+  EXPECT_THAT(candidate.scans, ElementsAre(0, 1));
+}
+
+TEST(Passes, OnlyTheReadBaselineHasAnUntimedPass) {
+  const io::Cloud cloud = cloud_of(100, 1);
+  const std::vector<CloudView> scans = {cloud.view()};
+
+  EXPECT_EQ(TimedReadBaseline(scans, "").untimed_passes(), 1U);
+  EXPECT_EQ(TimedSegment(scans, SurfaceConfig{}, {}, 1, "").untimed_passes(), 0U);
+}
+
 TEST(Benchmark, TimesEveryCandidateOnEveryScanOfEveryRound) {
   const std::vector<io::Cloud> scans = {cloud_of(2000, 1), cloud_of(3000, 2), cloud_of(1000, 3)};
 
