@@ -56,7 +56,7 @@ wheel: ## build the Python wheel into dist/ and test it in an empty environment;
 	@scripts/setup build python && wheel=$$(scripts/wheel) && scripts/check-wheel "$$wheel"
 
 bench-compare: build ## compare the speed of METHOD in the working tree and in REVISION on SCANS
-	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(SCANS)
+	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(if $(TARGET),--target $(TARGET)) $(SCANS)
 
 bench-scaling: PROGRAM = scaling ## time and memory by points, beams, bins and threads
 bench-steps: PROGRAM = sharpness ## errors of the surface at kerbs, ditches and drops

@@ -5,6 +5,7 @@
     make bench-compare                           # compared with the last tag, or HEAD~1 if there is none
     make bench-compare REVISION=54a37fc
     make bench-compare REVISION=main SCANS="a.bin b.bin" METHOD=surface
+    make bench-compare TARGET=avx2               # instruction set, named as by `flagstone bench --isa`
     python3 bench/compare.py --revision main --launches 40 --core 1
 
 Builds the library of both, each with bench/segment_loop, and runs the two programs alternately on the same scans on one
@@ -13,7 +14,7 @@ launch gives one ratio of times, working tree / revision: the median over its ro
 launches and its confidence interval of at least 95 % by order statistics, which assumes no distribution.
 
 If Valgrind is installed, the instructions of one pass over each scan are counted too. Unlike times, these counts are
-reproducible. Valgrind does not support AVX-512, so the library uses its AVX2 code there.
+reproducible. Valgrind does not support AVX-512, so the library uses its AVX2 code there, also with TARGET=avx3.
 
 Scans are KITTI .bin files: those on the command line, otherwise those in FLAGSTONE_DATA, otherwise simulated scans.
 """
@@ -127,6 +128,11 @@ class Loop:
         self.process.wait()
 
 
+def command_of(program, method, target=None):
+    """The command of a segment_loop that uses an instruction set, or the best one."""
+    return (program, *(("--target", target) if target else ()), method)
+
+
 def alternate(programs, scans, core, rounds, first):
     """One launch: the times of both programs by round and scan, and whether the labels of each scan are identical.
 
@@ -208,6 +214,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--revision", help="git revision (default: the last tag or HEAD~1)")
     parser.add_argument("--method", choices=("patchwork", "surface"), default="patchwork")
+    parser.add_argument("--target", help="instruction set, e.g. avx3 (AVX-512) or avx2 (default: the best one)")
     parser.add_argument("--launches", type=int, default=20, help="at least 6 (default: 20)")
     parser.add_argument("--rounds", type=int, default=20, help="rounds over all scans per launch (default: 20)")
     parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)), help="default: the last core")
@@ -224,7 +231,7 @@ def main():
     scans = [scan.resolve() for scan in arguments.scans] or default_scans()
     revision = call("git", "rev-parse", "--short", f"{arguments.revision or default_revision()}^{{commit}}")
     built = build(f"{revision}-build", checkout(revision)), build("tree-build", ROOT)
-    programs = [(program, arguments.method) for program in built]
+    programs = [command_of(program, arguments.method, arguments.target) for program in built]
     launches = []
     for number in range(arguments.launches):
         show_progress(f"{number} of {arguments.launches} launches")
@@ -232,7 +239,8 @@ def main():
         launches.append(times)
     show_progress("")
     print(
-        f"Working tree compared with {revision}, method {arguments.method}: {arguments.launches} launches of"
+        f"Working tree compared with {revision}, method {arguments.method},"
+        f" instruction set {arguments.target or 'chosen by the library'}:\n{arguments.launches} launches of"
         f" {arguments.rounds} rounds, alternating on core {arguments.core}.\n"
     )
     print(time_table(launches, scans, same))
@@ -241,7 +249,8 @@ def main():
     if shutil.which("valgrind") is None:
         print("\nno instruction counts: Valgrind is not installed (Debian: apt-get install valgrind)")
         return
-    counts = instruction_table(programs, scans)
+    counted_target = "avx2" if arguments.target == "avx3" else arguments.target
+    counts = instruction_table([command_of(program, arguments.method, counted_target) for program in built], scans)
     show_progress("")
     print(f"\n{counts}")
 

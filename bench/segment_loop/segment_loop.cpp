@@ -5,8 +5,11 @@
 // scans once and prints the times in nanoseconds. It uses only the API that every revision of the
 // library has, and the method surface if the revision has it.
 //
-//     segment_loop METHOD FILE...    METHOD: patchwork or surface
-//                                    FILE: KITTI .bin with x, y, z and intensity as 32-bit floats
+//     segment_loop [--target NAME] METHOD FILE...
+//
+//     NAME     instruction set, e.g. avx2; the best one if omitted
+//     METHOD   patchwork or surface
+//     FILE     KITTI .bin with x, y, z and intensity as 32-bit floats
 
 #include <chrono>
 #include <cstddef>
@@ -16,8 +19,22 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#if __has_include(<library/core/simd_target.hpp>)
+#include <library/core/simd_target.hpp>
+#elif __has_include(<core/simd_target.hpp>)  // its path in revisions up to 2026-11-21
+#include <core/simd_target.hpp>
+#else  // before vector instructions
+namespace flagstone {
+void use_simd_target(std::string_view /*name*/) {
+  throw std::invalid_argument("this revision has only one instruction set");
+}
+}  // namespace flagstone
+#endif
 
 namespace {
 
@@ -63,6 +80,16 @@ extern "C" [[gnu::noinline]] void segment_measured(flagstone::Segmenter& segment
 }
 
 int main(int argc, char** argv) {
+  if (argc >= 3 && std::string_view(argv[1]) == "--target") {
+    try {
+      flagstone::use_simd_target(argv[2]);
+    } catch (const std::invalid_argument& error) {
+      std::cerr << error.what() << '\n';
+      return 1;
+    }
+    argc -= 2;
+    argv += 2;
+  }
   const std::string method = argc < 2 ? "" : argv[1];
   const std::unique_ptr<flagstone::Segmenter> segmenter = make_segmenter(method);
   if (segmenter == nullptr) {
