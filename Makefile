@@ -5,14 +5,14 @@
 # for example CMAKE_FLAGS=-DBUILD_SHARED_LIBS=ON.
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
-MEASUREMENTS := bench-scaling bench-steps bench-edges latency soak-test surface-figures
+MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence latency soak-test surface-figures
 
 .PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
         bench-compare $(MEASUREMENTS) surface-study worlds-study contact-sheet clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
-	@sed -n 's/^\([a-z-]*\):.* ## /\1\t/p' Makefile | expand -t 16
+	@sed -n 's/^\([a-z-]*\):.* ## /\1\t/p' Makefile | expand -t 18
 
 build: ## install missing tools, build the library and the command: build/flagstone
 	@scripts/setup build
@@ -61,6 +61,7 @@ bench-compare: build ## compare the speed of METHOD in the working tree and in R
 bench-scaling: PROGRAM = scaling ## time and memory by points, beams, bins and threads
 bench-steps: PROGRAM = sharpness ## errors of the surface at kerbs, ditches and drops
 bench-edges: PROGRAM = edges ## labels at kerbs, ditches and drops, and of ghost points
+bench-confidence: PROGRAM = confidence ## confidence of the surface and its errors in all simulated scenes
 latency: PROGRAM = latency ## time of 10,000 different scans, including adversarial ones
 soak-test: PROGRAM = soak ## memory of one segmenter over 100,000 different scans
 surface-figures: PROGRAM = surface_stages ## draw the images of docs/explanation/surface.md
