@@ -8,7 +8,7 @@ PREFIX ?= /usr/local
 MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence latency soak-test surface-figures
 
 .PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
-        bench-compare $(MEASUREMENTS) surface-study worlds-study contact-sheet clean
+        bench-compare $(MEASUREMENTS) surface-study worlds-study invariance-study contact-sheet clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
@@ -74,6 +74,9 @@ surface-study: build ## measure accuracy, write tables of docs/benchmarks/accura
 
 worlds-study: build ## measure both methods in all simulated scenes, write tables of docs/benchmarks/robustness.md; WORK: a directory with 8 GB free
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/worlds_study.py run --work $(or $(WORK),out/worlds)
+
+invariance-study: build ## shuffle, double, turn and flip real scans, write tables of docs/benchmarks/robustness.md; WORK: a directory with 1 GB free
+	@scripts/setup plot && "$$(scripts/python plotting)" bench/invariance_study.py run --work $(or $(WORK),out/invariance)
 
 contact-sheet: build ## draw every scene as seen by three sensors: docs/images/worlds.png; SHEET: options of bench/contact_sheet.py
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/contact_sheet.py $(SHEET)
