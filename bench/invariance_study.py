@@ -4,7 +4,7 @@
 
     python3 bench/invariance_study.py run --work /tmp/study                  # all sets, some minutes
     python3 bench/invariance_study.py run --work /tmp/study --only livox-10  # one set; the other results are kept
-    python3 bench/invariance_study.py page                                   # the tables, from docs/results/invariance.json
+    python3 bench/invariance_study.py page                                   # the tables from docs/results/invariance.json
     python3 bench/invariance_study.py check                                  # do the tables match the results?
 
 `run` needs the command (build/flagstone), NumPy and the real scans in FLAGSTONE_DATA. It writes changed copies of the
@@ -239,7 +239,8 @@ def f1_by_protocol(runs, scans, work, directories):
             some = names[first : first + 20]
             labels = " ".join(f"--labels l{i}={directories[name]}" for i, name in enumerate(some))
             result = runs.evaluate_command(
-                f"flagstone eval {work}/original --sensor-height {scans.height} --protocol {protocol} --methods none {labels}"
+                f"flagstone eval {work}/original --sensor-height {scans.height} --protocol {protocol}"
+                f" --methods none {labels}"
             )
             by_name = {method["name"]: method["per_scan"] for method in result["methods"]}
             for i, name in enumerate(some):
@@ -257,8 +258,7 @@ def summary(found):
         kinds[kind] = {"changed": statistics.fmean(shares), "changed_most": max(shares), "f1": {}}
         for protocol, before in found["original"].items():
             by_scan = [
-                {scan: value - before[scan] for scan, value in found[name]["f1"][protocol].items()}
-                for name in names
+                {scan: value - before[scan] for scan, value in found[name]["f1"][protocol].items()} for name in names
             ]
             means = [statistics.fmean(scans.values()) for scans in by_scan]
             kinds[kind]["f1"][protocol] = {
