@@ -4,7 +4,7 @@
 
     python3 bench/invariance_study.py run --work /tmp/study                  # all sets, some minutes
     python3 bench/invariance_study.py run --work /tmp/study --only livox-10  # one set; the other results are kept
-    python3 bench/invariance_study.py page                                   # the tables from docs/results/invariance.json
+    python3 bench/invariance_study.py page                                   # tables of docs/results/invariance.json
     python3 bench/invariance_study.py check                                  # do the tables match the results?
 
 `run` needs the command (build/flagstone), NumPy and the real scans in FLAGSTONE_DATA. It writes changed copies of the
