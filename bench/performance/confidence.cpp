@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Compares the confidence of the surface with its errors in simulated scenes, where the true ground
-// is known everywhere, also where nothing was measured. Prints Markdown.
+// is known at every position, measured or not. Prints Markdown.
 
 #include <fmt/format.h>
 
