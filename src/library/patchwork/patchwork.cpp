@@ -78,7 +78,7 @@ LabelTotals Patchwork::Pipeline::segment(CloudView cloud, Segmentation& result,
   fitters.clear_totals();
 
   // Concentric Zone Model (III-B): find the bin of each point, eqs. (2) and (3)
-  pool.run(ScanPoints::chunk_count(cloud.size()), [&](std::size_t, std::size_t chunk) {
+  pool.run(plane_fits::chunk_count(cloud.size()), [&](std::size_t, std::size_t chunk) {
     patchwork::read_chunk(cloud, chunk, zones, scan);
   });
   scan_clock.end(Stage::bin);

@@ -23,22 +23,6 @@ struct PackedBin {
   float *x, *y, *z;
 };
 
-/// A sample of points, spread evenly over all of them.
-struct Sample {
-  Sample(std::span<const MovedPoint> points, std::size_t count)
-      : first(points.data()),
-        size(count),
-        stride(((std::uint64_t{points.size()} << 32U) + count - 1) / count) {}
-
-  /// Point j * n / size of n points. Rounding up the stride has no effect if size is less than
-  /// 2^16.
-  const MovedPoint& operator[](std::uint64_t j) const { return first[j * stride >> 32U]; }
-
-  const MovedPoint* first;
-  std::size_t size;
-  std::uint64_t stride;  ///< n / size, in units of 2^-32
-};
-
 }  // namespace flagstone::plane_fits
 #endif
 
@@ -82,37 +66,19 @@ void gather_runs(const ScanPoints& scan, std::span<const Run> runs, const Packed
   pad(bin, size);
 }
 
-/// Packs points, starting at element `first`.
-HWY_INLINE void pack(const MovedPoint* points, std::size_t count, const PackedBin& bin,
-                     std::size_t first) {
+void gather_points(std::span<const MovedPoint> points, const PackedBin& bin) {
   const FloatTag d;
   const FloatVector origin_x = hn::Set(d, bin.origin.x);
   const FloatVector origin_y = hn::Set(d, bin.origin.y);
-  const float* records = &points->x;
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+  const float* records = &points.data()->x;
+  for (std::size_t i = 0; i < points.size(); i += hn::Lanes(d)) {
     FloatVector x, y, z;
     load_points<4>(records + 4 * i, x, y, z);
-    hn::StoreU(hn::Sub(x, origin_x), d, bin.x + first + i);
-    hn::StoreU(hn::Sub(y, origin_y), d, bin.y + first + i);
-    hn::StoreU(z, d, bin.z + first + i);
+    hn::StoreU(hn::Sub(x, origin_x), d, bin.x + i);
+    hn::StoreU(hn::Sub(y, origin_y), d, bin.y + i);
+    hn::StoreU(z, d, bin.z + i);
   }
-}
-
-void gather_points(std::span<const MovedPoint> points, const PackedBin& bin) {
-  pack(points.data(), points.size(), bin, 0);
   pad(bin, points.size());
-}
-
-/// Copies records in rounds, so that the first records of a round are already in the cache when
-/// they are read as vectors. A vector load cannot be forwarded from several separate stores.
-void gather_sample(const Sample& sample, const PackedBin& bin) {
-  HWY_ALIGN std::array<MovedPoint, 4 * lanes> round{};
-  for (std::size_t begin = 0; begin < sample.size; begin += round.size()) {
-    const std::size_t count = std::min(round.size(), sample.size - begin);
-    for (std::size_t k = 0; k < count; ++k) round[k] = sample[begin + k];
-    pack(round.data(), count, bin, begin);
-  }
-  pad(bin, sample.size);
 }
 
 }  // namespace
@@ -124,7 +90,6 @@ namespace flagstone::plane_fits {
 namespace {
 HWY_EXPORT(gather_runs);
 HWY_EXPORT(gather_points);
-HWY_EXPORT(gather_sample);
 
 BinBatch::Origin midway(float x1, float y1, float x2, float y2) {
   return {(x1 + x2) / 2, (y1 + y2) / 2};
@@ -152,21 +117,6 @@ void BinBatch::gather(const ScanPoints& scan, const BinGroups& groups) noexcept 
       HWY_DYNAMIC_DISPATCH(gather_runs)(scan, runs, packed);
     }
     origins_[i] = packed.origin;
-  }
-}
-
-void BinBatch::add_sample(std::span<const MovedPoint> points, std::size_t most) noexcept {
-  const std::size_t i = count_;
-  const Sample sample(points, std::min(points.size(), most));
-  add(0, static_cast<std::uint32_t>(sample.size));
-  const MovedPoint& first = sample[0];
-  const MovedPoint& last = sample[sample.size - 1];
-  origins_[i] = midway(first.x, first.y, last.x, last.y);
-  const PackedBin packed{.origin = origins_[i], .x = x(i), .y = y(i), .z = z(i)};
-  if (sample.size == points.size()) {
-    HWY_DYNAMIC_DISPATCH(gather_points)(points, packed);
-  } else {
-    HWY_DYNAMIC_DISPATCH(gather_sample)(sample, packed);
   }
 }
 

@@ -16,12 +16,19 @@ namespace flagstone::plane_fits {
 
 /// Up to sixteen bins S_n that are fitted together. Their points are packed so that every pass of
 /// the fit reads contiguous memory. Add all bins by add() and then call gather(), or add all by
-/// add_sample().
+/// add_empty().
 ///
 /// The number of elements per bin is a multiple of 16. After the last point z is infinite: such
 /// elements are above any plane and need no special case.
 class BinBatch {
  public:
+  /// A position near all points of a bin, so that single precision is enough for coordinates
+  /// relative to it, metres.
+  struct Origin {
+    float x, y;
+    float z = 0;
+  };
+
   /// Reserves memory for bins with up to `points` points in total. May throw std::bad_alloc.
   void reserve(std::size_t points);
 
@@ -36,13 +43,17 @@ class BinBatch {
     ++count_;
   }
 
-  /// Packs the points of the bins: x and y relative to `origin(i)`, z unchanged.
+  /// Packs the points of the bins. The origin of a bin is the middle between its first and its last
+  /// point, with z = 0.
   void gather(const ScanPoints& scan, const BinGroups& groups) noexcept;
 
-  /// Adds a bin with these points, without its number, and packs them as gather() does. If there
-  /// are n > `most` points, it uses the points j * n / most for all j < most. `most` is 1 to
-  /// 65,535. May read 16 points after the last one.
-  void add_sample(std::span<const MovedPoint> points, std::size_t most) noexcept;
+  /// Adds a bin of `size` points, without its number, with the given origin. The caller writes the
+  /// points to x(i), y(i) and z(i), where 16 more elements than `places(i)` can be written, and
+  /// sets the elements after the last point as gather() does.
+  void add_empty(std::size_t size, Origin origin) noexcept {
+    origins_[count_] = origin;
+    add(0, static_cast<std::uint32_t>(size));
+  }
 
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
   /// Number of bin `i`, as passed to add().
@@ -55,14 +66,9 @@ class BinBatch {
     return (std::size_t{sizes_[i]} + 15) / 16 * 16;
   }
 
-  /// The middle between the first and the last packed point, metres. It is near all points, so that
-  /// single precision is enough for coordinates relative to it.
-  struct Origin {
-    float x, y;
-  };
   [[nodiscard]] Origin origin(std::size_t i) const noexcept { return origins_[i]; }
 
-  /// Packed coordinates of bin `i`, metres, aligned to a vector.
+  /// Packed coordinates of bin `i`, relative to its origin, metres, aligned to a vector.
   [[nodiscard]] float* x(std::size_t i) noexcept { return x_.data() + firsts_[i]; }
   [[nodiscard]] float* y(std::size_t i) noexcept { return y_.data() + firsts_[i]; }
   [[nodiscard]] float* z(std::size_t i) noexcept { return z_.data() + firsts_[i]; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/plane_fits/ground_sets.cpp"
@@ -148,9 +149,23 @@ HWY_INLINE void add_lanes(const LaneTable<float>& sums, std::array<double, sum_c
 
 #endif
 
+/// Adds the sums of the lanes to the totals in double precision.
+HWY_INLINE void add_lanes_exactly(const LaneTable<float>& sums,
+                                  std::array<double, sum_count>& totals) {
+  const DoubleTag d;
+  const hn::Rebind<float, DoubleTag> df;
+  for (std::size_t k = 0; k < sum_count; ++k) {
+    DoubleVector sum = hn::Zero(d);
+    for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
+      sum = hn::Add(sum, hn::PromoteTo(d, hn::LoadU(df, sums[k].data() + lane)));
+    }
+    totals[k] += hn::GetLane(hn::SumOfLanes(d, sum));  // exact, so in any order
+  }
+}
+
 /// Computes the moments of the points of a bin for which `inside(d, first element, x, y, z)` is
 /// true, in vectors of `SumTag`.
-template <class SumTag, class Inside>
+template <class SumTag, Precision precision, class Inside>
 HWY_INLINE void sum_bin(const BinBatch& batch, std::size_t bin, MomentsBatch& moments,
                         const Inside& inside) {
   const SumTag ds;
@@ -177,34 +192,52 @@ HWY_INLINE void sum_bin(const BinBatch& batch, std::size_t bin, MomentsBatch& mo
       }
       lane_sums.store(sums, lane);
     }
-    add_lanes(sums, totals);
+    if constexpr (precision == Precision::exact) {
+      add_lanes_exactly(sums, totals);
+    } else {
+      add_lanes(sums, totals);
+    }
   }
   moments.count[bin] = static_cast<double>(count);
   for (std::size_t k = 0; k < 3; ++k) moments.sum[k][bin] = totals[k];
   for (std::size_t k = 0; k < 6; ++k) moments.squares[k][bin] = totals[3 + k];
 }
 
-void sum_first_bins(BinBatch& batch, const std::array<FirstSet, batch_size>& sets,
+template <Precision precision>
+void sum_first_sets(BinBatch& batch, const std::array<FirstSet, batch_size>& sets,
                     MomentsBatch& moments) {
   for (std::size_t bin = 0; bin < batch.count(); ++bin) {
     const FirstSet& set = sets[bin];
     float* shifted = batch.z(bin);
-    sum_bin<FloatTag>(
+    sum_bin<FloatTag, precision>(
         batch, bin, moments,
         [&](FloatTag d, std::size_t i, FloatVector, FloatVector, FloatVector& z) HWY_ATTR {
           z = hn::Sub(z, hn::Set(d, set.origin));
+          if constexpr (precision == Precision::exact) {
+            const auto exact = hn::Le(hn::Abs(z), hn::Set(d, ExactGrid::reach));
+            z = hn::IfThenElse(exact, z, hn::Set(d, std::numeric_limits<float>::infinity()));
+          }
           hn::Store(z, d, shifted + i);
           return hn::And(hn::Lt(z, hn::Set(d, set.top)), hn::Ge(z, hn::Set(d, set.bottom)));
         });
   }
 }
 
-template <class SumTag>
+void sum_first_bins(BinBatch& batch, const std::array<FirstSet, batch_size>& sets,
+                    Precision precision, MomentsBatch& moments) {
+  if (precision == Precision::exact) {
+    sum_first_sets<Precision::exact>(batch, sets, moments);
+  } else {
+    sum_first_sets<Precision::single>(batch, sets, moments);
+  }
+}
+
+template <class SumTag, Precision precision>
 HWY_INLINE void sum_set(const BinBatch& batch, std::size_t bin, const GroundSet& set,
                         MomentsBatch& moments) {
-  sum_bin<SumTag>(batch, bin, moments, [&](auto d, std::size_t, auto x, auto y, auto z) HWY_ATTR {
-    return in_set(d, x, y, z, set);
-  });
+  sum_bin<SumTag, precision>(batch, bin, moments,
+                             [&](auto d, std::size_t, auto x, auto y, auto z)
+                                 HWY_ATTR { return in_set(d, x, y, z, set); });
 }
 
 void sum_bins(const BinBatch& batch, const GroundSets& sets, BinMask wanted, Precision precision,
@@ -212,9 +245,11 @@ void sum_bins(const BinBatch& batch, const GroundSets& sets, BinMask wanted, Pre
   for (std::size_t bin = 0; bin < batch.count(); ++bin) {
     if ((wanted >> bin & 1U) == 0) continue;
     if (precision == Precision::single) {
-      sum_set<FloatTag>(batch, bin, sets[bin], moments);
+      sum_set<FloatTag, Precision::single>(batch, bin, sets[bin], moments);
+    } else if (precision == Precision::full) {
+      sum_set<DoubleTag, Precision::full>(batch, bin, sets[bin], moments);
     } else {
-      sum_set<DoubleTag>(batch, bin, sets[bin], moments);
+      sum_set<FloatTag, Precision::exact>(batch, bin, sets[bin], moments);
     }
   }
 }
@@ -236,8 +271,8 @@ void sum_moments(const BinBatch& batch, const GroundSets& sets, BinMask wanted, 
 }
 
 void sum_first_moments(BinBatch& batch, const std::array<FirstSet, batch_size>& sets,
-                       MomentsBatch& moments) noexcept {
-  HWY_DYNAMIC_DISPATCH(sum_first_bins)(batch, sets, moments);
+                       Precision precision, MomentsBatch& moments) noexcept {
+  HWY_DYNAMIC_DISPATCH(sum_first_bins)(batch, sets, precision, moments);
 }
 
 }  // namespace flagstone::plane_fits

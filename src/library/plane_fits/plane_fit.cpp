@@ -16,6 +16,11 @@ float round_up(double value) {
                          : nearest;
 }
 
+/// The nearest height on the grid of ExactGrid.
+float on_grid(double height) {
+  return static_cast<float>(std::nearbyint(height / ExactGrid::z_step)) * ExactGrid::z_step;
+}
+
 BinMask all_of(const BinBatch& batch) { return (BinMask{1} << batch.count()) - 1; }
 
 }  // namespace
@@ -30,34 +35,40 @@ void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
   clock.end(Stage::seed);
 
   // G^0, eq. (5), without the points below the floor if the settings exclude them. Afterwards,
-  // heights are relative to z-bar_init, or to the first point if there was no seed.
+  // heights are relative to z-bar_init, or to the first point if there was no seed. Heights on a
+  // grid stay on it.
   GroundSets& sets = result.sets;
   std::array<FirstSet, batch_size> first_sets{};
   for (std::size_t i = 0; i < batch.count(); ++i) {
-    const float origin = initial_heights[i] == settings_.height_without_seeds
-                             ? batch.z(i)[0]
-                             : static_cast<float>(initial_heights[i]);
+    float origin = static_cast<float>(initial_heights[i]);
+    if (settings_.exact) {
+      origin = on_grid(initial_heights[i]);
+    } else if (initial_heights[i] == settings_.height_without_seeds) {
+      origin = batch.z(i)[0];
+    }
     const double floor =
         settings_.keep_below_floor ? -std::numeric_limits<double>::infinity() : seeds.floors[i];
     const double bottom = std::max(floor, initial_heights[i] - settings_.seed_depth) - origin;
     const double top = initial_heights[i] + settings_.seed_height - origin;
     first_sets[i] = {origin, round_up(bottom), round_up(top)};
     sets[i] = {0, 0, 1, first_sets[i].bottom, first_sets[i].top};
-    result.origins[i] = {batch.origin(i).x, batch.origin(i).y, origin};
+    const BinBatch::Origin& packed = batch.origin(i);
+    result.origins[i] = {packed.x, packed.y, double{packed.z} + double{origin}};
   }
-  sum_first_moments(batch, first_sets, moments_);
+  const Precision precision = settings_.exact ? Precision::exact : Precision::single;
+  sum_first_moments(batch, first_sets, precision, moments_);
 
   // Planes, eq. (4), of sets from noise_margin below to M_d above the previous plane, eq. (6).
   PlaneBatch& planes = result.judged;
   result.exists = fit_sets(batch, sets, all_of(batch), clock, planes);
   for (int l = 1; l < settings_.iterations; ++l) {
     choose_next_sets(planes, sets);
-    sum_moments(batch, sets, result.exists, Precision::single, moments_);
+    sum_moments(batch, sets, result.exists, precision, moments_);
     result.exists = fit_sets(batch, sets, result.exists, clock, planes);
   }
   choose_next_sets(planes, sets);
   if (settings_.evaluate_final_set) {
-    sum_moments(batch, sets, result.exists, Precision::single, moments_);
+    sum_moments(batch, sets, result.exists, precision, moments_);
     result.exists = fit_sets(batch, sets, result.exists, clock, planes);
   }
 }
@@ -68,7 +79,7 @@ BinMask PlaneFit::fit_sets(const BinBatch& batch, const GroundSets& sets, BinMas
   clock.end(Stage::moments);
   const BinMask doubtful = fit_planes(moments_, planes) & wanted;
   clock.end(Stage::solve);
-  if (doubtful != 0) {
+  if (doubtful != 0 && !settings_.exact) {
     sum_moments(batch, sets, doubtful, Precision::full, moments_);
     clock.end(Stage::moments);
     fit_planes(moments_, planes);

@@ -25,6 +25,9 @@ struct FitSettings {
   int iterations;          ///< number of planes fitted in sequence, at least 1
   bool keep_below_floor;  ///< whether the first set can contain points below the floor of the seeds
   bool evaluate_final_set;  ///< whether to fit once more, to the set of the last plane
+  /// Whether the points lie on the grid of ExactGrid, relative to the origin of their bin. The
+  /// planes then do not depend on the order of the points.
+  bool exact = false;
   /// z-bar_init of bins without seeds, metres: the height of the sensor itself, as in the authors'
   /// public code.
   double height_without_seeds = 0;

@@ -4,22 +4,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 
 #include "flagstone/cloud_view.hpp"
 #include "library/core/buffer.hpp"
+#include "library/plane_fits/scan_runs.hpp"
 
 namespace flagstone::plane_fits {
-
-/// Number of points per chunk. Threads share a scan in chunks. Within a chunk, the first index of a
-/// run and its bin fit into one word.
-inline constexpr std::size_t chunk_size = 8192;
-
-/// Start of a run of points in one bin: index within the chunk << bin_bits | bin.
-using RunStart = std::uint32_t;
-/// Bins are 0 to 262,143, including the values for points without a bin.
-inline constexpr int bin_bits = 18;
-static_assert(chunk_size <= 1U << (32 - bin_bits - 1));  // the index after the last point also fits
 
 /// Consecutive points of a cloud to read, and the destination.
 struct PointSlice {
@@ -29,19 +19,15 @@ struct PointSlice {
   RunStart* starts;        ///< destination of the runs; 17 more elements can be written
 };
 
-/// A scan in the form that the later steps read: separate arrays of coordinates, and runs of points
-/// in the same bin.
-///
-/// The cloud, in any layout, is read once, in the order of its memory. A spinning sensor delivers
-/// neighbours one after another: 124,000 points have 6,000 to 9,000 runs.
+/// A scan in the form that the later steps of Patchwork read: separate arrays of coordinates, and
+/// runs of points in the same bin. The cloud, in any layout, is read once, in the order of its
+/// memory.
 class ScanPoints {
  public:
   /// Reserves memory for `points` points. May throw std::bad_alloc.
   void reserve(std::size_t points) {
-    const std::size_t chunks = chunk_count(points);
     for (Buffer<float>* coordinate : {&x_, &y_, &z_}) coordinate->reserve(points + 2 * slack);
-    starts_.reserve(chunks * (chunk_size + slack) + slack);
-    run_counts_.reserve(chunks);
+    runs_.reserve(points);
   }
 
   /// Reads chunk `chunk` of the cloud by `read_slice(slice)`, which returns the number of runs; see
@@ -49,8 +35,7 @@ class ScanPoints {
   /// chunks at once.
   template <class ReadSlice>
   void read(CloudView cloud, std::size_t chunk, const ReadSlice& read_slice) noexcept {
-    const std::size_t runs = read_slice(slice(cloud, chunk));
-    run_counts_.data()[chunk] = static_cast<std::uint32_t>(runs);
+    runs_.set_count(chunk, read_slice(slice(cloud, chunk)));
   }
 
   /// Coordinates of the points, metres. 16 more elements can be read; their values are unspecified.
@@ -58,19 +43,7 @@ class ScanPoints {
   [[nodiscard]] const float* y() const noexcept { return y_.data(); }
   [[nodiscard]] const float* z() const noexcept { return z_.data(); }
 
-  /// The runs of a chunk.
-  struct Runs {
-    const RunStart* starts;  ///< `count` runs, then one that begins after the last point
-    std::size_t count;
-  };
-  [[nodiscard]] Runs runs(std::size_t chunk) const noexcept {
-    return {starts_.data() + chunk * (chunk_size + slack), run_counts_.data()[chunk]};
-  }
-
-  /// Number of chunks for a cloud with `points` points.
-  static std::size_t chunk_count(std::size_t points) noexcept {
-    return (points + chunk_size - 1) / chunk_size;
-  }
+  [[nodiscard]] const ScanRuns& runs() const noexcept { return runs_; }
 
  private:
   static constexpr std::size_t slack = 16;  ///< elements that vectors can write after the last one
@@ -83,14 +56,13 @@ class ScanPoints {
             .x = x_.data() + begin,
             .y = y_.data() + begin,
             .z = z_.data() + begin,
-            .starts = starts_.data() + chunk * (chunk_size + slack)};
+            .starts = runs_.starts(chunk)};
   }
 
   Buffer<float> x_;
   Buffer<float> y_;
   Buffer<float> z_;
-  Buffer<RunStart> starts_;
-  Buffer<std::uint32_t> run_counts_;
+  ScanRuns runs_;
 };
 
 }  // namespace flagstone::plane_fits

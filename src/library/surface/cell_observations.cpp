@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -12,50 +11,81 @@
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
 #include "library/core/simd/lanes-inl.hpp"
+#include "library/surface/content_sample-inl.hpp"
 
 #ifndef FLAGSTONE_SURFACE_CELL_OBSERVATIONS_ONCE
 #define FLAGSTONE_SURFACE_CELL_OBSERVATIONS_ONCE
 namespace flagstone::surface {
 
 /// Number of cells that are observed together, and points per cell in one block.
-inline constexpr std::size_t tile_cells = 16;
+inline constexpr std::size_t tile_cells = 32;
 inline constexpr std::size_t block_rows = 16;
 
-/// Maximum number of points used per cell.
-inline constexpr std::size_t most_samples = 32;
-static_assert(small_cell % block_rows == 0 && most_samples % block_rows == 0);
+/// Number of points used of cells of a size.
+constexpr std::size_t rows_of(CellSize size) {
+  return size == CellSize::small ? small_cell : medium_cell;
+}
+static_assert(small_cell % block_rows == 0 && medium_cell % block_rows == 0);
 
-/// Heights above the surface, metres, of sixteen points of sixteen cells; infinite in unused slots.
-using HeightBlock = std::array<float, tile_cells * block_rows>;
+/// Heights above the surface of sixteen points of 32 cells; `no_height` in unused elements.
+using HeightBlock = std::array<std::int16_t, tile_cells * block_rows>;
+inline constexpr std::int16_t no_height = std::numeric_limits<std::int16_t>::max();
 
-// Points this far below and above the gate are used, metres.
-inline constexpr float depth_below_gate = 1.5f;
-inline constexpr float height_above_gate = 1.0f;
+/// Fixed-point precision of CellPlanes: slopes up to 4 m/m.
+inline constexpr int plane_shift = 11;
+inline constexpr float slope_unit =
+    static_cast<float>(1 << plane_shift) * z_per_metre / xy_per_metre;
+inline constexpr float most_slope = 32700;
+inline constexpr float offset_unit = static_cast<float>(1 << plane_shift) * z_per_metre;
+inline constexpr float most_offset = 200 * offset_unit;
 
-/// Half-width of the window whose mean height is the height of the surface, metres.
-inline constexpr float window = 0.12f;
+/// Maximum width of a grid.
+inline constexpr std::size_t most_width = 256;
 
-// Lower and upper limit of the slab in which points on obstacles are counted, metres above the
-// mean.
-inline constexpr float slab_bottom = 0.18f;
-inline constexpr float slab_top = 0.88f;
+/// A length in units of a packed z, rounded down.
+constexpr std::int16_t units(double metres) {
+  return static_cast<std::int16_t>(metres * z_per_metre);
+}
 
-/// Maximum fraction `most_below` of points that lie more than `below_window` below the mean,
-/// metres.
-inline constexpr float below_window = 0.144f;
+// Points this far below and above the gate are used.
+inline constexpr std::int16_t depth_below_gate = units(1.5);
+inline constexpr std::int16_t height_above_gate = units(1.0);
+
+/// Half-width of the window whose mean height is the height of the surface.
+inline constexpr std::int16_t window = units(0.12);
+
+// Lower and upper limit of the slab in which points on obstacles are counted, above the mean.
+inline constexpr std::int16_t slab_bottom = units(0.18);
+inline constexpr std::int16_t slab_top = units(0.88);
+
+/// Maximum fraction `most_below` of points that lie more than `below_window` below the mean.
+inline constexpr std::int16_t below_window = units(0.144);
 inline constexpr float most_below = 0.05f;
 
 /// Minimum number of points in a cell: for an observation, for an observation with full weight, and
 /// for a lower bound.
-inline constexpr float fewest_points = 3;
+inline constexpr std::int16_t fewest_points = 3;
 inline constexpr float points_of_full_weight = 10;
-inline constexpr float fewest_for_lower_bound = 8;
+inline constexpr std::int16_t fewest_for_lower_bound = 8;
 
-/// One or two points that lie more than this below the next point are reflections, metres.
-inline constexpr float reflection_gap = 0.2f;
+/// One or two points that lie more than this below the next point are reflections.
+inline constexpr std::int16_t reflection_gap = units(0.2);
 
-/// Minimum depth of a lower bound below the surface, metres.
-inline constexpr float least_lowering = 0.03f;
+/// Minimum depth of a lower bound below the surface.
+inline constexpr std::int16_t least_lowering = units(0.03);
+
+/// What the points of 32 cells tell, heights in units of a packed z.
+struct alignas(64) TileStatistics {
+  using PerCell = std::array<std::int16_t, tile_cells>;
+  PerCell seen;        ///< number of points near the surface
+  PerCell gated;       ///< number of points within the gate
+  PerCell bound;       ///< the lowest point that is not a reflection
+  PerCell mean;        ///< centre of the window before the last step
+  PerCell sum, count;  ///< over the window: heights above `mean`, points
+  PerCell at_surface;  ///< number of points in the final window
+  PerCell above;       ///< number of points just above it
+  PerCell below;       ///< number of points below it
+};
 
 }  // namespace flagstone::surface
 #endif
@@ -67,246 +97,425 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// The surface within a cell, approximated by a plane.
-struct CellPlane {
-  float x, y;              ///< centre of the cell, metres
-  float z;                 ///< at the centre, metres
-  float slope_x, slope_y;  ///< m/m
-};
+using ShortTag = hn::CappedTag<std::int16_t, tile_cells>;
+using ShortVector = hn::Vec<ShortTag>;
+using ShortMask = hn::Mask<ShortTag>;
 
-CellPlane plane_in(const Grid& grid, const OccupiedCell& cell) {
-  const std::size_t last = grid.width - 1;
-  const float* HWY_RESTRICT row = grid.heights + cell.row * grid.width;
-  const std::size_t left = cell.column > 0 ? cell.column - 1 : 0;
-  const std::size_t right = std::min<std::size_t>(cell.column + 1, last);
-  const std::size_t before = cell.row > 0 ? cell.row - 1 : 0;
-  const std::size_t after = std::min<std::size_t>(cell.row + 1, last);
-  const auto slope = [&](float from, float to, std::size_t cells) {
-    return (to - from) / (static_cast<float>(cells) * grid.cell);
-  };
-  return {.x = grid.center(cell.column),
-          .y = grid.center(cell.row),
-          .z = row[cell.column],
-          .slope_x = slope(row[left], row[right], right - left),
-          .slope_y = slope(grid.heights[before * grid.width + cell.column],
-                           grid.heights[after * grid.width + cell.column], after - before)};
+inline constexpr SampleSize sample_size{.most = medium_cell, .wanted = 24};
+
+// --- The planes of cells
+// ---------------------------------------------------------------------------
+
+/// Distance from a packed x of 0 to the centre of a cell, in halves of a unit, less the half unit
+/// that packed coordinates are rounded down on average.
+std::int32_t to_centre(std::size_t index, float cell) {
+  const auto per_packed_cell = static_cast<std::size_t>(packed_cell / cell);
+  const auto units_of_cell = static_cast<std::size_t>(cell * xy_per_metre);
+  return static_cast<std::int32_t>((2 * (index % per_packed_cell) + 1) * units_of_cell) - 1;
 }
 
-/// Computes the heights of up to sixteen points above the plane.
-HWY_INLINE void measure(const plane_fits::MovedPoint* points, std::size_t count,
-                        const CellPlane& plane, float* heights) {
+void find_planes_of(const Grid& grid, float expected_ground, const CellPlanes& planes) {
   const FloatTag d;
-  for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
-    FloatVector x, y, z;
-    load_points<4>(&points[lane].x, x, y, z);
-    const FloatVector along_x = hn::Mul(hn::Sub(x, hn::Set(d, plane.x)), hn::Set(d, plane.slope_x));
-    const FloatVector along_y = hn::Mul(hn::Sub(y, hn::Set(d, plane.y)), hn::Set(d, plane.slope_y));
-    const FloatVector height = hn::Sub(hn::Sub(hn::Sub(z, hn::Set(d, plane.z)), along_x), along_y);
-    const auto there =
-        hn::Lt(hn::Iota(d, static_cast<float>(lane)), hn::Set(d, static_cast<float>(count)));
-    hn::StoreU(hn::IfThenElse(there, height, hn::Set(d, std::numeric_limits<float>::infinity())), d,
-               heights + lane);
+  const IntTag di;
+  const std::size_t width = grid.width;
+  const FloatVector most = hn::Set(d, most_offset);
+  const auto slope = [&](FloatVector from, FloatVector to, FloatVector per_metre) HWY_ATTR {
+    const FloatVector limit = hn::Set(d, most_slope);
+    const FloatVector scaled = hn::Mul(hn::Sub(to, from), per_metre);
+    return hn::NearestInt(hn::Max(hn::Min(scaled, limit), hn::Neg(limit)));
+  };
+
+  // Centres of cells, which repeat with the packed cells, and factors of differences.
+  HWY_ALIGN std::array<std::int32_t, lanes> centres;
+  for (std::size_t i = 0; i < lanes; ++i) centres[i] = to_centre(i, grid.cell);
+  const float two_sided = slope_unit / (2 * grid.cell);
+  const float one_sided = slope_unit / grid.cell;
+  HWY_ALIGN std::array<float, most_width + lanes> factors;
+  std::fill(factors.begin(), factors.end(), two_sided);
+  factors[0] = factors[width - 1] = one_sided;
+
+  HWY_ALIGN std::array<float, most_width + 2 * lanes> framed{};  // a row, its ends repeated
+  for (std::size_t row = 0; row < width; ++row) {
+    const float* const here = grid.heights + row * width;
+    const float* const before = row > 0 ? here - width : here;
+    const float* const after = row + 1 < width ? here + width : here;
+    framed[0] = here[0];
+    std::copy_n(here, width, framed.data() + 1);
+    framed[width + 1] = here[width - 1];
+    const FloatVector factor_y = hn::Set(d, row > 0 && row + 1 < width ? two_sided : one_sided);
+    const IntVector row_centre = hn::Set(di, to_centre(row, grid.cell) * 65536);
+    for (std::size_t i = 0; i < width; i += hn::Lanes(d)) {
+      const IntVector slope_x =
+          slope(hn::LoadU(d, framed.data() + i), hn::LoadU(d, framed.data() + i + 2),
+                hn::Load(d, factors.data() + i));
+      const IntVector slope_y = slope(hn::LoadU(d, before + i), hn::LoadU(d, after + i), factor_y);
+      const IntVector slopes =
+          hn::Or(hn::And(slope_x, hn::Set(di, 0xFFFF)), hn::ShiftLeft<16>(slope_y));
+      const FloatVector height =
+          hn::Mul(hn::Sub(hn::LoadU(d, framed.data() + i + 1), hn::Set(d, expected_ground)),
+                  hn::Set(d, offset_unit));
+      const IntVector centre_height = hn::NearestInt(hn::Max(hn::Min(height, most), hn::Neg(most)));
+      const IntVector centre = hn::Or(hn::Load(di, centres.data() + i % lanes), row_centre);
+      const IntVector to_corner = hn::ShiftRight<1>(sum_of_products(slopes, centre));
+      // The excess of a row is overwritten by the next row.
+      hn::StoreU(slopes, di, planes.slopes + row * width + i);
+      hn::StoreU(hn::Add(hn::Sub(centre_height, to_corner), hn::Set(di, 1 << (plane_shift - 1))),
+                 di, planes.offsets + row * width + i);
+    }
   }
 }
 
-/// Transposes a block from cell-major to point-major order, with two passes of LoadInterleaved4.
-void transpose(HeightBlock& block) {
-  const FloatTag d;
-  HWY_ALIGN HeightBlock turned;
-  const auto turn = [&](const float* from, float* to) HWY_ATTR {
+// --- The heights of points
+// -------------------------------------------------------------------------
+
+#if HWY_TARGET == HWY_SCALAR
+
+/// Computes the heights of up to sixteen points of two cells. Cells are columns of the block.
+void measure_pair(const std::array<const PackedPoint*, 2>& points,
+                  const std::array<std::size_t, 2>& counts,
+                  const std::array<std::int32_t, 2>& slopes,
+                  const std::array<std::int32_t, 2>& offsets, std::size_t pair,
+                  HeightBlock& block) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t row = 0; row < block_rows; ++row) {
+      std::int16_t& height = block[row * tile_cells + 2 * pair + side];
+      height = no_height;
+      if (row >= counts[side]) continue;
+      const PackedPoint point = points[side][row];
+      const std::int32_t x = static_cast<std::int32_t>(point & 0xFFU);
+      const std::int32_t y = static_cast<std::int32_t>(point >> 8U & 0xFFU);
+      const std::int32_t slope_x = static_cast<std::int16_t>(slopes[side] & 0xFFFF);
+      const std::int32_t slope_y = slopes[side] >> 16;
+      const std::int32_t surface = (slope_x * x + slope_y * y + offsets[side]) >> plane_shift;
+      const std::int32_t above = (static_cast<std::int32_t>(point) >> 16) - surface;
+      height = static_cast<std::int16_t>(std::clamp<std::int32_t>(above, -32768, 32767));
+    }
+  }
+}
+
+void arrange(HeightBlock& /*block*/) {}
+
+#else
+
+/// Computes the heights of up to one vector of points; `no_height` for elements without a point.
+HWY_INLINE IntVector heights_of(const PackedPoint* points, std::size_t first, std::size_t count,
+                                std::int32_t slopes, std::int32_t offset) {
+  const IntTag di;
+  const IntVector v = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(points + first));
+  const IntVector x = hn::And(v, hn::Set(di, 0xFF));
+  const IntVector y = hn::ShiftLeft<8>(hn::And(v, hn::Set(di, 0xFF00)));
+  const IntVector along = sum_of_products(hn::Or(x, y), hn::Set(di, slopes));
+  const IntVector surface = hn::ShiftRight<plane_shift>(hn::Add(along, hn::Set(di, offset)));
+  const IntVector above = hn::Sub(hn::ShiftRight<16>(v), surface);
+  const auto there = hn::Lt(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(count) -
+                                                             static_cast<std::int32_t>(first)));
+  return hn::IfThenElse(there, above, hn::Set(di, no_height));
+}
+
+/// Computes the heights of up to sixteen points of two cells. Each pair of cells is a row of the
+/// block until arrange() makes cells columns.
+HWY_INLINE void measure_pair(const std::array<const PackedPoint*, 2>& points,
+                             const std::array<std::size_t, 2>& counts,
+                             const std::array<std::int32_t, 2>& slopes,
+                             const std::array<std::int32_t, 2>& offsets, std::size_t pair,
+                             HeightBlock& block) {
+  const IntTag di;
+  auto* const to = reinterpret_cast<std::int32_t*>(block.data()) + pair * block_rows;
+  for (std::size_t i = 0; i < block_rows; i += hn::Lanes(di)) {
+    const IntVector heights =
+        saturated_pairs(heights_of(points[0], i, counts[0], slopes[0], offsets[0]),
+                        heights_of(points[1], i, counts[1], slopes[1], offsets[1]));
+    hn::StoreU(heights, di, to + i);
+  }
+}
+
+/// Transposes a block of 16 x 16 pairs, with two passes of LoadInterleaved4.
+HWY_INLINE void arrange(HeightBlock& block) {
+  const IntTag di;
+  HWY_ALIGN std::array<std::int32_t, 256> turned;
+  const auto turn = [&](const std::int32_t* from, std::int32_t* to) HWY_ATTR {
     for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-      for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
-        FloatVector v0, v1, v2, v3;
-        hn::LoadInterleaved4(d, from + 64 * quarter + 4 * lane, v0, v1, v2, v3);
-        float* const there = to + 16 * quarter + lane;
-        hn::StoreU(v0, d, there);
-        hn::StoreU(v1, d, there + 64);
-        hn::StoreU(v2, d, there + 128);
-        hn::StoreU(v3, d, there + 192);
+      for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(di)) {
+        IntVector v0, v1, v2, v3;
+        hn::LoadInterleaved4(di, from + 64 * quarter + 4 * lane, v0, v1, v2, v3);
+        std::int32_t* const there = to + 16 * quarter + lane;
+        hn::StoreU(v0, di, there);
+        hn::StoreU(v1, di, there + 64);
+        hn::StoreU(v2, di, there + 128);
+        hn::StoreU(v3, di, there + 192);
       }
     }
   };
-  turn(block.data(), turned.data());
-  turn(turned.data(), block.data());
+  auto* const pairs = reinterpret_cast<std::int32_t*>(block.data());
+  turn(pairs, turned.data());
+  turn(turned.data(), pairs);
 }
 
-/// Observes one cell per lane. Each cell has `rows` heights, which this function overwrites.
-template <std::size_t rows>
-HWY_INLINE void observe_lanes(float* HWY_RESTRICT heights, FloatVector gate, const Observations& o,
-                              FloatVector& correction, FloatVector& weight) {
-  const FloatTag d;
-  const FloatVector zero = hn::Zero(d);
-  const FloatVector one = hn::Set(d, 1.0f);
-  const FloatVector none = hn::Set(d, std::numeric_limits<float>::infinity());
-  const FloatVector bottom = hn::Neg(hn::Add(gate, hn::Set(d, depth_below_gate)));
-  const FloatVector top = hn::Add(gate, hn::Set(d, height_above_gate));
+#endif
 
-  // Counts the points and the points within the gate, and finds the three lowest heights of each.
-  // Points outside the observed range become infinitely high.
-  FloatVector seen = zero;
-  FloatVector gated = zero;
-  FloatVector lowest = none;
-  FloatVector second_lowest = none;
-  FloatVector third_lowest = none;
-  FloatVector first = none;
-  FloatVector second = none;
-  FloatVector third = none;
-  for (std::size_t row = 0; row < rows; ++row) {
-    const FloatVector height = hn::Load(d, heights + row * tile_cells);
-    const auto is_seen = hn::And(hn::Gt(height, bottom), hn::Lt(height, top));
-    const FloatVector h = hn::IfThenElse(is_seen, height, none);
-    hn::Store(h, d, heights + row * tile_cells);
-    seen = hn::Add(seen, hn::IfThenElseZero(is_seen, one));
-    const FloatVector not_lowest = hn::Max(lowest, h);
-    lowest = hn::Min(lowest, h);
-    const FloatVector not_second_lowest = hn::Max(second_lowest, not_lowest);
-    second_lowest = hn::Min(second_lowest, not_lowest);
-    third_lowest = hn::Min(third_lowest, not_second_lowest);
-    const auto is_gated = hn::Le(hn::Abs(h), gate);
-    gated = hn::Add(gated, hn::IfThenElseZero(is_gated, one));
-    const FloatVector candidate = hn::IfThenElse(is_gated, h, none);
-    const FloatVector not_first = hn::Max(first, candidate);
-    first = hn::Min(first, candidate);
-    const FloatVector not_second = hn::Max(second, not_first);
+// --- Statistics, one cell per lane
+// -----------------------------------------------------------------
+
+HWY_INLINE ShortVector all(std::int16_t value) { return hn::Set(ShortTag(), value); }
+
+/// v + 1 in the lanes of the mask, v in the others.
+HWY_INLINE ShortVector count_if(ShortMask mask, ShortVector v) {
+#if HWY_TARGET <= HWY_AVX3
+  return hn::IfThenElse(mask, hn::Add(v, all(1)), v);
+#else
+  return hn::Sub(v, hn::VecFromMask(ShortTag(), mask));  // a set mask is -1
+#endif
+}
+
+/// The three lowest heights of each lane, lowest first.
+struct Lowest {
+  HWY_INLINE Lowest() : first(all(no_height)), second(first), third(first) {}
+  HWY_INLINE void add(ShortVector height) {
+    const ShortVector not_first = hn::Max(first, height);
+    first = hn::Min(first, height);
+    const ShortVector not_second = hn::Max(second, not_first);
     second = hn::Min(second, not_first);
     third = hn::Min(third, not_second);
   }
+  ShortVector first, second, third;
+};
+
+/// A window of heights around `centre`, inside the gate. The limits are outside the window.
+struct Window {
+  HWY_INLINE Window(ShortVector centre, ShortVector gate) {
+    const ShortVector reach = all(window + 1);
+    const ShortVector gate_end = hn::Add(gate, all(1));
+    low = hn::Max(hn::Sub(centre, reach), hn::Neg(gate_end));
+    high = hn::Min(hn::Add(centre, reach), gate_end);
+  }
+  [[nodiscard]] HWY_INLINE ShortMask contains(ShortVector height) const {
+    return hn::And(hn::Gt(height, low), hn::Lt(height, high));
+  }
+  ShortVector low, high;
+};
+
+/// The nearest integers to sum / count; 0 if count is 0.
+HWY_INLINE ShortVector quotient(ShortVector sum, ShortVector count) {
+  const ShortTag d;
+  const ShortVector divisor = hn::Max(count, all(1));
+#if HWY_TARGET == HWY_SCALAR
+  const hn::Rebind<std::int32_t, ShortTag> di;
+  const hn::Rebind<float, ShortTag> df;
+  const auto number = [&](auto v) HWY_ATTR { return hn::ConvertTo(df, hn::PromoteTo(di, v)); };
+  return hn::DemoteTo(d, hn::NearestInt(hn::Div(number(sum), number(divisor))));
+#else
+  // Half a vector of shorts has as many lanes as a vector of floats.
+  const hn::Half<ShortTag> dh;
+  const hn::Rebind<std::int32_t, decltype(dh)> di;
+  const hn::Rebind<float, decltype(dh)> df;
+  const auto number = [&](auto v) HWY_ATTR { return hn::ConvertTo(df, hn::PromoteTo(di, v)); };
+  const auto divided = [&](auto a, auto b) HWY_ATTR {
+    return hn::DemoteTo(dh, hn::NearestInt(hn::Div(number(a), number(b))));
+  };
+  return hn::Combine(d, divided(hn::UpperHalf(dh, sum), hn::UpperHalf(dh, divisor)),
+                     divided(hn::LowerHalf(sum), hn::LowerHalf(divisor)));
+#endif
+}
+
+/// Sums up one vector of cells. Each cell has `rows` heights, which this function overwrites.
+template <std::size_t rows>
+HWY_INLINE void sum_up(std::int16_t* HWY_RESTRICT heights, ShortVector gate, std::size_t lane,
+                       TileStatistics& tile) {
+  const ShortTag d;
+  const auto load = [&](std::size_t row)
+                        HWY_ATTR { return hn::Load(d, heights + row * tile_cells); };
+  const auto note = [&](ShortVector v, TileStatistics::PerCell& to)
+                        HWY_ATTR { hn::Store(v, d, to.data() + lane); };
+
+  // Points outside the observed range count as no points.
+  const ShortVector bottom = hn::Neg(hn::Add(gate, all(depth_below_gate)));
+  const ShortVector top = hn::Add(gate, all(height_above_gate));
+  const ShortVector gate_end = hn::Add(gate, all(1));
+  ShortVector seen = hn::Zero(d);
+  ShortVector gated = hn::Zero(d);
+  Lowest of_all;
+  Lowest of_gate;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const ShortVector height = load(row);
+    const ShortMask is_seen = hn::And(hn::Gt(height, bottom), hn::Lt(height, top));
+    const ShortVector h = hn::IfThenElse(is_seen, height, all(no_height));
+    hn::Store(h, d, heights + row * tile_cells);
+    seen = count_if(is_seen, seen);
+    of_all.add(h);
+    const ShortMask is_gated = hn::Lt(hn::Abs(h), gate_end);
+    gated = count_if(is_gated, gated);
+    of_gate.add(hn::IfThenElse(is_gated, h, all(no_height)));
+  }
+  note(seen, tile.seen);
+  note(gated, tile.gated);
 
   // One or two points far below the others are reflections.
-  const auto is_alone = [&](FloatVector low, FloatVector next) HWY_ATTR {
-    return hn::Gt(hn::Sub(next, low), hn::Set(d, reflection_gap));
+  const auto is_alone = [&](ShortVector low, ShortVector next) HWY_ATTR {
+    return hn::Gt(next, hn::SaturatedAdd(low, all(reflection_gap)));
   };
-  const FloatVector of_the_rest =
-      hn::IfThenElse(is_alone(second_lowest, third_lowest), third_lowest, second_lowest);
-  const FloatVector bound = hn::IfThenElse(is_alone(lowest, second_lowest), of_the_rest, lowest);
+  const ShortVector of_the_rest =
+      hn::IfThenElse(is_alone(of_all.second, of_all.third), of_all.third, of_all.second);
+  note(hn::IfThenElse(is_alone(of_all.first, of_all.second), of_the_rest, of_all.first),
+       tile.bound);
 
-  // Finds the lowest mode of the heights within the gate: the window moves to the mean of its
-  // points.
-  FloatVector mean = hn::IfThenElse(hn::Lt(gated, hn::Set(d, 10.0f)), second, third);
-  mean = hn::IfThenElse(hn::Lt(gated, hn::Set(d, 5.0f)), first, mean);
-  const auto window_of = [&](FloatVector& low, FloatVector& high) HWY_ATTR {
-    low = hn::Max(hn::Sub(mean, hn::Set(d, window)), hn::Neg(gate));
-    high = hn::Min(hn::Add(mean, hn::Set(d, window)), gate);
-  };
-  FloatVector low, high;
-  for (int step = 0; step < 2; ++step) {
-    window_of(low, high);
-    FloatVector sum = zero;
-    FloatVector count = zero;
+  // The window starts at a low point of the gate and moves to the mean of its points.
+  const ShortVector of_few = hn::IfThenElse(hn::Lt(gated, all(5)), of_gate.first, of_gate.second);
+  // Without a point in the gate, any start will do.
+  const ShortVector start = hn::IfThenElse(hn::Lt(gated, all(10)), of_few, of_gate.third);
+  ShortVector mean = hn::Min(start, gate);
+  const auto move_window = [&] HWY_ATTR {
+    const Window inside(mean, gate);
+    ShortVector sum = hn::Zero(d);
+    ShortVector count = hn::Zero(d);
     for (std::size_t row = 0; row < rows; ++row) {
-      const FloatVector h = hn::Load(d, heights + row * tile_cells);
-      const auto inside = hn::And(hn::Ge(h, low), hn::Le(h, high));
-      sum = hn::Add(sum, hn::IfThenElseZero(inside, h));
-      count = hn::Add(count, hn::IfThenElseZero(inside, one));
+      const ShortVector h = load(row);
+      const ShortMask is_inside = inside.contains(h);
+      sum = hn::Add(sum, hn::IfThenElseZero(is_inside, hn::Sub(h, mean)));
+      count = count_if(is_inside, count);
     }
-    mean = hn::Div(sum, hn::Max(count, one));
-  }
+    note(mean, tile.mean);
+    note(sum, tile.sum);
+    note(count, tile.count);
+    mean = hn::Add(mean, quotient(sum, count));
+  };
+  move_window();
+  move_window();
 
-  window_of(low, high);
-  FloatVector at_surface = zero;
-  FloatVector above = zero;
-  FloatVector below = zero;
-  const FloatVector slab_low = hn::Add(mean, hn::Set(d, slab_bottom));
-  const FloatVector slab_high = hn::Add(mean, hn::Set(d, slab_top));
-  const FloatVector too_low = hn::Sub(mean, hn::Set(d, below_window));
-  const FloatVector gate_below = hn::Neg(gate);
+  const Window inside(mean, gate);
+  ShortVector at_surface = hn::Zero(d);
+  ShortVector above = hn::Zero(d);
+  ShortVector below = hn::Zero(d);
+  const ShortVector slab_low = hn::Add(mean, all(slab_bottom));
+  const ShortVector slab_high = hn::Add(mean, all(slab_top));
+  const ShortVector too_low = hn::Sub(mean, all(below_window));
+  const ShortVector gate_below = hn::Neg(gate_end);
   for (std::size_t row = 0; row < rows; ++row) {
-    const FloatVector h = hn::Load(d, heights + row * tile_cells);
-    const auto inside = hn::And(hn::Ge(h, low), hn::Le(h, high));
-    at_surface = hn::Add(at_surface, hn::IfThenElseZero(inside, one));
-    const auto is_above = hn::And(hn::Gt(h, slab_low), hn::Lt(h, slab_high));
-    above = hn::Add(above, hn::IfThenElseZero(is_above, one));
-    const auto is_below = hn::And(hn::Ge(h, gate_below), hn::Lt(h, too_low));
-    below = hn::Add(below, hn::IfThenElseZero(is_below, one));
+    const ShortVector h = load(row);
+    at_surface = count_if(inside.contains(h), at_surface);
+    above = count_if(hn::And(hn::Gt(h, slab_low), hn::Lt(h, slab_high)), above);
+    below = count_if(hn::And(hn::Gt(h, gate_below), hn::Lt(h, too_low)), below);
   }
+  note(at_surface, tile.at_surface);
+  note(above, tile.above);
+  note(below, tile.below);
+}
 
-  const FloatVector fewest = hn::Set(d, fewest_points);
-  const auto has_mode = hn::And(hn::Ge(gated, fewest), hn::Ge(at_surface, fewest));
-  const auto has_obstacle = hn::Gt(above, hn::Mul(hn::Set(d, o.max_clutter_ratio), at_surface));
-  const auto is_mode = hn::And(hn::AndNot(has_obstacle, has_mode),
-                               hn::Le(below, hn::Mul(hn::Set(d, most_below), at_surface)));
-  const auto only_below = hn::And(hn::Lt(gated, fewest), hn::Lt(bound, gate_below));
-  const auto is_bound = hn::And(hn::And(hn::Or(only_below, hn::And(has_mode, has_obstacle)),
-                                        hn::Ge(seen, hn::Set(d, fewest_for_lower_bound))),
-                                hn::Lt(bound, hn::Set(d, -least_lowering)));
+// --- Observations
+// ----------------------------------------------------------------------------------
 
-  const FloatVector mode_weight =
-      hn::Min(one, hn::Mul(at_surface, hn::Set(d, 1 / points_of_full_weight)));
-  weight = hn::IfThenElse(is_mode, mode_weight,
-                          hn::IfThenElseZero(is_bound, hn::Set(d, o.lower_bound_weight)));
-  correction = hn::IfThenElse(is_mode, mean, hn::IfThenElseZero(is_bound, bound));
+/// Corrections and weights of 32 cells.
+struct TileObservations {
+  std::array<float, tile_cells> corrections, weights;
+};
+
+void conclude(const Observations& o, const TileStatistics& tile,
+              const std::array<std::int16_t, tile_cells>& gates, TileObservations& found) {
+  const FloatTag d;
+  const IntTag di;
+  const hn::Rebind<std::int16_t, FloatTag> ds;
+  const FloatVector one = hn::Set(d, 1.0f);
+  const FloatVector metre = hn::Set(d, 1.0f / z_per_metre);
+  for (std::size_t lane = 0; lane < tile_cells; lane += hn::Lanes(d)) {
+    const auto number = [&](const TileStatistics::PerCell& of) HWY_ATTR {
+      return hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(ds, of.data() + lane)));
+    };
+    const auto at_least = [&](FloatVector v, float limit)
+                              HWY_ATTR { return hn::Ge(v, hn::Set(d, limit)); };
+    const FloatVector at_surface = number(tile.at_surface);
+    const FloatVector gated = number(tile.gated);
+    const FloatVector bound = number(tile.bound);
+    const auto has_mode =
+        hn::And(at_least(gated, fewest_points), at_least(at_surface, fewest_points));
+    const auto has_obstacle =
+        hn::Gt(number(tile.above), hn::Mul(hn::Set(d, o.max_clutter_ratio), at_surface));
+    const auto few_below = hn::Le(number(tile.below), hn::Mul(hn::Set(d, most_below), at_surface));
+    const auto is_mode = hn::And(hn::AndNot(has_obstacle, has_mode), few_below);
+    const auto only_below =
+        hn::And(hn::Lt(gated, hn::Set(d, fewest_points)), hn::Lt(bound, hn::Neg(number(gates))));
+    const auto is_bound = hn::And(hn::And(hn::Or(only_below, hn::And(has_mode, has_obstacle)),
+                                          at_least(number(tile.seen), fewest_for_lower_bound)),
+                                  hn::Lt(bound, hn::Set(d, -least_lowering)));
+
+    const FloatVector mean =
+        hn::Add(number(tile.mean), hn::Div(number(tile.sum), hn::Max(number(tile.count), one)));
+    const FloatVector mode_weight =
+        hn::Min(one, hn::Mul(at_surface, hn::Set(d, 1 / points_of_full_weight)));
+    const FloatVector bound_weight = hn::IfThenElseZero(is_bound, hn::Set(d, o.lower_bound_weight));
+    hn::StoreU(hn::IfThenElse(is_mode, mode_weight, bound_weight), d, found.weights.data() + lane);
+    hn::StoreU(hn::Mul(hn::IfThenElse(is_mode, mean, bound), metre), d,
+               found.corrections.data() + lane);
+  }
 }
 
 /// Writes the observations of a tile of cells into the grid.
-void note(const Observations& o, std::span<const OccupiedCell> cells, const float* corrections,
-          const float* weights) {
+void write(const Observations& o, std::span<const OccupiedCell> cells,
+           const TileObservations& found) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (weights[i] <= 0) continue;
-    const std::size_t cell = cells[i].row * o.surface->width + cells[i].column;
-    o.corrections[cell] = corrections[i];
-    o.weights[cell] = weights[i];
+    if (found.weights[i] <= 0) continue;
+    o.corrections[cells[i].place] = found.corrections[i];
+    o.weights[cells[i].place] = found.weights[i];
   }
 }
 
-/// Observes up to sixteen cells, with up to `rows` points per cell, selected evenly from its
-/// points.
-template <std::size_t rows>
+/// Observes up to 32 cells.
+template <CellSize size>
 HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell> cells) {
-  const FloatTag d;
-  constexpr float nothing = std::numeric_limits<float>::infinity();
+  const ShortTag d;
+  constexpr std::size_t rows = rows_of(size);
   constexpr std::size_t block_count = rows / block_rows;
   HWY_ALIGN std::array<HeightBlock, block_count> blocks;
-  HWY_ALIGN std::array<float, tile_cells> gates{};
-  HWY_ALIGN std::array<plane_fits::MovedPoint, most_samples> picked;
-  for (std::size_t i = 0; i < tile_cells; ++i) {
-    const auto column = [&](std::size_t block) { return blocks[block].data() + i * block_rows; };
-    if (i >= cells.size()) {
-      for (std::size_t block = 0; block < block_count; ++block) {
-        std::fill_n(column(block), block_rows, nothing);
-      }
-      continue;
-    }
-    const OccupiedCell& cell = cells[i];
-    const CellPlane plane = plane_in(*o.surface, cell);
-    gates[i] = o.gate + o.gate_per_metre * std::sqrt(plane.x * plane.x + plane.y * plane.y);
-    const plane_fits::MovedPoint* points = o.points + cell.first;
-    std::size_t samples = cell.count;
-    if (samples > rows) {
-      for (std::size_t j = 0; j < rows; ++j) picked[j] = points[j * cell.count / rows];
-      points = picked.data();
-      samples = rows;
+  HWY_ALIGN std::array<std::int16_t, tile_cells> gates{};
+  HWY_ALIGN std::array<std::array<PackedPoint, medium_cell + 3 * lanes>, 2> sampled;
+  for (std::size_t pair = 0; pair < tile_cells / 2; ++pair) {
+    std::array<const PackedPoint*, 2> points = {sampled[0].data(), sampled[1].data()};
+    std::array<std::size_t, 2> counts{};
+    std::array<std::int32_t, 2> slopes{};
+    std::array<std::int32_t, 2> offsets{};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::size_t i = 2 * pair + side;
+      if (i >= cells.size()) continue;
+      const OccupiedCell& cell = cells[i];
+      gates[i] = o.gates[cell.place];
+      slopes[side] = o.planes.slopes[cell.place];
+      offsets[side] = o.planes.offsets[cell.place];
+      points[side] = o.points + cell.first;
+      counts[side] = cell.count;
+      if constexpr (size != CellSize::large) continue;
+      counts[side] = take_sample(points[side], cell.count, sample_size, sampled[side].data());
+      points[side] = sampled[side].data();
     }
     for (std::size_t block = 0; block < block_count; ++block) {
       const std::size_t first = block * block_rows;
-      if (first < samples) {
-        measure(points + first, samples - first, plane, column(block));
-      } else {
-        std::fill_n(column(block), block_rows, nothing);
-      }
+      const auto rest = [&](std::size_t side) {
+        return counts[side] > first ? counts[side] - first : 0;
+      };
+      measure_pair({points[0] + first, points[1] + first}, {rest(0), rest(1)}, slopes, offsets,
+                   pair, blocks[block]);
     }
   }
-  for (HeightBlock& block : blocks) transpose(block);
+  for (HeightBlock& block : blocks) arrange(block);
 
-  HWY_ALIGN std::array<float, tile_cells> corrections;
-  HWY_ALIGN std::array<float, tile_cells> weights;
+  TileStatistics tile;
   for (std::size_t lane = 0; lane < tile_cells; lane += hn::Lanes(d)) {
-    FloatVector correction, weight;
-    observe_lanes<rows>(blocks[0].data() + lane, hn::Load(d, gates.data() + lane), o, correction,
-                        weight);
-    hn::Store(correction, d, corrections.data() + lane);
-    hn::Store(weight, d, weights.data() + lane);
+    sum_up<rows>(blocks[0].data() + lane, hn::Load(d, gates.data() + lane), lane, tile);
   }
-  note(o, cells, corrections.data(), weights.data());
+  TileObservations found;
+  conclude(o, tile, gates, found);
+  write(o, cells, found);
 }
 
-void observe_cells(const Observations& o, std::span<const OccupiedCell> cells, bool small) {
+template <CellSize size>
+void observe_tiles(const Observations& o, std::span<const OccupiedCell> cells) {
   for (std::size_t begin = 0; begin < cells.size(); begin += tile_cells) {
-    const auto tile = cells.subspan(begin, std::min(tile_cells, cells.size() - begin));
-    if (small) {
-      observe_tile<small_cell>(o, tile);
-    } else {
-      observe_tile<most_samples>(o, tile);
-    }
+    observe_tile<size>(o, cells.subspan(begin, std::min(tile_cells, cells.size() - begin)));
+  }
+}
+
+void observe_cells(const Observations& o, std::span<const OccupiedCell> cells, CellSize size) {
+  switch (size) {
+    case CellSize::small: return observe_tiles<CellSize::small>(o, cells);
+    case CellSize::medium: return observe_tiles<CellSize::medium>(o, cells);
+    case CellSize::large: return observe_tiles<CellSize::large>(o, cells);
   }
 }
 
@@ -317,12 +526,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace flagstone::surface {
 namespace {
+HWY_EXPORT(find_planes_of);
 HWY_EXPORT(observe_cells);
 }  // namespace
 
+void find_planes(const Grid& grid, float expected_ground, const CellPlanes& planes) noexcept {
+  HWY_DYNAMIC_DISPATCH(find_planes_of)(grid, expected_ground, planes);
+}
+
 void observe(const Observations& observations, std::span<const OccupiedCell> cells,
              CellSize size) noexcept {
-  HWY_DYNAMIC_DISPATCH(observe_cells)(observations, cells, size == CellSize::small);
+  HWY_DYNAMIC_DISPATCH(observe_cells)(observations, cells, size);
 }
 
 }  // namespace flagstone::surface

@@ -7,8 +7,8 @@
 #include <span>
 
 #include "flagstone/surface_config.hpp"
-#include "library/plane_fits/bin_groups.hpp"
 #include "library/surface/grid.hpp"
+#include "library/surface/packed_points.hpp"
 
 namespace flagstone::surface {
 
@@ -16,29 +16,41 @@ namespace flagstone::surface {
 struct OccupiedCell {
   std::uint32_t first;  ///< index of its first point
   std::uint32_t count;
-  std::uint32_t row, column;
+  std::uint32_t place;  ///< row * width + column
 };
+
+/// The surface within each cell of a grid as a plane over the x and y of packed points:
+/// (slope_x * x + slope_y * y + offset) >> plane_shift, in the units of a packed z.
+struct CellPlanes {
+  std::int32_t* slopes;   ///< slope_x | slope_y << 16
+  std::int32_t* offsets;  ///< with half a unit for rounding
+};
+
+/// Computes the planes of all cells of a grid of up to 256 x 256 cells. After the heights of the
+/// grid 16 more must be readable, and after the planes 16 more are written. `expected_ground` is
+/// the height of a packed z of 0, metres.
+void find_planes(const Grid& grid, float expected_ground, const CellPlanes& planes) noexcept;
 
 /// Corrections of the surface from the points in the cells of a level. A positive correction raises
 /// the surface.
 struct Observations {
-  const plane_fits::MovedPoint*
-      points;           ///< of the scan, cell by cell; 16 more points must be readable
-  const Grid* surface;  ///< before the correction
-  float gate;           ///< of the level, metres; see Refinement
-  float gate_per_metre;
+  const PackedPoint* points;  ///< of the scan, cell by cell; 16 more points must be readable
+  CellPlanes planes;          ///< of the surface before the correction
+  const std::int16_t* gates;  ///< by cell, in units of a packed z; see Refinement
   float max_clutter_ratio;
   float lower_bound_weight;
   float* corrections;  ///< by cell, row by row, metres; only written for observed cells
   float* weights;      ///< by cell, 0 to 1; only written for observed cells
 };
 
-/// Maximum number of points of a small cell.
+/// Cells by their number of points: up to 16, up to 32, more. Of a large cell, a sample is used
+/// that does not depend on the order of its points.
+enum class CellSize : std::uint8_t { small, medium, large };
+inline constexpr std::size_t cell_sizes = 3;
 inline constexpr std::uint32_t small_cell = 16;
-enum class CellSize : std::uint8_t { small, any };
+inline constexpr std::uint32_t medium_cell = 32;
 
-/// Observes cells. With `CellSize::small`, which takes half the time, all cells must be small. At
-/// most 32 points per cell are used, selected evenly from all points of the cell.
+/// Observes cells of one size.
 void observe(const Observations& observations, std::span<const OccupiedCell> cells,
              CellSize size) noexcept;
 

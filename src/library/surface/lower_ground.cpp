@@ -14,6 +14,9 @@ namespace {
 /// Side of a square, metres.
 constexpr float square_size = 4;
 
+/// A length rounded to 1/1024 m.
+double rounded(double metres) { return std::nearbyint(metres * 1024) / 1024; }
+
 }  // namespace
 
 LowerGround::LowerGround(const SquareCells& cells)
@@ -25,9 +28,10 @@ LowerGround::LowerGround(const SquareCells& cells)
 }
 
 /// Calls `work(index, point, number of its square)` for each point labelled noise that can be
-/// ground, in the order of the cloud.
+/// ground, in the order of the cloud. Points are relative to the corner of their square, at the
+/// height of the expected ground, and rounded, so that sums over them are exact in any order.
 template <class Work>
-void LowerGround::each_noise(const plane_fits::ScanPoints& scan, std::span<const Label> labels,
+void LowerGround::each_noise(CloudView cloud, std::span<const Label> labels,
                              const Work& work) noexcept {
   const auto* const first = reinterpret_cast<const std::uint8_t*>(labels.data());
   const std::uint8_t* const end = first + labels.size();
@@ -37,23 +41,31 @@ void LowerGround::each_noise(const plane_fits::ScanPoints& scan, std::span<const
         std::memchr(at, static_cast<int>(Label::noise), static_cast<std::size_t>(end - at)));
     if (at == nullptr) return;
     const auto i = static_cast<std::size_t>(at++ - first);
-    const float x = scan.x()[i];
-    const float y = scan.y()[i];
-    const float z = scan.z()[i];
-    const float range = std::sqrt(x * x + y * y);
-    if (z < cells_->noise_height() - cells_->noise_slope() * range) continue;
+    const Point p = cloud[i];
+    const float depth = cells_->noise_height() - p.z;
+    if (depth > 0 &&
+        depth * depth > cells_->noise_slope() * cells_->noise_slope() * (p.x * p.x + p.y * p.y)) {
+      continue;
+    }
     const auto along = [&](float coordinate) {
       return std::min(static_cast<std::uint32_t>((coordinate + cells_->extent()) / square_size),
                       width_ - 1);
     };
-    work(i, Vector3{x, y, z}, along(y) * width_ + along(x));
+    const std::uint32_t column = along(p.x);
+    const std::uint32_t row = along(p.y);
+    const auto from_corner = [&](float coordinate, std::uint32_t index) {
+      return rounded(double{coordinate} + double{cells_->extent()} - double{square_size} * index);
+    };
+    work(i,
+         Vector3{from_corner(p.x, column), from_corner(p.y, row),
+                 rounded(double{p.z} + double{cells_->sensor_height()})},
+         row * width_ + column);
   }
 }
 
-std::size_t LowerGround::find(const plane_fits::ScanPoints& scan,
-                              std::span<Label> labels) noexcept {
+std::size_t LowerGround::find(CloudView cloud, std::span<Label> labels) noexcept {
   touched_count_ = 0;
-  each_noise(scan, labels, [&](std::size_t, const Vector3& point, std::uint32_t number) {
+  each_noise(cloud, labels, [&](std::size_t, const Vector3& point, std::uint32_t number) {
     Square& square = squares_.data()[number];
     if (square.all.count == 0) touched_.data()[touched_count_++] = number;
     square.all.add(point[0], point[1], point[2]);
@@ -78,7 +90,7 @@ std::size_t LowerGround::find(const plane_fits::ScanPoints& scan,
   fit();
   for (const double fit_margin : plane_fits::sunken_fit_margins) {
     if (!any) break;
-    each_noise(scan, labels, [&](std::size_t, const Vector3& point, std::uint32_t number) {
+    each_noise(cloud, labels, [&](std::size_t, const Vector3& point, std::uint32_t number) {
       Square& square = squares_.data()[number];
       if (!square.searched || std::abs(plane_fits::height_above(square.plane, point)) >= fit_margin)
         return;
@@ -93,7 +105,7 @@ std::size_t LowerGround::find(const plane_fits::ScanPoints& scan,
       Square& square = squares_.data()[number];
       square.searched = square.searched && plane_fits::is_lower_ground(square.plane, square.deep);
     }
-    each_noise(scan, labels, [&](std::size_t i, const Vector3& point, std::uint32_t number) {
+    each_noise(cloud, labels, [&](std::size_t i, const Vector3& point, std::uint32_t number) {
       const Square& square = squares_.data()[number];
       if (!square.searched ||
           std::abs(plane_fits::height_above(square.plane, point)) >= plane_fits::sunken_margin)

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <span>
 
+#include "flagstone/cloud_view.hpp"
 #include "flagstone/label.hpp"
 #include "library/core/buffer.hpp"
 #include "library/core/moments.hpp"
 #include "library/core/plane.hpp"
-#include "library/plane_fits/scan_points.hpp"
 #include "library/surface/square_cells.hpp"
 
 namespace flagstone::surface {
@@ -26,20 +26,19 @@ class LowerGround {
   /// Searches each 4 m square for points labelled noise that form a separate plane (see
   /// plane_fits/lower_plane.hpp) and labels them ground. Returns their number. Points below the
   /// noise limit of the cells stay noise.
-  std::size_t find(const plane_fits::ScanPoints& scan, std::span<Label> labels) noexcept;
+  std::size_t find(CloudView cloud, std::span<Label> labels) noexcept;
 
  private:
   /// The points labelled noise in one square.
   struct Square {
     Moments all;    ///< of these points, or of the points near the previous plane
-    Plane plane;    ///< through them, metres, sensor frame
+    Plane plane;    ///< through them, relative to the corner of the square, metres
     double deep;    ///< number of points before the first plane
     bool searched;  ///< are there enough points?
   };
 
   template <class Work>
-  void each_noise(const plane_fits::ScanPoints& scan, std::span<const Label> labels,
-                  const Work& work) noexcept;
+  void each_noise(CloudView cloud, std::span<const Label> labels, const Work& work) noexcept;
 
   const SquareCells* cells_;
   std::uint32_t width_;  ///< squares along a side

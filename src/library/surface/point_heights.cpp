@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/surface/point_heights.cpp"
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
-#include "library/core/simd/lanes-inl.hpp"
+#include "library/core/simd/read_cloud-inl.hpp"
 #include "library/surface/square_cells-inl.hpp"
 
 #ifndef FLAGSTONE_SURFACE_POINT_HEIGHTS_ONCE
@@ -21,21 +22,38 @@ namespace flagstone::surface {
 /// Points higher than this above the surface are overhanging objects, not obstacles, metres.
 inline constexpr float overhang = 2.5f;
 
-/// Marks of obstacles in cells of 0.5 m. Each cell has two bytes: the first is 1 if it contains a
-/// point above `low`, the second if it contains a point above `high`.
+/// Marks of obstacles in cells of 0.5 m. Each cell has two bytes: the first is `mark` if it
+/// contains a point above `low`, the second if it contains a point above `high`.
 struct ObstacleCells {
-  std::uint32_t* words;  ///< two cells per word
-  std::int32_t width;    ///< cells along a side
-  float edge;            ///< cells from the sensor to the edge
-  float low, high;       ///< metres above the surface
+  std::uint8_t* marks;
+  std::uint8_t mark;   ///< of this scan
+  std::int32_t width;  ///< cells along a side
+  float edge;          ///< cells from the sensor to the edge
+  float low, high;     ///< metres above the surface
 };
 
-/// A chunk of points and their heights.
-struct MeasuredPoints {
-  const float *x, *y, *z;  ///< 16 more values must be readable
-  std::size_t count;
-  float* heights;
+/// What is the same for all points of a scan.
+struct MeasuredScan {
+  CloudView cloud;
+  const std::uint8_t* unusual;  ///< see PackedPoints::unusual
+  const GridTables& tables;
+  const SquareCells& cells;
+  const ObstacleCells& obstacles;
+  const PointRule& rule;
 };
+
+/// Where to write the results of consecutive points, and the points without a final label.
+struct MeasuredSlice {
+  std::size_t begin, end;           ///< points of the cloud
+  float* heights;                   ///< of point `begin`
+  std::uint8_t* labels;             ///< of point `begin`
+  std::uint32_t* undecided_points;  ///< 16 more than points can be written
+  std::uint32_t* undecided_cells;   ///< 16 more than points can be written
+};
+
+/// Points whose cells of the surface are looked up together. Their intermediate results stay in the
+/// first-level cache.
+inline constexpr std::size_t lookup_size = 512;
 
 }  // namespace flagstone::surface
 #endif
@@ -53,15 +71,16 @@ struct Between {
 };
 
 HWY_INLINE Between between(FloatVector coordinate, FloatVector per_cell, FloatVector middle,
-                           FloatVector width) {
+                           FloatVector last, bool reaches_edge) {
   const FloatTag d;
-  const FloatVector one = hn::Set(d, 1.0f);
-  const FloatVector center = hn::Add(hn::Mul(coordinate, per_cell), middle);
-  // NaN becomes 0.
-  const FloatVector inside =
-      hn::Min(hn::IfThenElseZero(hn::Gt(center, hn::Zero(d)), center), hn::Sub(width, one));
-  const IntVector first = whole_part(hn::Min(inside, hn::Sub(width, hn::Add(one, one))));
-  return {first, hn::Sub(inside, hn::ConvertTo(d, first))};
+  FloatVector centre = hn::Add(hn::Mul(coordinate, per_cell), middle);
+  if (HWY_UNLIKELY(reaches_edge)) {
+    centre = hn::Min(hn::Max(centre, hn::Zero(d)), last);
+    const IntVector first = whole_part(hn::Min(centre, hn::Sub(last, hn::Set(d, 1.0f))));
+    return {first, hn::Sub(centre, hn::ConvertTo(d, first))};
+  }
+  const IntVector first = whole_part(centre);
+  return {first, hn::Sub(centre, hn::ConvertTo(d, first))};
 }
 
 HWY_INLINE FloatVector blend(FloatVector a, FloatVector b, FloatVector share_of_b) {
@@ -76,9 +95,14 @@ HWY_INLINE FloatVector blend_with_care(FloatVector a, FloatVector b, FloatVector
   return hn::IfThenElse(hn::Le(share_of_b, hn::Zero(d)), a, from_b);
 }
 
-/// The height of the surface at each point, bilinear and bit-identical to GroundSurface::height.
-/// Accepts any value, including NaN, infinity and denormals, and returns a value for each.
-HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables& tables) {
+/// The four heights of the surface around a position, and the weights of the second ones.
+struct Square {
+  IntVector near, far;  ///< index of the first of two heights in each row
+  FloatVector share_x, share_y;
+};
+
+/// For points within the extent.
+HWY_INLINE Square square_at(FloatVector x, FloatVector y, const GridTables& tables) {
   const FloatTag d;
   const IntTag di;
   const FloatVector reach = hn::Max(hn::Abs(x), hn::Abs(y));
@@ -89,148 +113,320 @@ HWY_INLINE FloatVector surface_at(FloatVector x, FloatVector y, const GridTables
   }
   const FloatVector per_cell = lookup_8(tables.per_cell.data(), grid);
   const FloatVector middle = lookup_8(tables.middles.data(), grid);
-  const FloatVector width = lookup_8(tables.widths.data(), grid);
-  const Between column = between(x, per_cell, middle, width);
-  const Between row = between(y, per_cell, middle, width);
-  // Computed in floats; all values are integers below 2^24, so they are exact.
-  const FloatVector row_first =
-      hn::Add(hn::Mul(hn::ConvertTo(d, row.first), width), lookup_8(tables.firsts.data(), grid));
-  const IntVector near = hn::Add(whole_part(row_first), column.first);
-  const IntVector far = hn::Add(near, whole_part(width));
-  FloatVector near_left, near_right, far_left, far_right;
-  gather_pairs(tables.heights, near, near_left, near_right);
-  gather_pairs(tables.heights, far, far_left, far_right);
-  const FloatVector height = blend(blend(near_left, near_right, column.share),
-                                   blend(far_left, far_right, column.share), row.share);
-  const FloatVector one = hn::Set(d, 1.0f);
-  const auto on_last_center = hn::Or(hn::Ge(column.share, one), hn::Ge(row.share, one));
-  if (HWY_LIKELY(hn::AllFalse(d, hn::Or(on_last_center, hn::IsNaN(height))))) return height;
-  return blend_with_care(blend_with_care(near_left, near_right, column.share),
-                         blend_with_care(far_left, far_right, column.share), row.share);
+  const FloatVector last = tables.reaches_edge ? lookup_8(tables.last.data(), grid) : hn::Zero(d);
+  const Between column = between(x, per_cell, middle, last, tables.reaches_edge);
+  const Between row = between(y, per_cell, middle, last, tables.reaches_edge);
+  const IntVector strides = lookup_8(tables.strides.data(), grid);
+  const IntVector place = hn::Or(column.first, hn::ShiftLeft<16>(row.first));
+  const IntVector near =
+      hn::Add(lookup_8(tables.firsts.data(), grid), sum_of_products(place, strides));
+  return {near, hn::Add(near, hn::ShiftRight<16>(strides)), column.share, row.share};
 }
 
-/// The 0.5 m cells of points within the extent. Points with `there` false get the cell next to the
-/// sensor.
-HWY_INLINE IntVector obstacle_cell(FloatMask there, FloatVector x, FloatVector y,
-                                   const ObstacleCells& obstacles) {
+/// The 0.5 m cells of points within the extent.
+HWY_INLINE IntVector obstacle_cell(FloatVector x, FloatVector y, const ObstacleCells& obstacles) {
   const FloatTag d;
   const IntTag di;
   const FloatVector two = hn::Set(d, 2.0f);
   const FloatVector edge = hn::Set(d, obstacles.edge);
-  const IntVector column = whole_part(hn::Add(hn::IfThenElseZero(there, hn::Mul(x, two)), edge));
-  const IntVector row = whole_part(hn::Add(hn::IfThenElseZero(there, hn::Mul(y, two)), edge));
-  return hn::Add(hn::Mul(row, hn::Set(di, obstacles.width)), column);
+  const IntVector column = whole_part(hn::Add(hn::Mul(x, two), edge));
+  const IntVector row = whole_part(hn::Add(hn::Mul(y, two), edge));
+  return sum_of_products(hn::Or(column, hn::ShiftLeft<16>(row)),
+                         hn::Set(di, 1 | obstacles.width << 16));
 }
 
-void measure_points(const MeasuredPoints& points, const GridTables& tables,
-                    const SquareCells& cells, const ObstacleCells& obstacles) {
+/// Intermediate results of up to `lookup_size` points.
+struct alignas(64) Lookups {
+  template <class T>
+  using PerPoint = std::array<T, lookup_size>;
+
+  PerPoint<float> share_x, share_y;
+  PerPoint<float> z;  ///< NaN for points that are invalid or out of range
+  PerPoint<float> squared_range;
+  PerPoint<std::int32_t> obstacle_cell;
+  PerPoint<std::int32_t> code;  ///< label of points without a height, and of noise below all cells
+  std::array<std::uint8_t, lookup_size> has_code;  ///< per vector: whether any point has a code
+
+  /// Per vector: where the square of the surface differs from that of the point before.
+  std::array<std::uint16_t, lookup_size> starts;
+  /// The squares, one per start.
+  std::array<std::int32_t, lookup_size + lanes> near, far;
+  std::size_t squares = 0;
+  /// Pairs of heights of each square.
+  std::array<float, 2 * (lookup_size + lanes)> near_pairs, far_pairs;
+};
+
+/// The code of points that have none.
+inline constexpr std::int32_t no_code = -1;
+
+HWY_INLINE IntVector code_of(Label label) {
+  return hn::Set(IntTag(), static_cast<std::int32_t>(label));
+}
+
+/// Finds the squares of the surface around points.
+class FindSquares {
+ public:
+  /// For points from `begin` on.
+  HWY_INLINE FindSquares(const MeasuredScan& scan, std::size_t begin, Lookups& lookups)
+      : scan_(scan),
+        unusual_(scan.unusual + begin / 4),
+        lookups_(lookups),
+        previous_(hn::Set(IntTag(), -1)) {}
+
+  HWY_INLINE void operator()(std::size_t i, FloatVector x, FloatVector y, FloatVector z) {
+    const FloatTag d;
+    const IntTag di;
+    const std::size_t vector = i / hn::Lanes(d);
+    const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+    hn::Store(squared_range, d, lookups_.squared_range.data() + i);
+    lookups_.has_code[vector] = unusual_[i / 4];
+    if (HWY_UNLIKELY(unusual_[i / 4] != 0)) {
+      const auto good = is_good(x, y, z, scan_.cells);
+      const auto too_low = hn::And(good, is_below_cells(squared_range, z, scan_.cells));
+      const IntVector bad = hn::IfThenElse(hn::RebindMask(di, is_valid(x, y, z)),
+                                           code_of(Label::out_of_range), code_of(Label::invalid));
+      const IntVector low =
+          hn::IfThenElse(hn::RebindMask(di, too_low), code_of(Label::noise), hn::Set(di, no_code));
+      hn::Store(hn::IfThenElse(hn::RebindMask(di, good), low, bad), di, lookups_.code.data() + i);
+      x = hn::IfThenElseZero(good, x);
+      y = hn::IfThenElseZero(good, y);
+      z = hn::IfThenElse(good, z, hn::Set(d, std::numeric_limits<float>::quiet_NaN()));
+    }
+    hn::Store(z, d, lookups_.z.data() + i);
+    hn::Store(obstacle_cell(x, y, scan_.obstacles), di, lookups_.obstacle_cell.data() + i);
+
+    const Square square = square_at(x, y, scan_.tables);
+    hn::Store(square.share_x, d, lookups_.share_x.data() + i);
+    hn::Store(square.share_y, d, lookups_.share_y.data() + i);
+    const auto starts = hn::Ne(square.near, move_up(square.near, previous_));
+    previous_ = square.near;
+    compress_store(square.far, starts, lookups_.far.data() + lookups_.squares);
+    lookups_.squares +=
+        compress_store(square.near, starts, lookups_.near.data() + lookups_.squares);
+    lookups_.starts[vector] = static_cast<std::uint16_t>(bits_of(di, starts));
+  }
+
+ private:
+  const MeasuredScan& scan_;
+  const std::uint8_t* unusual_;
+  Lookups& lookups_;
+  IntVector previous_;  ///< squares of the previous vector, -1 before the first
+};
+
+/// Reads the heights of the squares. Neighbours in the cloud often share a square, so this takes
+/// less time than reading them for every point.
+HWY_INLINE void look_up(const GridTables& tables, Lookups& lookups) {
+  for (std::size_t i = 0; i < lookups.squares; ++i) {
+    std::memcpy(lookups.near_pairs.data() + 2 * i, tables.heights + lookups.near[i],
+                2 * sizeof(float));
+    std::memcpy(lookups.far_pairs.data() + 2 * i, tables.heights + lookups.far[i],
+                2 * sizeof(float));
+  }
+}
+
+/// The height of the surface at the points of a vector, bit-identical to GroundSurface::height.
+/// They use the squares from `first` on, as far as `starts` tells.
+HWY_INLINE FloatVector surface_at(const Lookups& lookups, std::size_t i, std::size_t first,
+                                  std::uint32_t starts, bool reaches_edge) {
   const FloatTag d;
-  const IntTag di;
-  const FloatVector unknown = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
-  auto* const marks = reinterpret_cast<std::uint8_t*>(obstacles.words);
-  HWY_ALIGN std::array<std::int32_t, 2 * lanes> marked;
-  HWY_ALIGN std::array<float, lanes> rest;
-  for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
-    const FloatVector x = hn::LoadU(d, points.x + i);
-    const FloatVector y = hn::LoadU(d, points.y + i);
-    const FloatVector z = hn::LoadU(d, points.z + i);
-    auto good = is_good(x, y, z, cells);
-    if (HWY_UNLIKELY(i + hn::Lanes(d) > points.count)) {
-      good = hn::And(good, hn::FirstN(d, points.count - i));
+  const IntVector left = hn::ShiftLeft<1>(ranks_of(starts | 1U));
+  const IntVector right = hn::Or(left, hn::Set(IntTag(), 1));
+  const float* const near = lookups.near_pairs.data() + 2 * first;
+  const float* const far = lookups.far_pairs.data() + 2 * first;
+  const FloatVector share_x = hn::Load(d, lookups.share_x.data() + i);
+  const FloatVector share_y = hn::Load(d, lookups.share_y.data() + i);
+  const FloatVector near_left = lookup_in_two(near, left);
+  const FloatVector near_right = lookup_in_two(near, right);
+  const FloatVector far_left = lookup_in_two(far, left);
+  const FloatVector far_right = lookup_in_two(far, right);
+  const FloatVector height =
+      blend(blend(near_left, near_right, share_x), blend(far_left, far_right, share_x), share_y);
+  if (HWY_LIKELY(!reaches_edge && hn::AllFalse(d, hn::IsNaN(height)))) return height;
+  return blend_with_care(blend_with_care(near_left, near_right, share_x),
+                         blend_with_care(far_left, far_right, share_x), share_y);
+}
+
+/// Margins of a point above the surface: the smallest and the largest one that the obstacles around
+/// the point can lead to, metres.
+struct Margins {
+  explicit Margins(const PointRule& rule)
+      : least(std::min(rule.margin, rule.obstacle_margin)),
+        most(std::max(rule.margin, rule.obstacle_margin)) {}
+  float least, most;
+};
+
+/// Computes heights and labels.
+class LabelPoints {
+ public:
+  HWY_INLINE LabelPoints(const MeasuredScan& scan, const MeasuredSlice& slice)
+      : scan_(scan), slice_(slice), margins_(scan.rule), points_(hn::Iota(IntTag(), 0)) {}
+
+  /// Labels `count` points, beginning with point `begin` of the slice.
+  HWY_INLINE void label(Lookups& lookups, std::size_t begin, std::size_t count) {
+    const FloatTag d;
+    const bool reaches_edge = scan_.tables.reaches_edge;
+    std::size_t squares = 0;  // that begin before the vector
+    std::size_t i = 0;
+    const auto next_heights = [&] HWY_ATTR {
+      const std::uint32_t starts = lookups.starts[i / hn::Lanes(d)];
+      // If the first point starts no square, it uses the last one before.
+      const FloatVector surface =
+          surface_at(lookups, i, squares - 1 + (starts & 1U), starts, reaches_edge);
+      squares += static_cast<std::size_t>(std::popcount(starts));
+      return hn::Sub(hn::Load(d, lookups.z.data() + i), surface);
+    };
+    for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
+      const FloatVector height = next_heights();
+      const IntVector label = label_vector(lookups, i, height);
+      hn::StoreU(height, d, slice_.heights + begin + i);
+      hn::StoreU(hn::DemoteTo(d8, label), d8, slice_.labels + begin + i);
     }
-    const FloatVector height = hn::IfThenElse(good, hn::Sub(z, surface_at(x, y, tables)), unknown);
-    if (HWY_LIKELY(i + hn::Lanes(d) <= points.count)) {
-      hn::StoreU(height, d, points.heights + i);
-    } else {
-      hn::Store(height, d, rest.data());
-      std::copy_n(rest.data(), points.count - i, points.heights + i);
+    if (i < count) label_rest(lookups, i, next_heights(), begin + i, count - i);
+    set_marks();
+  }
+
+  [[nodiscard]] std::size_t undecided() const { return undecided_; }
+
+  void add_to(LabelTotals& totals) const {
+    totals[static_cast<std::size_t>(Label::ground)] += ground_;
+    totals[static_cast<std::size_t>(Label::noise)] += noise_;
+    totals[static_cast<std::size_t>(Label::out_of_range)] += out_of_range_;
+    totals[static_cast<std::size_t>(Label::invalid)] += invalid_;
+  }
+
+ private:
+  using ByteTag = hn::Rebind<std::uint8_t, FloatTag>;
+  static constexpr ByteTag d8{};
+
+  /// The labels of a vector. Points with an unknown height are `nonground`, unless they have a
+  /// code.
+  HWY_INLINE IntVector label_vector(const Lookups& lookups, std::size_t i, FloatVector height) {
+    const FloatTag d;
+    const IntTag di;
+    const IntVector cell = hn::Load(di, lookups.obstacle_cell.data() + i);
+    mark(height, cell);
+
+    const FloatVector least = hn::Set(d, margins_.least);
+    const auto below_least = hn::Lt(height, least);
+    auto undecided = hn::And(hn::Ge(height, least), hn::Lt(height, hn::Set(d, margins_.most)));
+    IntVector label = hn::IfThenElseZero(hn::RebindMask(di, below_least), code_of(Label::ground));
+    ground_ += hn::CountTrue(d, below_least);
+    const auto may_be_noise = hn::Le(height, hn::Set(d, -scan_.rule.noise_depth));
+    if (HWY_UNLIKELY(!hn::AllFalse(d, may_be_noise))) {
+      const FloatVector range = hn::Sqrt(hn::Load(d, lookups.squared_range.data() + i));
+      const FloatVector deepest =
+          hn::Neg(hn::Add(hn::Set(d, scan_.rule.noise_depth),
+                          hn::Mul(hn::Set(d, scan_.rule.noise_depth_per_metre), range)));
+      const auto noise = hn::Le(height, deepest);
+      label = hn::IfThenElse(hn::RebindMask(di, noise), code_of(Label::noise), label);
+      ground_ -= hn::CountTrue(d, hn::And(noise, below_least));
+      noise_ += hn::CountTrue(d, noise);
     }
+    if (HWY_UNLIKELY(lookups.has_code[i / hn::Lanes(d)] != 0)) {
+      const IntVector code = hn::Load(di, lookups.code.data() + i);
+      const auto has_code = hn::Ne(code, hn::Set(di, no_code));
+      undecided = hn::AndNot(hn::RebindMask(d, has_code), undecided);
+      const auto recount = [&](Label one, std::size_t& count) HWY_ATTR {
+        const auto was = hn::And(has_code, hn::Eq(label, code_of(one)));
+        const auto is = hn::And(has_code, hn::Eq(code, code_of(one)));
+        count += hn::CountTrue(di, is) - hn::CountTrue(di, was);
+      };
+      recount(Label::ground, ground_);
+      recount(Label::noise, noise_);
+      recount(Label::out_of_range, out_of_range_);
+      recount(Label::invalid, invalid_);
+      label = hn::IfThenElse(has_code, code, label);
+    }
+
+    const auto is_undecided = hn::RebindMask(di, undecided);
+    compress_store(cell, is_undecided,
+                   reinterpret_cast<std::int32_t*>(slice_.undecided_cells + undecided_));
+    undecided_ +=
+        compress_store(points_, is_undecided,
+                       reinterpret_cast<std::int32_t*>(slice_.undecided_points + undecided_));
+    points_ = hn::Add(points_, hn::Set(di, static_cast<std::int32_t>(hn::Lanes(di))));
+    return label;
+  }
+
+  /// Labels the last `rest` points of a cloud. The other points of the vector get an unknown height
+  /// and no code, so that they are not counted.
+  void label_rest(Lookups& lookups, std::size_t i, FloatVector height, std::size_t point,
+                  std::size_t rest) {
+    const FloatTag d;
+    const IntTag di;
+    HWY_ALIGN std::array<float, lanes> heights;
+    HWY_ALIGN std::array<std::uint8_t, lanes> labels;
+    const FloatVector unknown = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
+    height = hn::IfThenElse(hn::FirstN(d, rest), height, unknown);
+    std::int32_t* const codes = lookups.code.data() + i;
+    hn::Store(hn::IfThenElse(hn::FirstN(di, rest), hn::Load(di, codes), hn::Set(di, no_code)), di,
+              codes);
+    const IntVector label = label_vector(lookups, i, height);
+    hn::Store(height, d, heights.data());
+    hn::StoreU(hn::DemoteTo(d8, label), d8, labels.data());
+    std::copy_n(heights.data(), rest, slice_.heights + point);
+    std::copy_n(labels.data(), rest, slice_.labels + point);
+  }
+
+  /// Lists the marks of points on obstacles.
+  HWY_INLINE void mark(FloatVector height, IntVector cell) {
+    const FloatTag d;
+    const IntTag di;
+    const ObstacleCells& obstacles = scan_.obstacles;
     const auto is_obstacle =
         hn::And(hn::Gt(height, hn::Set(d, obstacles.low)), hn::Lt(height, hn::Set(d, overhang)));
-    if (hn::AllFalse(d, is_obstacle)) continue;
+    if (hn::AllFalse(d, is_obstacle)) return;
     const auto is_high = hn::RebindMask(di, hn::Gt(height, hn::Set(d, obstacles.high)));
-    const IntVector byte =
-        increment_if(is_high, hn::ShiftLeft<1>(obstacle_cell(is_obstacle, x, y, obstacles)));
-    const std::size_t count = compress_store(byte, hn::RebindMask(di, is_obstacle), marked.data());
-    for (std::size_t k = 0; k < count; ++k) {
+    const IntVector mark =
+        hn::IfThenElse(hn::RebindMask(di, is_obstacle),
+                       increment_if(is_high, hn::ShiftLeft<1>(cell)), hn::Set(di, no_mark));
+    // Neighbours often set the same mark.
+    const auto is_new =
+        hn::And(hn::RebindMask(di, is_obstacle), hn::Ne(mark, move_up(mark, hn::Set(di, no_mark))));
+    marked_count_ += compress_store(mark, is_new, marked_.data() + marked_count_);
+  }
+
+  /// Sets the listed marks.
+  HWY_INLINE void set_marks() {
+    const ObstacleCells& obstacles = scan_.obstacles;
+    for (std::size_t i = 0; i < marked_count_; ++i) {
       // Other threads may set the same mark.
-      std::atomic_ref<std::uint8_t>(marks[marked[k]]).store(1, std::memory_order_relaxed);
+      std::atomic_ref<std::uint8_t>(obstacles.marks[marked_[i]])
+          .store(obstacles.mark, std::memory_order_relaxed);
     }
+    marked_count_ = 0;
   }
-}
 
-void label_points(const MeasuredPoints& points, const PointRule& rule, const SquareCells& cells,
-                  const ObstacleCells& obstacles, std::uint8_t* labels,
-                  std::array<std::size_t, label_count>& totals) {
-  const FloatTag d;
-  const IntTag di;
-  const hn::Rebind<std::uint8_t, FloatTag> d8;
-  const auto label_lanes = [&](Label label)
-                               HWY_ATTR { return hn::Set(di, static_cast<std::int32_t>(label)); };
-  std::size_t ground_count = 0;
-  std::size_t noise_count = 0;
-  std::size_t far_count = 0;
-  std::size_t invalid_count = 0;
-  HWY_ALIGN std::array<std::uint8_t, lanes> rest;
-  HWY_ALIGN std::array<float, lanes> last_heights{};
-  const float middle_margin = (rule.margin + rule.obstacle_margin) / 2;
-  for (std::size_t i = 0; i < points.count; i += hn::Lanes(d)) {
-    const bool whole = i + hn::Lanes(d) <= points.count;
-    const FloatVector x = hn::LoadU(d, points.x + i);
-    const FloatVector y = hn::LoadU(d, points.y + i);
-    const FloatVector z = hn::LoadU(d, points.z + i);
-    FloatVector height;
-    if (HWY_LIKELY(whole)) {
-      height = hn::LoadU(d, points.heights + i);
-    } else {
-      std::copy_n(points.heights + i, points.count - i, last_heights.data());
-      height = hn::Load(d, last_heights.data());
-    }
-    auto there = hn::FirstN(d, lanes);
-    if (HWY_UNLIKELY(!whole)) there = hn::FirstN(d, points.count - i);
-    const auto good = hn::And(is_good(x, y, z, cells), there);
+  static constexpr std::int32_t no_mark = -1;
 
-    const IntVector cell = obstacle_cell(good, x, y, obstacles);
-    const IntVector word = hn::GatherIndex(
-        di, reinterpret_cast<const std::int32_t*>(obstacles.words), hn::ShiftRight<1>(cell));
-    const IntVector shift = hn::ShiftLeft<4>(hn::And(cell, hn::Set(di, 1)));
-    const IntVector bytes = hn::And(hn::Shr(word, shift), hn::Set(di, 0x101));
-    FloatVector margin = hn::IfThenElse(hn::RebindMask(d, hn::Eq(bytes, hn::Zero(di))),
-                                        hn::Set(d, rule.margin), hn::Set(d, middle_margin));
-    margin = hn::IfThenElse(hn::RebindMask(d, hn::Gt(bytes, hn::Set(di, 1))),
-                            hn::Set(d, rule.obstacle_margin), margin);
-    const FloatVector range = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-    const FloatVector deepest = hn::Neg(hn::Add(
-        hn::Set(d, rule.noise_depth), hn::Mul(hn::Set(d, rule.noise_depth_per_metre), range)));
-    const FloatVector lowest =
-        hn::Sub(hn::Set(d, cells.noise_height()), hn::Mul(hn::Set(d, cells.noise_slope()), range));
-    const auto noise = hn::And(good, hn::Or(hn::Le(height, deepest), hn::Lt(z, lowest)));
-    const auto ground = hn::AndNot(noise, hn::And(good, hn::Lt(height, margin)));
+  const MeasuredScan& scan_;
+  const MeasuredSlice& slice_;
+  Margins margins_;
+  IntVector points_;  ///< indices of the next points in the slice
+  std::size_t ground_ = 0;
+  std::size_t noise_ = 0;
+  std::size_t out_of_range_ = 0;
+  std::size_t invalid_ = 0;
+  std::size_t undecided_ = 0;
+  std::size_t marked_count_ = 0;
+  std::array<std::int32_t, lookup_size + lanes> marked_;  ///< marks to set
+};
 
-    IntVector label = hn::IfThenElseZero(hn::RebindMask(di, ground), label_lanes(Label::ground));
-    label = hn::IfThenElse(hn::RebindMask(di, noise), label_lanes(Label::noise), label);
-    ground_count += hn::CountTrue(d, ground);
-    noise_count += hn::CountTrue(d, noise);
-    if (HWY_UNLIKELY(!hn::AllTrue(d, good))) {
-      const auto bad = hn::AndNot(good, there);
-      const auto valid = hn::And(is_valid(x, y, z), bad);
-      const auto invalid = hn::AndNot(valid, bad);
-      label = hn::IfThenElse(hn::RebindMask(di, valid), label_lanes(Label::out_of_range), label);
-      label = hn::IfThenElse(hn::RebindMask(di, invalid), label_lanes(Label::invalid), label);
-      far_count += hn::CountTrue(d, valid);
-      invalid_count += hn::CountTrue(d, invalid);
-    }
-    if (HWY_LIKELY(whole)) {
-      hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
-    } else {
-      hn::StoreU(hn::DemoteTo(d8, label), d8, rest.data());
-      std::copy_n(rest.data(), points.count - i, labels + i);
-    }
+/// Returns the number of undecided points.
+std::size_t measure_points(const MeasuredScan& scan, const MeasuredSlice& slice,
+                           LabelTotals& totals) {
+  Lookups lookups;
+  LabelPoints results(scan, slice);
+  for (std::size_t begin = slice.begin; begin < slice.end; begin += lookup_size) {
+    const std::size_t end = std::min(begin + lookup_size, slice.end);
+    lookups.squares = 0;
+    FindSquares find(scan, begin, lookups);
+    read_cloud(scan.cloud, begin, end, find);
+    look_up(scan.tables, lookups);
+    results.label(lookups, begin - slice.begin, end - begin);
   }
-  totals[static_cast<std::size_t>(Label::ground)] += ground_count;
-  totals[static_cast<std::size_t>(Label::noise)] += noise_count;
-  totals[static_cast<std::size_t>(Label::out_of_range)] += far_count;
-  totals[static_cast<std::size_t>(Label::invalid)] += invalid_count;
+  results.add_to(totals);
+  return results.undecided();
 }
 
 }  // namespace
@@ -241,71 +437,104 @@ HWY_AFTER_NAMESPACE();
 namespace flagstone::surface {
 namespace {
 HWY_EXPORT(measure_points);
-HWY_EXPORT(label_points);
 
 /// Number of 0.5 m cells along one side.
 std::size_t obstacle_width(const SquareCells& cells) {
   return static_cast<std::size_t>(4 * cells.extent());
 }
 
-/// The two limits are a quarter below and a quarter above `height`.
-ObstacleCells obstacle_cells(const SquareCells& cells, std::uint32_t* words, float height) {
-  return {.words = words,
-          .width = static_cast<std::int32_t>(obstacle_width(cells)),
-          .edge = 2 * cells.extent(),
-          .low = 0.75f * height,
-          .high = 1.25f * height};
-}
-
-MeasuredPoints chunk_of(const plane_fits::ScanPoints& scan, std::size_t chunk, std::size_t points,
-                        float* heights) {
-  const std::size_t begin = chunk * plane_fits::chunk_size;
-  return {.x = scan.x() + begin,
-          .y = scan.y() + begin,
-          .z = scan.z() + begin,
-          .count = std::min(plane_fits::chunk_size, points - begin),
-          .heights = heights + begin};
-}
+/// Distance of the chunks in the lists of undecided points.
+constexpr std::size_t chunk_stride = plane_fits::chunk_size + 16;
 
 }  // namespace
 
 PointHeights::PointHeights(const SurfaceConfig& config, const SquareCells& cells)
     : cells_(&cells), rule_(config.point) {
   const std::size_t width = obstacle_width(cells);
-  obstacle_words_ = width * width / 2 + 1;
-  obstacles_.reserve(obstacle_words_);
+  obstacle_bytes_ = 2 * width * width;
+  obstacles_.reserve(obstacle_bytes_);
+  std::fill_n(obstacles_.data(), obstacle_bytes_, std::uint8_t{0});
+}
+
+void PointHeights::reserve(std::size_t points) {
+  const std::size_t chunks = plane_fits::chunk_count(points);
+  undecided_points_.reserve(chunks * chunk_stride);
+  undecided_cells_.reserve(chunks * chunk_stride);
+  undecided_counts_.reserve(chunks);
 }
 
 void PointHeights::set_surface(std::span<const Grid> grids) noexcept {
-  std::fill_n(obstacles_.data(), obstacle_words_, 0);
+  // A different mark in each scan, so that the cells need not be cleared.
+  if (++mark_ == 0) {
+    std::fill_n(obstacles_.data(), obstacle_bytes_, std::uint8_t{0});
+    mark_ = 1;
+  }
   tables_.count = grids.size();
   tables_.heights = grids.front().heights;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const Grid& grid = grids[i];
-    const auto width = static_cast<float>(grid.width);
+    const auto width = static_cast<std::int32_t>(grid.width);
     const bool inner = grid.extent() < grids.front().extent();
     tables_.extents[i] = inner ? grid.extent() - grid.cell / 2 : grid.extent();
     tables_.per_cell[i] = 1 / grid.cell;
-    tables_.middles[i] = (width - 1) / 2;
-    tables_.widths[i] = width;
-    tables_.firsts[i] = static_cast<float>(grid.heights - tables_.heights);
+    tables_.middles[i] = static_cast<float>(width - 1) / 2;
+    tables_.last[i] = static_cast<float>(width - 1);
+    tables_.strides[i] = 1 | width << 16;
+    tables_.firsts[i] = static_cast<std::int32_t>(grid.heights - tables_.heights);
+    if (!inner) {
+      const float last_centre = grid.extent() - grid.cell / 2;
+      tables_.reaches_edge = cells_->max_squared_range() > last_centre * last_centre;
+    }
   }
 }
 
-void PointHeights::measure(const plane_fits::ScanPoints& scan, std::size_t chunk,
-                           std::span<float> heights) noexcept {
-  HWY_DYNAMIC_DISPATCH(measure_points)
-  (chunk_of(scan, chunk, heights.size(), heights.data()), tables_, *cells_,
-   obstacle_cells(*cells_, obstacles_.data(), rule_.obstacle_height));
+void PointHeights::measure(CloudView cloud, const std::uint8_t* unusual, std::size_t chunk,
+                           const Results& results, LabelTotals& totals) noexcept {
+  // The two limits are a quarter below and a quarter above the height of an obstacle.
+  const ObstacleCells obstacles{.marks = obstacles_.data(),
+                                .mark = mark_,
+                                .width = static_cast<std::int32_t>(obstacle_width(*cells_)),
+                                .edge = 2 * cells_->extent(),
+                                .low = 0.75f * rule_.obstacle_height,
+                                .high = 1.25f * rule_.obstacle_height};
+  const MeasuredScan scan{.cloud = cloud,
+                          .unusual = unusual,
+                          .tables = tables_,
+                          .cells = *cells_,
+                          .obstacles = obstacles,
+                          .rule = rule_};
+  const std::size_t begin = chunk * plane_fits::chunk_size;
+  const MeasuredSlice slice{
+      .begin = begin,
+      .end = std::min(begin + plane_fits::chunk_size, cloud.size()),
+      .heights = results.heights.data() + begin,
+      .labels = reinterpret_cast<std::uint8_t*>(results.labels.data()) + begin,
+      .undecided_points = undecided_points_.data() + chunk * chunk_stride,
+      .undecided_cells = undecided_cells_.data() + chunk * chunk_stride};
+  undecided_counts_.data()[chunk] =
+      static_cast<std::uint32_t>(HWY_DYNAMIC_DISPATCH(measure_points)(scan, slice, totals));
 }
 
-void PointHeights::label(const plane_fits::ScanPoints& scan, std::size_t chunk,
-                         std::span<float> heights, std::span<Label> labels,
-                         LabelTotals& totals) noexcept {
-  HWY_DYNAMIC_DISPATCH(label_points)
-  (chunk_of(scan, chunk, heights.size(), heights.data()), rule_, *cells_,
-   obstacle_cells(*cells_, obstacles_.data(), rule_.obstacle_height),
-   reinterpret_cast<std::uint8_t*>(labels.data()) + chunk * plane_fits::chunk_size, totals);
+void PointHeights::label(std::size_t chunk, const Results& results, LabelTotals& totals) noexcept {
+  // By the two marks of the cell: low, high.
+  const float middle = (rule_.margin + rule_.obstacle_margin) / 2;
+  const std::array<float, 4> margins = {rule_.margin, middle, rule_.obstacle_margin,
+                                        rule_.obstacle_margin};
+  const std::size_t begin = chunk * plane_fits::chunk_size;
+  const float* const heights = results.heights.data() + begin;
+  Label* const labels = results.labels.data() + begin;
+  const std::uint32_t* const points = undecided_points_.data() + chunk * chunk_stride;
+  const std::uint32_t* const cells = undecided_cells_.data() + chunk * chunk_stride;
+  std::size_t ground_count = 0;
+  for (std::size_t i = 0; i < undecided_counts_.data()[chunk]; ++i) {
+    const std::uint8_t* const marks = obstacles_.data() + 2 * std::size_t{cells[i]};
+    const auto index = static_cast<std::size_t>(marks[0] == mark_) +
+                       2 * static_cast<std::size_t>(marks[1] == mark_);
+    const bool is_ground = heights[points[i]] < margins[index];
+    labels[points[i]] = is_ground ? Label::ground : Label::nonground;
+    ground_count += static_cast<std::size_t>(is_ground);
+  }
+  totals[static_cast<std::size_t>(Label::ground)] += ground_count;
 }
 
 }  // namespace flagstone::surface

@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <span>
 
+#include "flagstone/cloud_view.hpp"
 #include "flagstone/label.hpp"
 #include "flagstone/surface_config.hpp"
 #include "library/core/buffer.hpp"
 #include "library/core/segment_scan.hpp"
-#include "library/plane_fits/scan_points.hpp"
 #include "library/surface/grid.hpp"
 #include "library/surface/square_cells.hpp"
 
@@ -20,13 +20,15 @@ namespace flagstone::surface {
 /// The grids of a surface as tables with one entry per grid. A position belongs to the last grid
 /// that covers it.
 struct GridTables {
-  std::array<float, 8> extents;   ///< of the outermost centres, or of the edge, metres
-  std::array<float, 8> per_cell;  ///< 1 / cell, 1/metre
-  std::array<float, 8> middles;   ///< index of the sensor position, between two cells
-  std::array<float, 8> widths;    ///< cells
-  std::array<float, 8> firsts;    ///< index of the first height
+  std::array<float, 8> extents;         ///< of the outermost centres, or of the edge, metres
+  std::array<float, 8> per_cell;        ///< 1 / cell, 1/metre
+  std::array<float, 8> middles;         ///< index of the sensor position, between two cells
+  std::array<float, 8> last;            ///< index of the last cell of a row
+  std::array<std::int32_t, 8> strides;  ///< 1 | cells of a row << 16
+  std::array<std::int32_t, 8> firsts;   ///< index of the first height
   std::size_t count;
-  const float* heights;
+  const float* heights;  ///< one row and two more must be readable
+  bool reaches_edge;     ///< whether points can lie beyond the outermost centres
 };
 
 /// Computes the heights of points above the surface, and their labels.
@@ -35,27 +37,42 @@ class PointHeights {
   /// May throw std::bad_alloc.
   PointHeights(const SurfaceConfig& config, const SquareCells& cells);
 
+  /// Reserves memory for scans of up to `points` points. May throw std::bad_alloc.
+  void reserve(std::size_t points);
+
   /// Sets the surface. The heights of `grids` must be contiguous in memory.
   void set_surface(std::span<const Grid> grids) noexcept;
 
-  /// Computes the heights of the points of a chunk, metres, and marks the cells that contain
-  /// obstacles. A height is NaN if the point is invalid or out of range, or if the surface is
-  /// unknown there. Several threads may process different chunks at the same time.
-  void measure(const plane_fits::ScanPoints& scan, std::size_t chunk,
-               std::span<float> heights) noexcept;
+  /// The results of a chunk, for all points of the cloud.
+  struct Results {
+    std::span<float> heights;
+    std::span<Label> labels;
+  };
 
-  /// Labels the points of a chunk. measure() must have finished for all chunks. Several threads may
+  /// Computes the heights of the points of a chunk, metres, and marks the cells that contain
+  /// obstacles. Labels all points whose label does not depend on these marks. A height is NaN if
+  /// the point is invalid or out of range, or if the surface is unknown there. Several threads may
   /// process different chunks at the same time.
-  void label(const plane_fits::ScanPoints& scan, std::size_t chunk, std::span<float> heights,
-             std::span<Label> labels, LabelTotals& totals) noexcept;
+  ///
+  /// `unusual` tells which points have no cell; see PackedPoints::unusual.
+  void measure(CloudView cloud, const std::uint8_t* unusual, std::size_t chunk,
+               const Results& results, LabelTotals& totals) noexcept;
+
+  /// Labels the other points of a chunk. measure() must have finished for all chunks. Several
+  /// threads may process different chunks at the same time.
+  void label(std::size_t chunk, const Results& results, LabelTotals& totals) noexcept;
 
  private:
   const SquareCells* cells_;
   PointRule rule_;
   GridTables tables_{};
-  Buffer<std::uint32_t>
-      obstacles_;  ///< obstacle marks, two bytes per 0.5 m cell; see ObstacleCells
-  std::size_t obstacle_words_ = 0;
+  Buffer<std::uint8_t> obstacles_;  ///< marks, two bytes per 0.5 m cell; see ObstacleCells
+  std::size_t obstacle_bytes_ = 0;
+  std::uint8_t mark_ = 0;  ///< of the current scan
+  /// Points whose label depends on their obstacle cell, and these cells, chunk by chunk.
+  Buffer<std::uint32_t> undecided_points_;
+  Buffer<std::uint32_t> undecided_cells_;
+  Buffer<std::uint32_t> undecided_counts_;  ///< per chunk
 };
 
 }  // namespace flagstone::surface

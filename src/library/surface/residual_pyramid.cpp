@@ -18,25 +18,17 @@ constexpr std::size_t fewest_points_in_cell = 3;
 /// Cells with at least this weight keep their own correction.
 constexpr float full_weight = 0.5f;
 
+/// Larger gates have the effect of this one, in units of a packed z.
+constexpr float most_gate = 20 * z_per_metre;
+
 /// Heights with less confidence are unknown.
 constexpr float min_confidence = 1.0f / 16;
 
+/// Elements that vectors can read or write after the last one.
+constexpr std::size_t slack = 16;
+
 /// Number of cells per job.
 constexpr std::size_t cells_of_a_job = 256;
-
-/// Row and column of each cell of a block, by index along the Z-order curve.
-struct InBlock {
-  std::uint8_t row, column;
-};
-constexpr auto in_z_order = [] {
-  std::array<InBlock, 1024> positions{};
-  for (std::uint8_t row = 0; row < 32; ++row) {
-    for (std::uint8_t column = 0; column < 32; ++column) {
-      positions[z_order(column, row)] = {.row = row, .column = column};
-    }
-  }
-  return positions;
-}();
 
 float reach_of(std::size_t level, const SquareCells& cells) {
   return std::min(levels[level].reach, cells.extent());
@@ -45,7 +37,7 @@ float reach_of(std::size_t level, const SquareCells& cells) {
 }  // namespace
 
 ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells& cells)
-    : settings_(config.refinement) {
+    : settings_(config.refinement), expected_ground_(-config.sensor_height) {
   const auto grid_count = static_cast<std::size_t>(std::max(settings_.levels, 1));
   std::size_t total = 0;
   std::size_t largest = 0;
@@ -56,10 +48,15 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
     total += grid.size();
     largest = std::max(largest, grid.size());
   }
-  heights_.reserve(total);
+  const std::size_t readable = total + grids_.front().width + slack;
+  heights_.reserve(readable);
   confidences_.reserve(total);
   corrections_.reserve(largest);
   weights_.reserve(largest);
+  slopes_.reserve(largest + slack);
+  offsets_.reserve(largest + slack);
+  gates_.reserve(total);
+  std::fill_n(heights_.data(), readable, 0.0f);
   std::size_t first = 0;
   for (Grid& grid : grids_) {
     grid.heights = heights_.data() + first;
@@ -70,11 +67,27 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
   const auto level_total = static_cast<std::size_t>(settings_.levels);
   cells_.resize(level_total);
   for (std::size_t level = 0; level < level_total; ++level) {
-    // All cells may be small, or none.
-    cells_[level].small.reserve(grids_[level].size() + 1);
-    cells_[level].large.reserve(grids_[level].size() + 1);
+    for (Buffer<OccupiedCell>& list : cells_[level].cells) list.reserve(grids_[level].size() + 1);
+    const Grid& grid = grids_[level];
     cells_[level].first_block =
-        static_cast<std::uint32_t>((cells.extent() - grids_[level].extent()) / block_size);
+        static_cast<std::uint32_t>((cells.extent() - grid.extent()) / block_size);
+    const auto along = static_cast<std::size_t>(block_size / levels[level].cell);
+    for (std::size_t index = 0; index < along * along; ++index) {
+      const InBlock place = in_z_order[index];
+      cells_[level].places.push_back(
+          static_cast<std::uint32_t>(place.row * grid.width + place.column));
+    }
+    std::int16_t* const gates = gates_.data() + (grid.heights - heights_.data());
+    cells_[level].gates = gates;
+    for (std::size_t row = 0; row < grid.width; ++row) {
+      for (std::size_t column = 0; column < grid.width; ++column) {
+        const float x = grid.center(column);
+        const float y = grid.center(row);
+        const float gate = gate_of(level) + settings_.gate_per_metre * std::sqrt(x * x + y * y);
+        gates[row * grid.width + column] =
+            static_cast<std::int16_t>(std::min(gate * z_per_metre, most_gate));
+      }
+    }
   }
   const int half = cells.half_blocks();
   for (int row = 0; row < 2 * half; ++row) {
@@ -94,48 +107,62 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
 }
 
 /// Lists the cells of all levels, block by block.
-void ResidualPyramid::list_cells(const plane_fits::BinGroups& groups) noexcept {
-  for (LevelCells& level : cells_) level.small_count = level.large_count = 0;
+void ResidualPyramid::list_cells(const PackedPoints& points,
+                                 const CoarseSamples& samples) noexcept {
+  for (LevelCells& level : cells_) level.counts = {};
+  const std::uint32_t* coarse = samples.begins();
   for (const Block& block : blocks_) {
-    if (groups.points(block.cells.first, block.cells.last).size() < fewest_points_in_cell) continue;
-    groups.list_begins(block.cells.first, block.cells.last, begins_.data());
-    for (std::size_t level = 0; level < block.levels; ++level) list_cells_of(block, level);
+    const std::uint32_t* const coarse_begins = coarse;
+    coarse += coarse_cells_of_block;
+    if (coarse_begins[0] == coarse_begins[coarse_cells_of_block]) continue;
+    if (block.levels > 0) list_cells_of(block, 0, coarse_begins, 1);
+    if (block.levels < 2) continue;
+    const std::uint32_t* const begins = points.begins() + block.cells.first;
+    for (std::size_t level = 1; level < block.levels; ++level) {
+      list_cells_of(block, level, begins,
+                    (block.cells.last - block.cells.first) / cells_[level].places.size());
+    }
   }
 }
 
-void ResidualPyramid::list_cells_of(const Block& block, std::size_t level) noexcept {
+/// Cell i of the level begins at point `begins[i * each]`.
+void ResidualPyramid::list_cells_of(const Block& block, std::size_t level,
+                                    const std::uint32_t* begins, std::size_t each) noexcept {
   LevelCells& list = cells_[level];
   const auto along = static_cast<std::uint32_t>(block_size / levels[level].cell);
-  const std::size_t each = (block.cells.last - block.cells.first) / (along * along);
-  const std::uint32_t first_row = (block.row - list.first_block) * along;
-  const std::uint32_t first_column = (block.column - list.first_block) * along;
-  OccupiedCell* small = list.small.data() + list.small_count;
-  OccupiedCell* large = list.large.data() + list.large_count;
-  for (std::uint32_t index = 0; index < along * along; ++index) {
-    const std::uint32_t first = begins_[index * each];
-    const std::uint32_t count = begins_[(index + 1) * each] - first;
-    const OccupiedCell cell{.first = first,
-                            .count = count,
-                            .row = first_row + in_z_order[index].row,
-                            .column = first_column + in_z_order[index].column};
-    // Without branches, because the number of points in a cell is hard to predict.
-    *small = *large = cell;
-    small += static_cast<std::ptrdiff_t>(count >= fewest_points_in_cell && count <= small_cell);
-    large += static_cast<std::ptrdiff_t>(count > small_cell);
+  const std::uint32_t first_place =
+      (block.row - list.first_block) * along * static_cast<std::uint32_t>(grids_[level].width) +
+      (block.column - list.first_block) * along;
+  std::array<OccupiedCell*, cell_sizes> next;
+  for (std::size_t size = 0; size < cell_sizes; ++size) {
+    next[size] = list.cells[size].data() + list.counts[size];
   }
-  list.small_count = static_cast<std::size_t>(small - list.small.data());
-  list.large_count = static_cast<std::size_t>(large - list.large.data());
+  auto& [small, medium, large] = next;
+  for (const std::uint32_t place : list.places) {
+    const std::uint32_t first = *begins;
+    begins += each;
+    const std::uint32_t count = *begins - first;
+    const OccupiedCell cell{.first = first, .count = count, .place = first_place + place};
+    // Without branches, because the number of points in a cell is hard to predict.
+    *small = *medium = *large = cell;
+    small += static_cast<std::ptrdiff_t>(count >= fewest_points_in_cell && count <= small_cell);
+    medium += static_cast<std::ptrdiff_t>(count > small_cell && count <= medium_cell);
+    large += static_cast<std::ptrdiff_t>(count > medium_cell);
+  }
+  for (std::size_t size = 0; size < cell_sizes; ++size) {
+    list.counts[size] = static_cast<std::size_t>(next[size] - list.cells[size].data());
+  }
 }
 
-void ResidualPyramid::refine(const plane_fits::BinGroups& groups, PullPush& pull_push,
-                             ThreadPool& pool) noexcept {
-  list_cells(groups);
+void ResidualPyramid::refine(const PackedPoints& points, const CoarseSamples& samples,
+                             PullPush& pull_push, ThreadPool& pool) noexcept {
+  list_cells(points, samples);
   for (std::size_t level = 0; level < cells_.size(); ++level) {
     const Grid& grid = grids_[level];
     if (level > 0) upsample(grids_[level - 1], grid);
     std::fill_n(corrections_.data(), grid.size(), 0.0f);
     std::fill_n(weights_.data(), grid.size(), 0.0f);
-    observe_level(level, groups, pool);
+    observe_level(level, level == 0 ? samples.data() : points.data(), pool);
     pull_push.fill(corrections_.data(), weights_.data(), grid.width, full_weight);
     const bool inner = level > 0 && grid.extent() < grids_[level - 1].extent();
     correct(corrections_.data(), weights_.data(), inner, grid);
@@ -149,12 +176,13 @@ float ResidualPyramid::gate_of(std::size_t level) const noexcept {
   return gate;
 }
 
-void ResidualPyramid::observe_level(std::size_t level, const plane_fits::BinGroups& groups,
+void ResidualPyramid::observe_level(std::size_t level, const PackedPoint* points,
                                     ThreadPool& pool) noexcept {
-  const Observations observations{.points = groups.points(0, 0).data(),
-                                  .surface = &grids_[level],
-                                  .gate = gate_of(level),
-                                  .gate_per_metre = settings_.gate_per_metre,
+  const CellPlanes planes{.slopes = slopes_.data(), .offsets = offsets_.data()};
+  find_planes(grids_[level], expected_ground_, planes);
+  const Observations observations{.points = points,
+                                  .planes = planes,
+                                  .gates = cells_[level].gates,
                                   .max_clutter_ratio = settings_.max_clutter_ratio,
                                   .lower_bound_weight = settings_.lower_bound_weight,
                                   .corrections = corrections_.data(),
@@ -163,14 +191,15 @@ void ResidualPyramid::observe_level(std::size_t level, const plane_fits::BinGrou
   const auto jobs_of = [](std::size_t count) {
     return (count + cells_of_a_job - 1) / cells_of_a_job;
   };
-  const std::size_t large_jobs = jobs_of(list.large_count);
-  pool.run(large_jobs + jobs_of(list.small_count), [&](std::size_t, std::size_t job) {
-    const bool large = job < large_jobs;
-    const std::size_t first = (large ? job : job - large_jobs) * cells_of_a_job;
-    const std::size_t count = large ? list.large_count : list.small_count;
-    const OccupiedCell* const cells = large ? list.large.data() : list.small.data();
-    observe(observations, {cells + first, std::min(cells_of_a_job, count - first)},
-            large ? CellSize::any : CellSize::small);
+  std::array<std::size_t, cell_sizes> jobs;
+  for (std::size_t size = 0; size < cell_sizes; ++size) jobs[size] = jobs_of(list.counts[size]);
+  // Large cells take longest, so they come first.
+  pool.run(jobs[0] + jobs[1] + jobs[2], [&](std::size_t, std::size_t job) {
+    std::size_t size = cell_sizes - 1;
+    while (job >= jobs[size]) job -= jobs[size--];
+    const std::size_t first = job * cells_of_a_job;
+    const std::size_t count = std::min(cells_of_a_job, list.counts[size] - first);
+    observe(observations, {list.cells[size].data() + first, count}, static_cast<CellSize>(size));
   });
 }
 

@@ -12,9 +12,10 @@
 #include "flagstone/surface_config.hpp"
 #include "library/core/buffer.hpp"
 #include "library/core/thread_pool.hpp"
-#include "library/plane_fits/bin_groups.hpp"
 #include "library/surface/cell_observations.hpp"
+#include "library/surface/coarse_samples.hpp"
 #include "library/surface/grid.hpp"
+#include "library/surface/packed_points.hpp"
 #include "library/surface/square_cells.hpp"
 
 namespace flagstone::surface {
@@ -27,7 +28,7 @@ class ResidualPyramid {
   ResidualPyramid(const SurfaceConfig& config, const SquareCells& cells);
 
   /// The grids, coarsest first. Their heights are contiguous in memory, and so are their
-  /// confidences.
+  /// confidences. After the heights as many floats as in a row, and 16 more, can be read.
   [[nodiscard]] std::span<const Grid> grids() const noexcept { return grids_; }
 
   /// Number of cells along one side of the widest grid.
@@ -41,7 +42,8 @@ class ResidualPyramid {
   void copy_to(GroundSurface& surface) const noexcept;
 
   /// Refines the surface on the coarsest grid, then computes the finer grids from it.
-  void refine(const plane_fits::BinGroups& groups, PullPush& pull_push, ThreadPool& pool) noexcept;
+  void refine(const PackedPoints& points, const CoarseSamples& samples, PullPush& pull_push,
+              ThreadPool& pool) noexcept;
 
  private:
   /// A block of 8 m.
@@ -51,29 +53,34 @@ class ResidualPyramid {
     std::size_t levels;         ///< number of levels that cover the block
   };
 
-  /// The cells of a level with enough points, separated into small and large cells.
+  /// The cells of a level with enough points, by CellSize.
   struct LevelCells {
-    Buffer<OccupiedCell> small, large;
-    std::size_t small_count = 0, large_count = 0;
+    std::array<Buffer<OccupiedCell>, cell_sizes> cells;
+    std::array<std::size_t, cell_sizes> counts{};
     std::uint32_t first_block = 0;  ///< blocks from the edge to the first block of the level
+    /// By index along the Z-order curve: distance in the grid from the first cell of the block.
+    std::vector<std::uint32_t> places;
+    const std::int16_t* gates = nullptr;  ///< by cell of the grid
   };
 
-  void list_cells(const plane_fits::BinGroups& groups) noexcept;
-  void list_cells_of(const Block& block, std::size_t level) noexcept;
+  void list_cells(const PackedPoints& points, const CoarseSamples& samples) noexcept;
+  void list_cells_of(const Block& block, std::size_t level, const std::uint32_t* begins,
+                     std::size_t each) noexcept;
   [[nodiscard]] float gate_of(std::size_t level) const noexcept;
-  void observe_level(std::size_t level, const plane_fits::BinGroups& groups,
-                     ThreadPool& pool) noexcept;
+  void observe_level(std::size_t level, const PackedPoint* points, ThreadPool& pool) noexcept;
 
   Refinement settings_;
+  float expected_ground_;  ///< metres
   std::vector<Grid> grids_;
   std::vector<Block> blocks_;
   std::vector<LevelCells> cells_;  ///< by level
-  std::array<std::uint32_t, 1025>
-      begins_{};  ///< of one block: index of the first point of each cell
   Buffer<float> heights_;
   Buffer<float> confidences_;
   Buffer<float> corrections_;
   Buffer<float> weights_;
+  Buffer<std::int32_t> slopes_;  ///< of the level in work; see CellPlanes
+  Buffer<std::int32_t> offsets_;
+  Buffer<std::int16_t> gates_;  ///< of all grids
 };
 
 }  // namespace flagstone::surface

@@ -12,8 +12,11 @@
 #endif
 // clang-format on
 
+#include <limits>
+
 #include "library/core/point_validity.hpp"
 #include "library/core/simd/lanes-inl.hpp"
+#include "library/surface/packed_points.hpp"
 #include "library/surface/square_cells.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,18 +26,6 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-HWY_INLINE IntVector all_lanes(std::uint32_t value) {
-  return hn::Set(IntTag(), static_cast<std::int32_t>(value));
-}
-
-/// Moves bits 0 to 4 to positions 0, 2, 4, 6 and 8.
-HWY_INLINE IntVector spread_bits(IntVector v) {
-  const IntTag di;
-  v = hn::And(hn::Or(v, hn::ShiftLeft<4>(v)), hn::Set(di, 0x10F));
-  v = hn::And(hn::Or(v, hn::ShiftLeft<2>(v)), hn::Set(di, 0x133));
-  return hn::And(hn::Or(v, hn::ShiftLeft<1>(v)), hn::Set(di, 0x155));
-}
-
 /// Number of rings of blocks between the sensor and a column (or row) of blocks.
 HWY_INLINE IntVector ring_of(IntVector column, IntVector half) {
   const IntTag di;
@@ -42,34 +33,56 @@ HWY_INLINE IntVector ring_of(IntVector column, IntVector half) {
   return hn::Max(from_middle, hn::Sub(hn::Set(di, -1), from_middle));
 }
 
-/// The cells of points within the extent.
-HWY_INLINE IntVector cell_of(FloatVector x, FloatVector y, const SquareCells& cells) {
+/// Distances from the edge of the cells in units of packed points: x in the lower 16 bits, y in the
+/// upper 16 bits. For points within the extent.
+HWY_INLINE IntVector from_edge(FloatVector x, FloatVector y, const SquareCells& cells) {
   const FloatTag d;
+  const FloatVector per_metre = hn::Set(d, xy_per_metre);
+  const FloatVector edge = hn::Set(d, xy_per_metre * cells.extent());
+  const auto units = [&](FloatVector v)
+                         HWY_ATTR { return whole_part(hn::Add(hn::Mul(v, per_metre), edge)); };
+  return hn::Or(units(x), hn::ShiftLeft<16>(units(y)));
+}
+
+/// The cell of points from their distances from the edge. x and y are computed at once, each in 16
+/// bits.
+HWY_INLINE IntVector cell_of(IntVector edges, const SquareCells& cells) {
   const IntTag di;
-  // Distance from the edge, in quarters of a metre.
-  const FloatVector edge = hn::Set(d, 4 * cells.extent());
-  const IntVector qx = whole_part(hn::Add(hn::Mul(x, hn::Set(d, 4.0f)), edge));
-  const IntVector qy = whole_part(hn::Add(hn::Mul(y, hn::Set(d, 4.0f)), edge));
-  const IntVector column = hn::ShiftRight<5>(qx);
-  const IntVector row = hn::ShiftRight<5>(qy);
+  // Blocks of 8 m are 2^10 units wide.
+  const IntVector block = hn::And(hn::ShiftRight<10>(edges), hn::Set(di, 0x3F003F));
   const IntVector half = hn::Set(di, cells.half_blocks());
+  const IntVector column = hn::And(block, hn::Set(di, 0x3F));
+  const IntVector row = hn::ShiftRight<16>(block);
   const IntVector ring =
       hn::Min(hn::Max(ring_of(column, half), ring_of(row, half)), hn::Set(di, 7));
 
-  const IntVector in_block = hn::Set(di, 31);
-  const IntVector z_order = hn::Or(spread_bits(hn::And(qx, in_block)),
-                                   hn::ShiftLeft<1>(spread_bits(hn::And(qy, in_block))));
+  // The position in the block in cells of 0.25 m, five bits each for x and y, interleaved.
+  IntVector bits = hn::And(hn::ShiftRight<5>(edges), hn::Set(di, 0x1F001F));
+  bits = hn::And(hn::Or(bits, hn::ShiftLeft<4>(bits)), hn::Set(di, 0x10F010F));
+  bits = hn::And(hn::Or(bits, hn::ShiftLeft<2>(bits)), hn::Set(di, 0x1330133));
+  bits = hn::And(hn::Or(bits, hn::ShiftLeft<1>(bits)), hn::Set(di, 0x1550155));
+  const IntVector z_order = hn::And(hn::Or(bits, hn::ShiftRight<15>(bits)), hn::Set(di, 0x3FF));
 
-  // Computed in floats, because not every instruction set can shift by a different amount per lane.
-  // All values are integers below 2^24, so they are exact.
-  const FloatVector width = lookup_8(cells.class_widths(), ring);
-  const FloatVector per_block = lookup_8(cells.cells_per_block(), ring);
-  const FloatVector block =
-      hn::Add(hn::Mul(hn::ConvertTo(d, row), width), hn::ConvertTo(d, column));
-  const FloatVector first = hn::Add(lookup_8(cells.class_bases(), ring), hn::Mul(per_block, block));
-  const FloatVector cells_per_index = hn::Mul(per_block, hn::Set(d, 1.0f / 1024));
-  return hn::Add(whole_part(first),
-                 whole_part(hn::Mul(hn::ConvertTo(d, z_order), cells_per_index)));
+  const IntVector first = hn::Add(lookup_8(cells.class_bases(), ring),
+                                  sum_of_products(block, lookup_8(cells.class_strides(), ring)));
+  return hn::Add(first, hn::Shr(z_order, lookup_8(cells.class_shifts(), ring)));
+}
+
+/// Points in four bytes; see PackedPoint.
+HWY_INLINE IntVector packed(IntVector edges, FloatVector z, const SquareCells& cells) {
+  const FloatTag d;
+  const IntTag di;
+  constexpr float limit = 32768;
+  const FloatVector units =
+      hn::Add(hn::Mul(z, hn::Set(d, z_per_metre)),
+              hn::Set(d, cells.sensor_height() * z_per_metre + (limit + 0.5f)));
+  const IntVector height =
+      whole_part(hn::Min(hn::Max(units, hn::Zero(d)), hn::Set(d, 2 * limit - 1)));
+  const IntVector in_cell = hn::And(edges, hn::Set(di, 0xFF00FF));
+  const IntVector xy = hn::And(hn::Or(in_cell, hn::ShiftRight<8>(in_cell)), hn::Set(di, 0xFFFF));
+  // Subtracts the limit from the upper 16 bits.
+  return hn::Xor(hn::Or(hn::ShiftLeft<16>(height), xy),
+                 hn::Set(di, std::numeric_limits<std::int32_t>::min()));
 }
 
 /// Whether points are valid and in range.
@@ -83,22 +96,42 @@ HWY_INLINE hn::Mask<FloatTag> is_good(FloatVector x, FloatVector y, FloatVector 
   return hn::And(in_range, is_return(x, y, z));
 }
 
-/// For each point its cell, noise(), out_of_range() or invalid(). Accepts any value, including NaN,
-/// infinity and denormals.
-HWY_INLINE IntVector locate(FloatVector x, FloatVector y, FloatVector z, const SquareCells& cells) {
+/// Whether points are below the noise limit of the cells. For points in range.
+HWY_INLINE hn::Mask<FloatTag> is_below_cells(FloatVector squared_range, FloatVector z,
+                                             const SquareCells& cells) {
   const FloatTag d;
+  const FloatVector depth = hn::Sub(hn::Set(d, cells.noise_height()), z);
+  const FloatVector slope = hn::Set(d, cells.noise_slope());
+  // depth > slope * range, without a square root
+  return hn::And(hn::Gt(depth, hn::Zero(d)),
+                 hn::Gt(hn::Mul(depth, depth), hn::Mul(hn::Mul(slope, slope), squared_range)));
+}
+
+struct Located {
+  IntVector cell;    ///< or none()
+  IntVector packed;  ///< unspecified for none()
+  bool all_have_cells;
+};
+
+/// The cells of points, and the points in packed form. Accepts any value, including NaN, infinity
+/// and denormals.
+HWY_INLINE Located locate(FloatVector x, FloatVector y, FloatVector z, const SquareCells& cells) {
   const IntTag di;
-  const auto good = is_good(x, y, z, cells);
-  const FloatVector range = hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)));
-  const FloatVector lowest =
-      hn::Sub(hn::Set(d, cells.noise_height()), hn::Mul(hn::Set(d, cells.noise_slope()), range));
-  IntVector found = cell_of(hn::IfThenElseZero(good, x), hn::IfThenElseZero(good, y), cells);
-  found = hn::IfThenElse(hn::RebindMask(di, hn::Lt(z, lowest)), all_lanes(cells.noise()), found);
-  if (HWY_UNLIKELY(!hn::AllTrue(d, good))) {
-    const IntVector cellless =
-        hn::IfThenElse(hn::RebindMask(di, is_valid(x, y, z)), all_lanes(cells.out_of_range()),
-                       all_lanes(cells.invalid()));
-    found = hn::IfThenElse(hn::RebindMask(di, good), found, cellless);
+  const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+  const auto used = hn::AndNot(is_below_cells(squared_range, z, cells), is_good(x, y, z, cells));
+  Located found;
+  found.all_have_cells = hn::AllTrue(FloatTag(), used);
+  if (HWY_UNLIKELY(!found.all_have_cells)) {
+    x = hn::IfThenElseZero(used, x);
+    y = hn::IfThenElseZero(used, y);
+    z = hn::IfThenElseZero(used, z);
+  }
+  const IntVector edges = from_edge(x, y, cells);
+  found.cell = cell_of(edges, cells);
+  found.packed = packed(edges, z, cells);
+  if (HWY_UNLIKELY(!found.all_have_cells)) {
+    const IntVector none = hn::Set(di, static_cast<std::int32_t>(cells.none()));
+    found.cell = hn::IfThenElse(hn::RebindMask(di, used), found.cell, none);
   }
   return found;
 }

@@ -8,36 +8,8 @@
 
 #include "library/core/mounting_height.hpp"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "library/surface/square_cells.cpp"
-#include <hwy/foreach_target.h>
-// The above includes this file once for each instruction set.
-#include "library/plane_fits/read_slice-inl.hpp"
-#include "library/surface/square_cells-inl.hpp"
-
-HWY_BEFORE_NAMESPACE();
-namespace flagstone::surface::HWY_NAMESPACE {
-namespace {
-
-struct Locate {
-  HWY_INLINE IntVector operator()(FloatVector x, FloatVector y, FloatVector z) const {
-    return locate(x, y, z, cells);
-  }
-  const SquareCells& cells;
-};
-
-std::size_t read_cells(const plane_fits::PointSlice& slice, const SquareCells& cells) {
-  return plane_fits::HWY_NAMESPACE::read_slice(slice, Locate{cells});
-}
-
-}  // namespace
-}  // namespace flagstone::surface::HWY_NAMESPACE
-HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
 namespace flagstone::surface {
 namespace {
-HWY_EXPORT(read_cells);
 
 /// Beyond this range the sensor sees the ground at any sensor height, metres.
 constexpr float most_blind_range = 6;
@@ -75,7 +47,8 @@ SquareCells::SquareCells(const SurfaceConfig& config)
     : half_blocks_(static_cast<int>(std::ceil(config.max_range / block_size))),
       max_squared_range_(squared(std::min(config.max_range, last_inside * extent()))),
       noise_height_(-config.sensor_height - config.noise_depth),
-      noise_slope_(config.noise_slope) {
+      noise_slope_(config.noise_slope),
+      sensor_height_(config.sensor_height) {
   std::array<std::uint32_t, level_count> bases{};
   for (int ring_class = 0; ring_class < 4; ++ring_class) {
     const auto width = static_cast<std::uint32_t>(2 * class_reach(ring_class, half_blocks_));
@@ -88,11 +61,16 @@ SquareCells::SquareCells(const SurfaceConfig& config)
     const int reach = class_reach(ring_class, half_blocks_);
     const int inside = half_blocks_ - reach;  // blocks between the edge of the class and the extent
     const int cells = cells_along(ring_class) * cells_along(ring_class);
-    class_widths_[ring] = static_cast<float>(2 * reach);
-    cells_per_block_[ring] = static_cast<float>(cells);
-    class_bases_[ring] =
-        static_cast<float>(static_cast<int>(bases[static_cast<std::size_t>(ring_class)]) -
-                           cells * (inside * 2 * reach + inside));
+    const int row_cells = 2 * reach * cells;
+    class_strides_[ring] = cells | row_cells << 16;
+    class_bases_[ring] = static_cast<int>(bases[static_cast<std::size_t>(ring_class)]) -
+                         inside * (cells + row_cells);
+    class_shifts_[ring] = 2 * ring_class;
+  }
+  for (int row = 0; row < 2 * half_blocks_; ++row) {
+    for (int column = 0; column < 2 * half_blocks_; ++column) {
+      blocks_.push_back(block(column, row));
+    }
   }
 }
 
@@ -109,19 +87,20 @@ CellRange SquareCells::block(int column, int row) const noexcept {
   };
   const auto ring =
       static_cast<std::size_t>(std::min(std::max(distance(column), distance(row)), 7));
-  const float first =
-      class_bases_[ring] + cells_per_block_[ring] * (static_cast<float>(row) * class_widths_[ring] +
-                                                     static_cast<float>(column));
-  return {static_cast<std::uint32_t>(first),
-          static_cast<std::uint32_t>(first + cells_per_block_[ring])};
+  const std::int32_t cells = class_strides_[ring] & 0xFFFF;
+  const std::int32_t row_cells = class_strides_[ring] >> 16;
+  const auto first =
+      static_cast<std::uint32_t>(class_bases_[ring] + column * cells + row * row_cells);
+  return {first, first + static_cast<std::uint32_t>(cells)};
 }
 
 SquarePatches::SquarePatches(const SurfaceConfig& config, const SquareCells& cells) {
   const int blocks = 2 * cells.half_blocks();
   const float blind_range = std::min(2 * mounting_height(config.sensor_height), most_blind_range);
-  const auto add = [&](CellRange range, int row, int column, int size) {
+  const auto add = [&](CellRange range, CellRange coarse, int row, int column, int size) {
     const auto side = static_cast<float>(size);
     const SquarePatch patch{.cells = range,
+                            .coarse = coarse,
                             .x = (static_cast<float>(column) + 0.5f) * side - cells.extent(),
                             .y = (static_cast<float>(row) + 0.5f) * side - cells.extent(),
                             .size = side,
@@ -133,15 +112,16 @@ SquarePatches::SquarePatches(const SurfaceConfig& config, const SquareCells& cel
   for (int row = 0; row < blocks; ++row) {
     for (int column = 0; column < blocks; ++column) {
       const CellRange block = cells.block(column, row);
+      const auto coarse = coarse_cells_of_block * static_cast<std::uint32_t>(row * blocks + column);
       if (cells.block_class(column, row) > 1) {
-        add(block, row, column, block_size);
+        add(block, {coarse, coarse + coarse_cells_of_block}, row, column, block_size);
         continue;
       }
       const std::uint32_t quarter = (block.last - block.first) / 4;  // along the Z-order curve
       for (std::uint32_t i = 0; i < 4; ++i) {
         add({block.first + i * quarter, block.first + (i + 1) * quarter},
-            2 * row + static_cast<int>(i / 2), 2 * column + static_cast<int>(i % 2),
-            block_size / 2);
+            {coarse + 4 * i, coarse + 4 * (i + 1)}, 2 * row + static_cast<int>(i / 2),
+            2 * column + static_cast<int>(i % 2), block_size / 2);
       }
     }
   }
@@ -150,12 +130,4 @@ SquarePatches::SquarePatches(const SurfaceConfig& config, const SquareCells& cel
   });
 }
 
-void read_chunk(CloudView cloud, std::size_t chunk, const SquareCells& cells,
-                plane_fits::ScanPoints& scan) noexcept {
-  scan.read(cloud, chunk, [&](const plane_fits::PointSlice& slice) {
-    return HWY_DYNAMIC_DISPATCH(read_cells)(slice, cells);
-  });
-}
-
 }  // namespace flagstone::surface
-#endif

@@ -8,9 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "flagstone/cloud_view.hpp"
 #include "flagstone/surface_config.hpp"
-#include "library/plane_fits/scan_points.hpp"
 
 namespace flagstone::surface {
 
@@ -46,13 +44,11 @@ class SquareCells {
   /// Number of cells. Some numbers in the middle of the outer classes are unused.
   [[nodiscard]] std::uint32_t cell_count() const noexcept { return cell_count_; }
 
-  /// Numbers for points that belong to no cell.
-  [[nodiscard]] std::uint32_t noise() const noexcept { return cell_count_; }
-  [[nodiscard]] std::uint32_t out_of_range() const noexcept { return cell_count_ + 1; }
-  [[nodiscard]] std::uint32_t invalid() const noexcept { return cell_count_ + 2; }
+  /// Number for points that belong to no cell: noise, points out of range, invalid points.
+  [[nodiscard]] std::uint32_t none() const noexcept { return cell_count_; }
 
-  /// Number of cells plus these three.
-  [[nodiscard]] std::uint32_t group_count() const noexcept { return cell_count_ + 3; }
+  /// Number of cells plus none().
+  [[nodiscard]] std::uint32_t group_count() const noexcept { return cell_count_ + 1; }
 
   /// The cells cover |x| < extent() and |y| < extent(), metres. The extent is a multiple of the
   /// block size.
@@ -76,13 +72,20 @@ class SquareCells {
   /// The cells of a block.
   [[nodiscard]] CellRange block(int column, int row) const noexcept;
 
+  /// The cells of all blocks, row by row from the edge.
+  [[nodiscard]] std::span<const CellRange> blocks() const noexcept { return blocks_; }
+
+  /// h_s: height of the sensor above the expected ground, metres.
+  [[nodiscard]] float sensor_height() const noexcept { return sensor_height_; }
+
   /// @name Tables by ring of a block, 0 to 7; the last entry applies to all farther rings
+  /// The block at (column, row) begins with cell class_bases + n * column + m * row.
   /// @{
-  /// Blocks per row of the class.
-  [[nodiscard]] const float* class_widths() const noexcept { return class_widths_.data(); }
-  /// The first cell of a block has number class_bases + cells_per_block * (row * width + column).
-  [[nodiscard]] const float* class_bases() const noexcept { return class_bases_.data(); }
-  [[nodiscard]] const float* cells_per_block() const noexcept { return cells_per_block_.data(); }
+  [[nodiscard]] const std::int32_t* class_bases() const noexcept { return class_bases_.data(); }
+  /// n | m << 16.
+  [[nodiscard]] const std::int32_t* class_strides() const noexcept { return class_strides_.data(); }
+  /// The cell with index i along the Z-order curve of cells of 0.25 m has index i >> class_shifts.
+  [[nodiscard]] const std::int32_t* class_shifts() const noexcept { return class_shifts_.data(); }
   /// @}
 
  private:
@@ -90,10 +93,12 @@ class SquareCells {
   float max_squared_range_;
   float noise_height_;
   float noise_slope_;
+  float sensor_height_;
   std::uint32_t cell_count_ = 0;
-  std::array<float, 8> class_widths_{};
-  std::array<float, 8> class_bases_{};
-  std::array<float, 8> cells_per_block_{};
+  std::vector<CellRange> blocks_;
+  std::array<std::int32_t, 8> class_bases_{};
+  std::array<std::int32_t, 8> class_strides_{};
+  std::array<std::int32_t, 8> class_shifts_{};
 };
 
 /// Index along the Z-order curve, 0 to 1023, of the cell at (column, row) of a block of 32 x 32
@@ -106,14 +111,30 @@ class SquareCells {
   return index;
 }
 
-/// Reads chunk `chunk` of the cloud into `scan`, with square cells as bins. `scan` must have room
-/// for the cloud.
-void read_chunk(CloudView cloud, std::size_t chunk, const SquareCells& cells,
-                plane_fits::ScanPoints& scan) noexcept;
+/// Row and column of a cell of a block.
+struct InBlock {
+  std::uint8_t row, column;
+};
+
+/// Row and column of each cell of a block, by index along the Z-order curve.
+inline constexpr auto in_z_order = [] {
+  std::array<InBlock, 1024> positions{};
+  for (std::uint8_t row = 0; row < 32; ++row) {
+    for (std::uint8_t column = 0; column < 32; ++column) {
+      positions[z_order(column, row)] = {.row = row, .column = column};
+    }
+  }
+  return positions;
+}();
+
+/// Coarse cells of 2 m are numbered block by block in the order of SquareCells::blocks(), and along
+/// the Z-order curve within a block.
+inline constexpr std::uint32_t coarse_cells_of_block = 16;
 
 /// A square of cells to which one plane is fitted.
 struct SquarePatch {
   CellRange cells;
+  CellRange coarse;           ///< its coarse cells
   float x, y;                 ///< centre, metres
   float size;                 ///< side, metres: 4 within 24 m of the sensor, 8 beyond
   std::uint16_t size_class;   ///< 0: 4 m, 1: 8 m

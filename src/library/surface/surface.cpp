@@ -13,13 +13,14 @@
 #include "library/core/mounting_height.hpp"
 #include "library/core/segment_scan.hpp"
 #include "library/core/thread_pool.hpp"
-#include "library/plane_fits/bin_groups.hpp"
 #include "library/plane_fits/fitters.hpp"
-#include "library/plane_fits/scan_points.hpp"
+#include "library/plane_fits/scan_runs.hpp"
 #include "library/plane_fits/stage_clock.hpp"
+#include "library/surface/coarse_samples.hpp"
 #include "library/surface/coarse_surface.hpp"
 #include "library/surface/grid.hpp"
 #include "library/surface/lower_ground.hpp"
+#include "library/surface/packed_points.hpp"
 #include "library/surface/patch_judge.hpp"
 #include "library/surface/point_heights.hpp"
 #include "library/surface/residual_pyramid.hpp"
@@ -27,14 +28,14 @@
 
 namespace flagstone {
 
-using plane_fits::BinGroups;
 using plane_fits::Fitter;
-using plane_fits::ScanPoints;
 using plane_fits::StageClock;
 using surface::AcceptedPatches;
+using surface::CoarseSamples;
 using surface::CoarseSurface;
 using surface::FittedPatch;
 using surface::LowerGround;
+using surface::PackedPoints;
 using surface::PatchJudge;
 using surface::PointHeights;
 using surface::PullPush;
@@ -48,16 +49,13 @@ namespace {
 /// Patches with fewer points are not fitted.
 constexpr std::size_t fewest_points = 11;
 
-/// Maximum number of points that a plane is fitted to, selected evenly from the points of the
-/// patch.
-constexpr std::size_t most_samples = 128;
-
-/// Within this range, metres, points more than `seed_floor` below the expected ground are not used
-/// to choose the seeds: they are reflections of cars.
+/// Within this range, metres, points below this height above the expected ground are not used to
+/// choose the seeds: they are reflections of cars.
 constexpr float reflection_range = 10;
-constexpr float seed_floor = 0.5f;
+constexpr float seed_floor = -0.5f;
 
-plane_fits::FitSettings fit_settings(const SurfaceConfig& config) {
+/// Heights are relative to the expected ground.
+plane_fits::FitSettings fit_settings() {
   return {.seed_height = 0.5,
           .seed_depth = 1.0,
           .distance_margin = 0.125,
@@ -65,7 +63,8 @@ plane_fits::FitSettings fit_settings(const SurfaceConfig& config) {
           .iterations = 3,
           .keep_below_floor = true,
           .evaluate_final_set = false,
-          .height_without_seeds = sensor_z(config.sensor_height)};
+          .exact = true,
+          .height_without_seeds = 0};
 }
 
 /// Number of lowest points of a patch whose mean height selects the seeds.
@@ -75,8 +74,9 @@ std::uint32_t seed_count(std::size_t points) {
 
 }  // namespace
 
-/// The pipeline in order: sort points into cells, fit a plane to each patch of cells, merge the
-/// ground planes into one surface, refine the surface, label points by their height above it.
+/// The pipeline in order: pack the points and sort them by cell, fit a plane to each patch of
+/// cells, merge the ground planes into one surface, refine the surface, label points by their
+/// height above it. No step depends on the order of the points.
 struct Surface::Pipeline {
   Pipeline(const SurfaceConfig& given, unsigned threads);
 
@@ -105,8 +105,8 @@ struct Surface::Pipeline {
   PullPush pull_push;
   PointHeights point_heights;
   LowerGround lower_ground;
-  ScanPoints scan;
-  BinGroups groups;
+  PackedPoints points;
+  CoarseSamples samples;
   Buffer<FittedSquare> fitted_squares;
   AcceptedPatches accepted;
   StageTimes* stage_times = nullptr;
@@ -118,14 +118,14 @@ LabelTotals Surface::Pipeline::segment(CloudView cloud, Segmentation& result,
                                        std::span<Label> labels) noexcept {
   const ScopedFloatingPointMode mode;
   StageClock scan_clock(stage_times);
-  const std::size_t chunks = ScanPoints::chunk_count(cloud.size());
+  const std::size_t chunks = plane_fits::chunk_count(cloud.size());
   std::vector<Patch>& patches = result.mutable_patches();
 
   // Sort the points into cells
-  pool.run(chunks,
-           [&](std::size_t, std::size_t chunk) { surface::read_chunk(cloud, chunk, cells, scan); });
+  pool.run(chunks, [&](std::size_t, std::size_t chunk) { points.read(cloud, chunk, cells); });
   scan_clock.end(Stage::bin);
-  groups.group(scan, cloud.size(), cells.group_count());
+  points.sort(cloud.size(), cells);
+  samples.take(points);
   const std::span<FittedSquare> all_squares = list_patches(patches);
   scan_clock.end(Stage::group);
 
@@ -144,24 +144,26 @@ LabelTotals Surface::Pipeline::segment(CloudView cloud, Segmentation& result,
   join(all_squares, patches);
   coarse.finish(pull_push);
   scan_clock.end(Stage::join);
-  pyramid.refine(groups, pull_push, pool);
+  pyramid.refine(points, samples, pull_push, pool);
   pyramid.copy_to(result.mutable_surface());
   scan_clock.end(Stage::refine);
 
-  // Compute the heights of all points above the surface
-  const std::span<float> heights = result.start_heights();
+  // Compute the heights of all points above the surface, and label the points by their height
+  const surface::PointHeights::Results results{.heights = result.start_heights(), .labels = labels};
   point_heights.set_surface(pyramid.grids());
-  pool.run(chunks,
-           [&](std::size_t, std::size_t chunk) { point_heights.measure(scan, chunk, heights); });
-  scan_clock.end(Stage::measure);
-
-  // Label by height; points below the surface that form a separate plane are ground, too
   fitters.clear_totals();
   pool.run(chunks, [&](std::size_t worker, std::size_t chunk) {
-    point_heights.label(scan, chunk, heights, labels, fitters.totals_of(worker));
+    point_heights.measure(cloud, points.unusual(), chunk, results, fitters.totals_of(worker));
+  });
+  scan_clock.end(Stage::measure);
+
+  // Label the points whose label depends on obstacles. Points below the surface that form a
+  // separate plane are ground, too.
+  pool.run(chunks, [&](std::size_t worker, std::size_t chunk) {
+    point_heights.label(chunk, results, fitters.totals_of(worker));
   });
   LabelTotals totals = fitters.totals();
-  const std::size_t lower = lower_ground.find(scan, labels);
+  const std::size_t lower = lower_ground.find(cloud, labels);
   totals[static_cast<std::size_t>(Label::ground)] += lower;
   totals[static_cast<std::size_t>(Label::noise)] -= lower;
   scan_clock.end(Stage::label);
@@ -178,17 +180,18 @@ Surface::Pipeline::Pipeline(const SurfaceConfig& given, unsigned threads)
       pull_push(pyramid.most_cells_along()),
       point_heights(config, cells),
       lower_ground(cells),
-      groups(plane_fits::Listing::points),
+      samples(cells),
       pool(checked_threads("surface", threads)),
-      fitters(pool.size(), fit_settings(config)) {
-  fitters.reserve(batch_size * most_samples);
+      fitters(pool.size(), fit_settings()) {
+  fitters.reserve(batch_size * plane_fits::ExactGrid::most_points);
   fitted_squares.reserve(square_patches.list().size());
   accepted.reserve(square_patches.list().size());
 }
 
 void Surface::Pipeline::reserve(std::size_t point_count, Segmentation& result) {
-  scan.reserve(point_count);
-  groups.reserve(point_count, cells.group_count());
+  points.reserve(point_count, cells);
+  samples.reserve(point_count);
+  point_heights.reserve(point_count);
   result.mutable_patches().reserve(square_patches.list().size());
   result.start_heights();
   pyramid.reserve(result.mutable_surface());
@@ -200,11 +203,11 @@ std::span<Surface::Pipeline::FittedSquare> Surface::Pipeline::list_patches(
     std::vector<Patch>& patches) noexcept {
   std::size_t count = 0;
   for (const SquarePatch& square : square_patches.list()) {
-    const std::size_t points = groups.points(square.cells.first, square.cells.last).size();
-    if (points == 0) continue;
+    const std::size_t held = points.points(square.cells.first, square.cells.last).size();
+    if (held == 0) continue;
     Patch patch{.zone = square.size_class, .ring = square.row, .sector = square.column};
-    patch.point_count = static_cast<std::uint32_t>(points);
-    if (points >= fewest_points) {
+    patch.point_count = static_cast<std::uint32_t>(held);
+    if (held >= fewest_points) {
       const auto index = static_cast<std::uint32_t>(patches.size());
       fitted_squares.data()[count++] = {.square = &square, .patch = index, .plane = {}};
     }
@@ -217,11 +220,10 @@ void Surface::Pipeline::gather(std::span<const FittedSquare> squares, Fitter& fi
   fitter.batch.clear();
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const SquarePatch& square = *squares[i].square;
-    fitter.batch.add_sample(groups.points(square.cells.first, square.cells.last), most_samples);
+    samples.add_patch(square, fitter.batch);
     const bool near =
         square.x * square.x + square.y * square.y < reflection_range * reflection_range;
-    fitter.seeds.floors[i] =
-        near ? -config.sensor_height - seed_floor : -std::numeric_limits<float>::infinity();
+    fitter.seeds.floors[i] = near ? seed_floor : -std::numeric_limits<float>::infinity();
     fitter.seeds.counts[i] = seed_count(fitter.batch.size(i));
   }
 }

@@ -70,6 +70,11 @@ HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index
 #endif
 }
 
+/// Looks up element `index` (0 to 7 in each lane) in a table of 8 integers with any alignment.
+HWY_INLINE IntVector lookup_8(const std::int32_t* HWY_RESTRICT table, IntVector index) {
+  return hn::BitCast(IntTag(), lookup_8(reinterpret_cast<const float*>(table), index));
+}
+
 /// Looks up element `index` and the element after it. Reading pairs is twice as fast with AVX-512.
 HWY_INLINE void gather_pairs(const float* HWY_RESTRICT table, IntVector index, FloatVector& first,
                              FloatVector& second) {
@@ -87,6 +92,63 @@ HWY_INLINE void gather_pairs(const float* HWY_RESTRICT table, IntVector index, F
   const FloatTag d;
   first = hn::GatherIndex(d, table, index);
   second = hn::GatherIndex(d, table + 1, index);
+#endif
+}
+
+/// Looks up element `index` in a table of two vectors with any alignment.
+HWY_INLINE FloatVector lookup_in_two(const float* HWY_RESTRICT table, IntVector index) {
+#if HWY_TARGET <= HWY_AVX3
+  return FloatVector{
+      _mm512_permutex2var_ps(_mm512_loadu_ps(table), index.raw, _mm512_loadu_ps(table + 16))};
+#elif HWY_TARGET == HWY_AVX2
+  return lookup_16(table, index);
+#else
+  return hn::GatherIndex(FloatTag(), table, index);
+#endif
+}
+
+/// The bits of a mask, lowest lane first.
+template <class D>
+HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
+#if HWY_TARGET <= HWY_AVX3
+  static_cast<void>(d);
+  return static_cast<std::uint32_t>(mask.raw);
+#else
+  HWY_ALIGN std::array<std::uint8_t, 8> bytes{};
+  hn::StoreMaskBits(d, mask, bytes.data());
+  return bytes[0];
+#endif
+}
+
+/// For each mask of eight lanes and each lane: the number of set lanes up to and including it.
+inline constexpr auto counts_up_to = [] {
+  std::array<std::uint64_t, 256> counts{};
+  for (std::uint32_t mask = 0; mask < 256; ++mask) {
+    std::uint64_t count = 0;
+    for (std::uint32_t lane = 0; lane < 8; ++lane) {
+      count += mask >> lane & 1U;
+      counts[mask] |= count << (8 * lane);
+    }
+  }
+  return counts;
+}();
+
+/// For each lane the number of set bits up to and including it, less one. Bit 0 must be set.
+HWY_INLINE IntVector ranks_of(std::uint32_t bits) {
+  constexpr std::uint64_t ones = 0x0101010101010101;
+  const std::uint64_t first = counts_up_to[bits & 0xFFU] - ones;
+#if HWY_TARGET <= HWY_AVX3
+  const std::uint64_t second = counts_up_to[bits >> 8U] + (first >> 56U) * ones;
+  return IntVector{_mm512_cvtepu8_epi32(
+      _mm_set_epi64x(static_cast<std::int64_t>(second), static_cast<std::int64_t>(first)))};
+#elif HWY_TARGET == HWY_AVX2
+  return IntVector{_mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<std::int64_t>(first)))};
+#else
+  HWY_ALIGN std::array<std::int32_t, lanes> ranks;
+  for (std::size_t lane = 0; lane < hn::MaxLanes(IntTag()); ++lane) {
+    ranks[lane] = static_cast<std::int32_t>(first >> (8 * lane) & 0xFFU);
+  }
+  return hn::Load(IntTag(), ranks.data());
 #endif
 }
 
@@ -118,6 +180,48 @@ HWY_INLINE IntVector move_up(IntVector v, IntVector before) {
   hn::StoreU(before, di, both.data());
   hn::StoreU(v, di, both.data() + hn::Lanes(di));
   return hn::LoadU(di, both.data() + hn::Lanes(di) - 1);
+#endif
+}
+
+// A pair is two signed integers of 16 bits in one lane of 32 bits, the first one in the low half.
+
+/// For each lane with the pairs (a, b) and (c, d): a * c + b * d.
+HWY_INLINE IntVector sum_of_products(IntVector pairs, IntVector factors) {
+#if HWY_TARGET <= HWY_AVX3
+  return IntVector{_mm512_madd_epi16(pairs.raw, factors.raw)};
+#elif HWY_TARGET == HWY_AVX2
+  return IntVector{_mm256_madd_epi16(pairs.raw, factors.raw)};
+#elif HWY_TARGET == HWY_SSE4
+  return IntVector{_mm_madd_epi16(pairs.raw, factors.raw)};
+#else
+  const auto low = [](IntVector v) HWY_ATTR { return hn::ShiftRight<16>(hn::ShiftLeft<16>(v)); };
+  const auto high = [](IntVector v) HWY_ATTR { return hn::ShiftRight<16>(v); };
+  return hn::Add(hn::Mul(low(pairs), low(factors)), hn::Mul(high(pairs), high(factors)));
+#endif
+}
+
+/// Pairs of two integers, each moved to the nearest integer of 16 bits.
+HWY_INLINE IntVector saturated_pairs(IntVector first, IntVector second) {
+#if HWY_TARGET <= HWY_SSE4
+  HWY_ALIGN static constexpr std::int8_t interleave[] = {0, 1, 8,  9,  2, 3, 10, 11,
+                                                         4, 5, 12, 13, 6, 7, 14, 15};
+  const __m128i order = _mm_load_si128(reinterpret_cast<const __m128i*>(interleave));
+#endif
+#if HWY_TARGET <= HWY_AVX3
+  const __m512i packed = _mm512_packs_epi32(first.raw, second.raw);
+  return IntVector{_mm512_shuffle_epi8(packed, _mm512_broadcast_i32x4(order))};
+#elif HWY_TARGET == HWY_AVX2
+  const __m256i packed = _mm256_packs_epi32(first.raw, second.raw);
+  return IntVector{_mm256_shuffle_epi8(packed, _mm256_broadcastsi128_si256(order))};
+#elif HWY_TARGET == HWY_SSE4
+  return IntVector{_mm_shuffle_epi8(_mm_packs_epi32(first.raw, second.raw), order)};
+#else
+  const IntTag di;
+  const auto saturated = [&](IntVector v) HWY_ATTR {
+    return hn::Max(hn::Min(v, hn::Set(di, 32767)), hn::Set(di, -32768));
+  };
+  return hn::Or(hn::And(saturated(first), hn::Set(di, 0xFFFF)),
+                hn::ShiftLeft<16>(saturated(second)));
 #endif
 }
 

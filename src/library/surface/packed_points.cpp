@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/surface/packed_points.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "library/surface/packed_points.cpp"
+#include <hwy/foreach_target.h>
+// The above includes this file once for each instruction set.
+#include "library/plane_fits/read_slice-inl.hpp"
+#include "library/surface/square_cells-inl.hpp"
+
+#ifndef FLAGSTONE_SURFACE_PACKED_POINTS_ONCE
+#define FLAGSTONE_SURFACE_PACKED_POINTS_ONCE
+namespace flagstone::surface {
+
+/// Points of a cloud to pack, and the destination.
+struct PackedSlice {
+  CloudView cloud;
+  std::size_t begin, end;
+  PackedPoint* points;  ///< 16 more elements can be written
+  std::uint8_t* unusual;
+  plane_fits::RunStart* starts;  ///< 17 more elements can be written
+};
+
+}  // namespace flagstone::surface
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::surface::HWY_NAMESPACE {
+namespace {
+
+struct PackVector {
+  HWY_INLINE void operator()(std::size_t i, FloatVector x, FloatVector y, FloatVector z) const {
+    const IntTag di;
+    const Located located = locate(x, y, z, cells);
+    hn::StoreU(located.packed, di, reinterpret_cast<std::int32_t*>(slice.points) + i);
+    slice.unusual[i / 4] = located.all_have_cells ? 0 : 1;
+    runs.add(located.cell);
+  }
+  const PackedSlice& slice;
+  const SquareCells& cells;
+  plane_fits::HWY_NAMESPACE::RunWriter& runs;
+};
+
+std::size_t pack_slice(const PackedSlice& slice, const SquareCells& cells) {
+  plane_fits::HWY_NAMESPACE::RunWriter runs(slice.starts);
+  read_cloud(slice.cloud, slice.begin, slice.end, PackVector{slice, cells, runs});
+  return runs.close(slice.end - slice.begin);
+}
+
+/// Copies each run to the place of its cell, `next[cell]`, and moves that place on. Most runs take
+/// one step of up to eight points, which avoids mispredicted branches.
+void sort_runs(const plane_fits::ScanRuns::Chunk& runs, std::uint32_t* HWY_RESTRICT next,
+               const PackedPoint* HWY_RESTRICT points, PackedPoint* HWY_RESTRICT sorted) {
+  const hn::CappedTag<std::uint32_t, 8> d;
+  constexpr std::size_t step = hn::MaxLanes(d);
+  for (std::size_t run = 0; run < runs.count; ++run) {
+    const plane_fits::RunStart start = runs.starts[run];
+    const std::uint32_t begin = start >> plane_fits::bin_bits;
+    const std::uint32_t end = runs.starts[run + 1] >> plane_fits::bin_bits;
+    const std::uint32_t cell = start & plane_fits::bin_mask;
+    const PackedPoint* from = points + runs.first + begin;
+    PackedPoint* to = sorted + next[cell];
+    next[cell] += end - begin;
+    std::size_t rest = end - begin;
+    for (; HWY_UNLIKELY(rest > step); rest -= step) {
+      hn::StoreU(hn::LoadU(d, from), d, to);
+      from += step;
+      to += step;
+    }
+    hn::BlendedStore(hn::LoadU(d, from), hn::FirstN(d, rest), d, to);
+  }
+}
+
+}  // namespace
+}  // namespace flagstone::surface::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace flagstone::surface {
+namespace {
+HWY_EXPORT(pack_slice);
+HWY_EXPORT(sort_runs);
+
+/// Elements that vectors can read or write after the last one.
+constexpr std::size_t slack = 16;
+
+}  // namespace
+
+void PackedPoints::reserve(std::size_t points, const SquareCells& cells) {
+  packed_.reserve(points + 2 * slack);
+  sorted_.reserve(points + 2 * slack);
+  unusual_.reserve(points / 4 + slack);
+  runs_.reserve(points);
+  begins_.reserve(cells.group_count() + 1);
+}
+
+void PackedPoints::read(CloudView cloud, std::size_t chunk, const SquareCells& cells) noexcept {
+  const std::size_t begin = chunk * plane_fits::chunk_size;
+  const PackedSlice slice{.cloud = cloud,
+                          .begin = begin,
+                          .end = std::min(begin + plane_fits::chunk_size, cloud.size()),
+                          .points = packed_.data() + begin,
+                          .unusual = unusual_.data() + begin / 4,
+                          .starts = runs_.starts(chunk)};
+  runs_.set_count(chunk, HWY_DYNAMIC_DISPATCH(pack_slice)(slice, cells));
+}
+
+void PackedPoints::sort(std::size_t point_count, const SquareCells& cells) noexcept {
+  const std::size_t chunks = plane_fits::chunk_count(point_count);
+  const std::uint32_t groups = cells.group_count();
+  // While points are sorted, next[cell] is the place of the next point of a cell. Afterwards it is
+  // the first place of the next cell.
+  begins_.data()[0] = 0;
+  std::uint32_t* const next = begins_.data() + 1;
+  std::fill_n(next, groups, 0U);
+  runs_.for_each(chunks, [=](std::uint32_t cell, std::uint32_t, std::uint32_t length) {
+    next[cell] += length;
+  });
+  std::uint32_t sum = 0;
+  for (std::uint32_t cell = 0; cell < groups; ++cell) sum += std::exchange(next[cell], sum);
+  for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
+    HWY_DYNAMIC_DISPATCH(sort_runs)(runs_.chunk(chunk), next, packed_.data(), sorted_.data());
+  }
+}
+
+}  // namespace flagstone::surface
+#endif
