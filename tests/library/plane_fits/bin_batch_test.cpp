@@ -5,12 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <random>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -59,6 +58,7 @@ class BinBatchOn : public testing::TestWithParam<std::string> {
     ASSERT_EQ(batch.size(i), points.size());
     ASSERT_EQ(batch.origin(i).x, (first.x + last.x) / 2);
     ASSERT_EQ(batch.origin(i).y, (first.y + last.y) / 2);
+    ASSERT_EQ(batch.origin(i).z, 0);
     for (std::size_t k = 0; k < points.size(); ++k) {
       ASSERT_EQ(batch.x(i)[k], cloud[points[k]].x - batch.origin(i).x);
       ASSERT_EQ(batch.y(i)[k], cloud[points[k]].y - batch.origin(i).y);
@@ -100,45 +100,34 @@ TEST_P(BinBatchOn, ContainsABinOfAnySize) {
   }
 }
 
-/// Points of a patch after sorting, starting with number `first`.
-std::vector<MovedPoint> moved(std::size_t count, float first) {
-  std::vector<MovedPoint> points(
-      count + 16, {1e9f, 1e9f, 1e9f, 0});  // elements that can be read after the last point
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto step = static_cast<float>(i);
-    points[i] = {first + 0.01f * step, 7 - 0.02f * step, -1.7f + 0.001f * step, 0};
+TEST(BinBatch, ACallerCanWriteThePointsOfABin) {
+  BinBatch batch;
+  batch.reserve(100);
+  batch.clear();
+  const std::array<std::size_t, 4> sizes = {1, 16, 17, 66};
+  for (const std::size_t size : sizes) {
+    const auto number = static_cast<float>(size);
+    batch.add_empty(size, {.x = number, .y = -number, .z = 0.5f});
   }
-  return points;
-}
 
-TEST_P(BinBatchOn, ContainsAnEvenlySpacedSampleOfEachBin) {
-  for (const std::size_t most : {1U, 2U, 16U, 63U, 64U, 65U, 128U, 65535U}) {
-    // The maximum number of points, fewer, slightly more, and many more.
-    const std::vector<std::size_t> sizes = {
-        1, 2, 15, 16, 17, most, most + 1, 2 * most, 2 * most + 1, 127, 128, 129, 1000, 70001};
-    ASSERT_LE(sizes.size(), batch_size);
-    BinBatch batch;
-    batch.reserve(batch_size * most);
-    batch.clear();
-    std::vector<std::vector<MovedPoint>> patches;
-    for (const std::size_t size : sizes) {
-      patches.push_back(moved(size, static_cast<float>(size % 50)));
-      batch.add_sample(std::span(patches.back()).first(size), most);
-    }
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    std::fill_n(batch.x(i), batch.places(i), static_cast<float>(i));
+    std::fill_n(batch.y(i), batch.places(i), static_cast<float>(i) + 10);
+    std::fill_n(batch.z(i), batch.places(i), static_cast<float>(i) + 20);
+  }
 
-    ASSERT_EQ(batch.count(), sizes.size());
-    for (std::size_t i = 0; i < sizes.size(); ++i) {
-      const std::size_t taken = std::min(sizes[i], most);
-      const auto number = [&](std::size_t j) { return patches[i][j * sizes[i] / taken]; };
-      ASSERT_EQ(batch.size(i), taken);
-      ASSERT_EQ(batch.origin(i).x, (number(0).x + number(taken - 1).x) / 2);
-      ASSERT_EQ(batch.origin(i).y, (number(0).y + number(taken - 1).y) / 2);
-      for (std::size_t j = 0; j < taken; ++j) {
-        ASSERT_EQ(batch.x(i)[j], number(j).x - batch.origin(i).x) << j << " of " << sizes[i];
-        ASSERT_EQ(batch.y(i)[j], number(j).y - batch.origin(i).y) << j << " of " << sizes[i];
-        ASSERT_EQ(batch.z(i)[j], number(j).z) << j << " of " << sizes[i];
-      }
-      expect_padded(batch, i);
+  ASSERT_EQ(batch.count(), sizes.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const auto number = static_cast<float>(sizes.at(i));
+    EXPECT_EQ(batch.size(i), sizes.at(i));
+    EXPECT_EQ(batch.places(i) % 16, 0U);
+    EXPECT_EQ(batch.origin(i).x, number);
+    EXPECT_EQ(batch.origin(i).y, -number);
+    EXPECT_EQ(batch.origin(i).z, 0.5f);
+    for (std::size_t k = 0; k < batch.places(i); ++k) {
+      ASSERT_EQ(batch.x(i)[k], static_cast<float>(i)) << k;
+      ASSERT_EQ(batch.y(i)[k], static_cast<float>(i) + 10) << k;
+      ASSERT_EQ(batch.z(i)[k], static_cast<float>(i) + 20) << k;
     }
   }
 }

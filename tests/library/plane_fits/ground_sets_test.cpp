@@ -153,7 +153,7 @@ TEST_P(SumMomentsOn, IncludePointsOnTheBottomButNotOnTheTop) {
   const BinBatch batch = tests::batch_of({{-1, 0, 1, 2}});
   GroundSets sets{};
   sets[0] = {0, 0, 1, -1, 1};
-  for (const Precision precision : {Precision::single, Precision::full}) {
+  for (const Precision precision : {Precision::single, Precision::full, Precision::exact}) {
     MomentsBatch moments{};
 
     sum_moments(batch, sets, 1, precision, moments);
@@ -169,7 +169,7 @@ TEST_P(SumMomentsOn, AreZeroForASetWithoutPointsOrBounds) {
   GroundSets sets{};
   sets[0] = {0, 0, 1, 5, 6};
   sets[1] = {nan, nan, nan, nan, nan};  // the set of a plane without points
-  for (const Precision precision : {Precision::single, Precision::full}) {
+  for (const Precision precision : {Precision::single, Precision::full, Precision::exact}) {
     MomentsBatch moments{};
     moments.count.fill(77);
 
@@ -187,7 +187,7 @@ TEST_P(SumMomentsOn, OfFirstSetsMatchTheShiftedHeights) {
   BinBatch batch = tests::batch_of({{-1.5f, -1.25f, -1, 3}});
 
   MomentsBatch first{};
-  sum_first_moments(batch, {{{.origin = -1.5f, .bottom = 0, .top = 1}}}, first);
+  sum_first_moments(batch, {{{.origin = -1.5f, .bottom = 0, .top = 1}}}, Precision::single, first);
   GroundSets sets{};
   sets[0] = {0, 0, 1, 0, 1};  // relative to -1.5 m
   MomentsBatch again{};
@@ -199,6 +199,114 @@ TEST_P(SumMomentsOn, OfFirstSetsMatchTheShiftedHeights) {
     EXPECT_EQ(moments.count[0], 3);
     EXPECT_EQ(moments.sum[2][0], 0.0 + 0.25 + 0.5);
   }
+}
+
+/// A point on the grid of ExactGrid.
+struct GridPoint {
+  float x, y, z;
+};
+
+/// Random points on the grid of ExactGrid, up to its reach.
+std::vector<GridPoint> any_grid_points(std::size_t count, std::mt19937& random) {
+  const auto any = [&](float step) {
+    const auto most = static_cast<int>(ExactGrid::reach / step);
+    return static_cast<float>(static_cast<int>(random() % (2U * static_cast<unsigned>(most) + 1)) -
+                              most) *
+           step;
+  };
+  std::vector<GridPoint> points(count);
+  for (GridPoint& p : points) {
+    p = {any(ExactGrid::xy_step), any(ExactGrid::xy_step), any(ExactGrid::z_step)};
+  }
+  return points;
+}
+
+/// A batch of one bin.
+BinBatch batch_of_one(const std::vector<GridPoint>& points) {
+  BinBatch batch;
+  batch.reserve(points.size());
+  batch.clear();
+  batch.add_empty(points.size(), {.x = 0, .y = 0});
+  for (std::size_t k = 0; k < batch.places(0); ++k) {
+    const GridPoint p = k < points.size() ? points[k] : GridPoint{0, 0, inf};
+    batch.x(0)[k] = p.x;
+    batch.y(0)[k] = p.y;
+    batch.z(0)[k] = p.z;
+  }
+  return batch;
+}
+
+/// Asserts that the moments of bin 0 are the exact ones. Sums in double precision are exact here.
+void expect_exact(const MomentsBatch& moments, const Moments& exact) {
+  EXPECT_EQ(moments.count[0], exact.count);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(moments.sum.at(k)[0], exact.sum.at(k)) << k;
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(moments.squares.at(k)[0], exact.squares.at(k)) << k;
+}
+
+TEST_P(SumMomentsOn, AreExactOnTheGridInAnyOrder) {
+  std::mt19937 random(5);
+  for (const std::size_t size : {1U, 3U, 15U, 16U, 17U, 100U, 127U, 128U}) {
+    std::vector<GridPoint> points = any_grid_points(size, random);
+    const GroundSets sets = any_sets(random);
+    const Moments exact = naive(batch_of_one(points), 0, sets[0]).moments;
+    for (int repeat = 0; repeat < 5; ++repeat) {
+      std::ranges::shuffle(points, random);
+      MomentsBatch moments{};
+
+      sum_moments(batch_of_one(points), sets, 1, Precision::exact, moments);
+
+      expect_exact(moments, exact);
+    }
+  }
+}
+
+TEST_P(SumMomentsOn, AreExactAtTheCornerOfTheGrid) {
+  const float reach = ExactGrid::reach;
+  const std::vector<GridPoint> points(ExactGrid::most_points, {reach, -reach, reach});
+  GroundSets sets{};
+  sets[0] = {0, 0, 1, -inf, inf};
+  MomentsBatch moments{};
+
+  sum_moments(batch_of_one(points), sets, 1, Precision::exact, moments);
+
+  expect_exact(moments, naive(batch_of_one(points), 0, sets[0]).moments);
+}
+
+TEST_P(SumMomentsOn, OfFirstSetsAreExactOnTheGridInAnyOrder) {
+  std::mt19937 random(6);
+  const FirstSet first_set{.origin = -1.5f, .bottom = -0.75f, .top = 1.25f};
+  const GroundSet set{0, 0, 1, first_set.bottom, first_set.top};
+  std::vector<GridPoint> points = any_grid_points(ExactGrid::most_points, random);
+  std::vector<GridPoint> shifted = points;
+  for (GridPoint& p : shifted) p.z -= first_set.origin;
+  const Moments exact = naive(batch_of_one(shifted), 0, set).moments;
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    std::ranges::shuffle(points, random);
+    BinBatch batch = batch_of_one(points);
+    MomentsBatch moments{};
+
+    sum_first_moments(batch, {{first_set}}, Precision::exact, moments);
+
+    expect_exact(moments, exact);
+  }
+}
+
+TEST_P(SumMomentsOn, OfExactFirstSetsRaisePointsBeyondTheReachToInfinity) {
+  const float reach = ExactGrid::reach;
+  const float step = ExactGrid::z_step;
+  const std::vector<float> heights = {-reach - step, -reach, 0, reach, reach + step, inf};
+  std::vector<GridPoint> points;
+  for (const float z : heights) points.push_back({1, 2, z - 1.5f});
+  BinBatch batch = batch_of_one(points);
+  MomentsBatch moments{};
+
+  sum_first_moments(batch, {{{.origin = -1.5f, .bottom = -inf, .top = inf}}}, Precision::exact,
+                    moments);
+
+  EXPECT_EQ(moments.count[0], 3);
+  EXPECT_EQ(moments.sum[2][0], 0);
+  const std::vector<float> expected = {inf, -reach, 0, reach, inf, inf};
+  for (std::size_t k = 0; k < heights.size(); ++k) EXPECT_EQ(batch.z(0)[k], expected[k]) << k;
 }
 
 }  // namespace

@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "library/plane_fits/batch_of.hpp"
@@ -152,6 +155,85 @@ TEST(PlaneFit, PlanesAreRelativeToTheirOrigins) {
 
   EXPECT_NEAR(plane.d, 1.7, 1e-6);
   EXPECT_NEAR(plane.normal[2], 1, 1e-9);
+}
+
+/// The points of a bin, relative to its origin.
+using Points = std::vector<std::array<float, 3>>;
+
+/// A batch of one bin with this origin.
+BinBatch batch_of_one(const Points& points, BinBatch::Origin origin) {
+  BinBatch batch;
+  batch.reserve(points.size());
+  batch.clear();
+  batch.add_empty(points.size(), origin);
+  for (std::size_t k = 0; k < batch.places(0); ++k) {
+    const bool is_point = k < points.size();
+    batch.x(0)[k] = is_point ? points[k][0] : 0;
+    batch.y(0)[k] = is_point ? points[k][1] : 0;
+    batch.z(0)[k] = is_point ? points[k][2] : float{inf};
+  }
+  return batch;
+}
+
+/// Points on the grid of ExactGrid: rough ground around a height of 0, and a bush on it.
+Points ground_on_the_grid(std::mt19937& random) {
+  const auto any = [&](int from, int to) {
+    return static_cast<float>(from + static_cast<int>(random() % static_cast<unsigned>(to - from)));
+  };
+  Points points;
+  for (int i = 0; i < 100; ++i) {
+    const float z = i < 70 ? any(-20, 20) : any(20, 300);
+    points.push_back({any(-512, 512) * ExactGrid::xy_step, any(-512, 512) * ExactGrid::xy_step,
+                      z * ExactGrid::z_step});
+  }
+  return points;
+}
+
+PlaneFit::Result fitted_exactly(const Points& points, BinBatch::Origin origin) {
+  BinBatch batch = batch_of_one(points, origin);
+  FitSettings settings = first_set_only();
+  settings.seed_depth = 1;
+  settings.iterations = 3;
+  settings.exact = true;
+  PlaneFit fit(settings);
+  fit.reserve(points.size());
+  StageClock clock(nullptr);
+  PlaneFit::Result result;
+  fit.fit(batch, same_seeds(-inf, 20), clock, result);
+  return result;
+}
+
+TEST(PlaneFit, AnExactPlaneDoesNotDependOnTheOrderOfThePoints) {
+  std::mt19937 random(1);
+  for (int scan = 0; scan < 20; ++scan) {
+    Points points = ground_on_the_grid(random);
+    const PlaneFit::Result expected = fitted_exactly(points, {.x = 0, .y = 0});
+    ASSERT_TRUE(expected.has_plane(0));
+    for (int repeat = 0; repeat < 5; ++repeat) {
+      std::ranges::shuffle(points, random);
+
+      const PlaneFit::Result found = fitted_exactly(points, {.x = 0, .y = 0});
+
+      ASSERT_TRUE(found.has_plane(0));
+      EXPECT_EQ(found.origins[0], expected.origins[0]);
+      EXPECT_EQ(found.judged[0].normal, expected.judged[0].normal);
+      EXPECT_EQ(found.judged[0].d, expected.judged[0].d);
+      EXPECT_EQ(found.judged[0].count, expected.judged[0].count);
+    }
+  }
+}
+
+TEST(PlaneFit, TheOriginOfABinMovesItsPlane) {
+  std::mt19937 random(2);
+  const Points points = ground_on_the_grid(random);
+
+  const Plane plane = fitted_exactly(points, {.x = 0, .y = 0}).plane(0);
+  const Plane moved = fitted_exactly(points, {.x = 20, .y = -12, .z = -1.75f}).plane(0);
+
+  EXPECT_EQ(moved.normal, plane.normal);
+  EXPECT_NEAR(moved.mean[0], plane.mean[0] + 20, 1e-12);
+  EXPECT_NEAR(moved.mean[1], plane.mean[1] - 12, 1e-12);
+  EXPECT_NEAR(moved.mean[2], plane.mean[2] - 1.75, 1e-12);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ std::vector<std::uint32_t> located(const std::vector<Point>& cloud, const Concen
 
 void read_all(const std::vector<Point>& cloud, const ConcentricZones& zones, ScanPoints& scan) {
   scan.reserve(cloud.size());
-  for (std::size_t chunk = 0; chunk < ScanPoints::chunk_count(cloud.size()); ++chunk) {
+  for (std::size_t chunk = 0; chunk < chunk_count(cloud.size()); ++chunk) {
     read_chunk(view_of(cloud), chunk, zones, scan);
   }
 }
@@ -48,13 +48,13 @@ void read_all(const std::vector<Point>& cloud, const ConcentricZones& zones, Sca
 /// the number of elements differs from the number of points.
 std::vector<std::uint32_t> told_by_runs(const ScanPoints& scan, std::size_t points) {
   std::vector<std::uint32_t> bins;
-  for (std::size_t chunk = 0; chunk < ScanPoints::chunk_count(points); ++chunk) {
-    const auto [starts, count] = scan.runs(chunk);
+  for (std::size_t chunk = 0; chunk < chunk_count(points); ++chunk) {
+    const auto [starts, count, first] = scan.runs().chunk(chunk);
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t begin = starts[i] >> bin_bits;
       const std::uint32_t end = starts[i + 1] >> bin_bits;
-      if (chunk * chunk_size + begin != bins.size() || end <= begin) return {};
-      bins.insert(bins.end(), end - begin, starts[i] & ((1U << bin_bits) - 1));
+      if (first + begin != bins.size() || end <= begin) return {};
+      bins.insert(bins.end(), end - begin, starts[i] & bin_mask);
     }
   }
   return bins;
@@ -101,7 +101,7 @@ TEST_P(ScanPointsOn, RunsContainTheBinForAnyWayOfFindingIt) {
     ScanPoints scan;
     scan.reserve(size);
 
-    for (std::size_t chunk = 0; chunk < ScanPoints::chunk_count(size); ++chunk) {
+    for (std::size_t chunk = 0; chunk < chunk_count(size); ++chunk) {
       read_chunk(view_of(cloud), chunk, cells, scan);
     }
 
@@ -118,11 +118,10 @@ TEST_P(ScanPointsOn, RunsAreAsLongAsPossible) {
 
   read_all(cloud, zones, scan);
 
-  for (std::size_t chunk = 0; chunk < ScanPoints::chunk_count(cloud.size()); ++chunk) {
-    const auto [starts, count] = scan.runs(chunk);
-    constexpr RunStart bin_mask = (1U << bin_bits) - 1;
-    for (std::size_t i = 1; i < count; ++i) {
-      ASSERT_NE(starts[i] & bin_mask, starts[i - 1] & bin_mask) << "run " << i;
+  for (std::size_t chunk = 0; chunk < chunk_count(cloud.size()); ++chunk) {
+    const ScanRuns::Chunk runs = scan.runs().chunk(chunk);
+    for (std::size_t i = 1; i < runs.count; ++i) {
+      ASSERT_NE(runs.starts[i] & bin_mask, runs.starts[i - 1] & bin_mask) << "run " << i;
     }
   }
 }
@@ -157,11 +156,27 @@ TEST_P(ScanPointsOn, ChunksCanBeReadInAnyOrder) {
   EXPECT_EQ(told_by_runs(scan, cloud.size()), located(cloud, zones));
 }
 
-TEST(ScanPoints, FewPointsTakeOneChunkAndNoneTakeNone) {
-  EXPECT_EQ(ScanPoints::chunk_count(0), 0U);
-  EXPECT_EQ(ScanPoints::chunk_count(1), 1U);
-  EXPECT_EQ(ScanPoints::chunk_count(chunk_size), 1U);
-  EXPECT_EQ(ScanPoints::chunk_count(chunk_size + 1), 2U);
+TEST_P(ScanPointsOn, EachRunIsVisitedInInputOrder) {
+  const ConcentricZones zones{PatchworkConfig{}};
+  const std::vector<Point> cloud = tests::corrupted_cloud(2 * chunk_size + 77, 7);
+  ScanPoints scan;
+  read_all(cloud, zones, scan);
+
+  std::vector<std::uint32_t> bins;
+  const auto add = [&](std::uint32_t bin, std::uint32_t first, std::uint32_t length) {
+    EXPECT_EQ(first, bins.size());
+    bins.insert(bins.end(), length, bin);
+  };
+  scan.runs().for_each(chunk_count(cloud.size()), add);
+
+  EXPECT_EQ(bins, located(cloud, zones));
+}
+
+TEST(ScanRuns, FewPointsTakeOneChunkAndNoneTakeNone) {
+  EXPECT_EQ(chunk_count(0), 0U);
+  EXPECT_EQ(chunk_count(1), 1U);
+  EXPECT_EQ(chunk_count(chunk_size), 1U);
+  EXPECT_EQ(chunk_count(chunk_size + 1), 2U);
 }
 
 }  // namespace

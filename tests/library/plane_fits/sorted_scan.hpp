@@ -19,7 +19,7 @@ namespace flagstone::tests {
 struct SortedScan {
   SortedScan(const std::vector<Point>& cloud, const PatchworkConfig& config) : zones(config) {
     scan.reserve(cloud.size());
-    for (std::size_t i = 0; i < plane_fits::ScanPoints::chunk_count(cloud.size()); ++i) {
+    for (std::size_t i = 0; i < plane_fits::chunk_count(cloud.size()); ++i) {
       patchwork::read_chunk(view_of(cloud), i, zones, scan);
     }
     groups.reserve(cloud.size(), zones.group_count());
@@ -31,7 +31,7 @@ struct SortedScan {
   plane_fits::BinGroups groups;
 };
 
-/// A cloud with its points moved to square cells.
+/// A cloud with its points grouped by square cells.
 struct CellPoints {
   CellPoints(const std::vector<Point>& cloud, const SquareCells& square_cells)
       : cells(square_cells) {
@@ -40,7 +40,7 @@ struct CellPoints {
 
   void group(const std::vector<Point>& cloud) {
     scan.reserve(cloud.size());
-    for (std::size_t i = 0; i < plane_fits::ScanPoints::chunk_count(cloud.size()); ++i) {
+    for (std::size_t i = 0; i < plane_fits::chunk_count(cloud.size()); ++i) {
       read_chunk(view_of(cloud), i, cells, scan);
     }
     groups.reserve(cloud.size(), cells.group_count());
@@ -49,7 +49,7 @@ struct CellPoints {
 
   SquareCells cells;
   plane_fits::ScanPoints scan;
-  plane_fits::BinGroups groups{plane_fits::Listing::points};
+  plane_fits::BinGroups groups;
 };
 
 /// Indices of the points of a bin, for both forms of listing.
