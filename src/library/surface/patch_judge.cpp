@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "library/core/mounting_height.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/surface/patch_judge.cpp"
 #include <hwy/foreach_target.h>
@@ -149,6 +151,10 @@ constexpr double fewest_points = 5;
 /// Minimum z of a normal for any setting: the slope of a steeper plane is too uncertain.
 constexpr double least_normal_z = 0.05;
 
+/// The sensor may be at most this far below a plane, as a share of the range: its slope is
+/// uncertain.
+constexpr double least_grazing_slope = -0.02;
+
 /// Additional step that is allowed downwards, metres.
 constexpr float extra_step_down = 0.5f;
 
@@ -226,7 +232,12 @@ Verdict PatchJudge::judge_alone(const Plane& plane, const SlabCounts& counts) co
   if (plane.normal[2] < least_normal_z_) return Verdict::not_upright;
   if (counts.above > max_clutter_ratio_ * counts.within) return Verdict::mixed;
   const double range = std::sqrt(plane.mean[0] * plane.mean[0] + plane.mean[1] * plane.mean[1]);
-  if (plane.mean[2] > -sensor_height_ + std::max(height_, rise_ * range)) return Verdict::too_high;
+  if (plane.mean[2] > -double{sensor_height_} + std::max(height_, rise_ * range))
+    return Verdict::too_high;
+  // Ground is visible only from above: ceilings, bridges and tree tops are not.
+  const double sensor_above_plane =
+      static_cast<double>(sensor_z(sensor_height_)) + plane.d / plane.normal[2];
+  if (sensor_above_plane < least_grazing_slope * range) return Verdict::too_high;
   return Verdict::ground;
 }
 
@@ -235,9 +246,7 @@ Verdict PatchJudge::judge_step(const FittedPatch& patch,
   const float range = std::sqrt(patch.x * patch.x + patch.y * patch.y);
   AcceptedPatches::Fit fit = nearer.fit(patch, std::max(neighbour_metres, neighbour_share * range));
   if (!fit.has_neighbour) {
-    fit = {.has_neighbour = false,
-           .distance = range,
-           .step = patch.z + static_cast<float>(sensor_height_)};
+    fit = {.has_neighbour = false, .distance = range, .step = patch.z + sensor_height_};
   }
   const float allowed = step_ + step_growth_ * std::min(fit.distance, longest_gap);
   return fit.step <= allowed && fit.step >= -(allowed + extra_step_down) ? Verdict::ground

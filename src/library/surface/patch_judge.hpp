@@ -77,8 +77,8 @@ class PatchJudge {
  public:
   explicit PatchJudge(const SurfaceConfig& config);
 
-  /// Evaluates a patch without its neighbours: number of points, uprightness, clutter ratio and
-  /// maximum height. `plane` is in the sensor frame.
+  /// Evaluates a patch without its neighbours: number of points, uprightness, clutter ratio,
+  /// maximum height, and whether the sensor is above the plane. `plane` is in the sensor frame.
   [[nodiscard]] Verdict judge_alone(const Plane& plane, const SlabCounts& counts) const noexcept;
 
   /// Compares a patch with the height that accepted patches nearer to the sensor predict, or with
@@ -89,7 +89,7 @@ class PatchJudge {
  private:
   double least_normal_z_;
   double max_clutter_ratio_;
-  double sensor_height_;
+  float sensor_height_;
   double height_;
   double rise_;
   float step_;

@@ -41,8 +41,8 @@ TEST(PatchJudge, SteepPatchesAreNotUpright) {
   SurfaceConfig config;
   config.acceptance.upright_angle = 60;  // between normal and ground: a tilt of 30 degrees
 
-  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, 29.9), clear), Verdict::ground);
-  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, 30.1), clear), Verdict::not_upright);
+  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, -29.9), clear), Verdict::ground);
+  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, -30.1), clear), Verdict::not_upright);
 }
 
 TEST(PatchJudge, AWallIsNeverGround) {
@@ -50,7 +50,7 @@ TEST(PatchJudge, AWallIsNeverGround) {
   config.acceptance.upright_angle = 0;
 
   EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, 90), clear), Verdict::not_upright);
-  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, 80), clear), Verdict::ground);
+  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, -80), clear), Verdict::ground);
 }
 
 TEST(PatchJudge, PatchesWithTooManyPointsAboveThemAreMixed) {
@@ -72,15 +72,34 @@ TEST(PatchJudge, WithoutALimitNothingIsMixed) {
 
 TEST(PatchJudge, PatchesAboveTheHeightLimitAreTooHigh) {
   SurfaceConfig config;
+  config.sensor_height = 5;
   config.acceptance.max_height = 1;
   config.acceptance.max_slope = 0.2f;
   const PatchJudge judge(config);
 
-  // The limit is -1.73 + 1 near the sensor and -1.73 + 0.2 * 20 at 20 m.
-  EXPECT_EQ(judge.judge_alone(ahead(4, -0.74), clear), Verdict::ground);
-  EXPECT_EQ(judge.judge_alone(ahead(4, -0.72), clear), Verdict::too_high);
-  EXPECT_EQ(judge.judge_alone(ahead(20, 2.26), clear), Verdict::ground);
-  EXPECT_EQ(judge.judge_alone(ahead(20, 2.28), clear), Verdict::too_high);
+  // The limit is -5 + 1 near the sensor and -5 + 0.2 * 20 at 20 m.
+  EXPECT_EQ(judge.judge_alone(ahead(4, -4.01), clear), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(ahead(4, -3.99), clear), Verdict::too_high);
+  EXPECT_EQ(judge.judge_alone(ahead(20, -1.01), clear), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(ahead(20, -0.99), clear), Verdict::too_high);
+}
+
+TEST(PatchJudge, PatchesAreNotGroundIfTheSensorIsBelowTheirPlane) {
+  const PatchJudge judge({});
+
+  // A level plane at 20 m may be 0.02 * 20 m above the sensor.
+  EXPECT_EQ(judge.judge_alone(ahead(20, 0.39), clear), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(ahead(20, 0.41), clear), Verdict::too_high);
+  // A hillside that faces the sensor is visible.
+  EXPECT_EQ(judge.judge_alone(ahead(20, 4, -15), clear), Verdict::ground);
+}
+
+TEST(PatchJudge, TheSensorIsAboveTheOriginIfTheOriginIsOnTheGround) {
+  SurfaceConfig config;
+  config.sensor_height = 0;
+
+  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(20, 1.4), clear), Verdict::ground);
+  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(20, 2.2), clear), Verdict::too_high);
 }
 
 TEST(PatchJudge, TheFirstPatchIsComparedWithTheSensorHeight) {
