@@ -168,6 +168,10 @@ constexpr float neighbour_metres = 8;
 constexpr std::size_t column_count = 6;
 constexpr float far_away = 1e15f;  // its square is finite
 
+Verdict is_within(float step, float up, float down) {
+  return step <= up && step >= -down ? Verdict::ground : Verdict::off_surface;
+}
+
 }  // namespace
 
 std::array<SlabCounts, batch_size> count_slabs(const plane_fits::BinBatch& batch,
@@ -241,16 +245,26 @@ Verdict PatchJudge::judge_alone(const Plane& plane, const SlabCounts& counts) co
   return Verdict::ground;
 }
 
+float PatchJudge::allowed_step(float distance) const noexcept {
+  return step_ + step_growth_ * std::min(distance, longest_gap);
+}
+
 Verdict PatchJudge::judge_step(const FittedPatch& patch,
                                const AcceptedPatches& nearer) const noexcept {
   const float range = std::sqrt(patch.x * patch.x + patch.y * patch.y);
-  AcceptedPatches::Fit fit = nearer.fit(patch, std::max(neighbour_metres, neighbour_share * range));
-  if (!fit.has_neighbour) {
-    fit = {.has_neighbour = false, .distance = range, .step = patch.z + sensor_height_};
+  const AcceptedPatches::Fit fit =
+      nearer.fit(patch, std::max(neighbour_metres, neighbour_share * range));
+  if (fit.has_neighbour) {
+    const float allowed = allowed_step(fit.distance);
+    return is_within(fit.step, allowed, allowed + extra_step_down);
   }
-  const float allowed = step_ + step_growth_ * std::min(fit.distance, longest_gap);
-  return fit.step <= allowed && fit.step >= -(allowed + extra_step_down) ? Verdict::ground
-                                                                         : Verdict::off_surface;
+  // Level ground continues from below the sensor, or rises in a curve. It can fall unseen, but what
+  // is higher is more likely the roof of a car.
+  const float above_level = patch.z + sensor_height_;
+  const float above_curved =
+      above_level - slope_factor / 2 * (patch.x * patch.slope_x + patch.y * patch.slope_y);
+  const float step = std::abs(above_curved) < std::abs(above_level) ? above_curved : above_level;
+  return is_within(step, step_, allowed_step(range) + extra_step_down);
 }
 
 }  // namespace flagstone::surface

@@ -82,11 +82,15 @@ class PatchJudge {
   [[nodiscard]] Verdict judge_alone(const Plane& plane, const SlabCounts& counts) const noexcept;
 
   /// Compares a patch with the height that accepted patches nearer to the sensor predict, or with
-  /// -h_s if it has no neighbour. Returns `ground` or `off_surface`.
+  /// -h_s if it has no neighbour; it may then be at most `max_step` higher. Returns `ground` or
+  /// `off_surface`.
   [[nodiscard]] Verdict judge_step(const FittedPatch& patch,
                                    const AcceptedPatches& nearer) const noexcept;
 
  private:
+  /// Allowed step at a distance from the nearest neighbour.
+  [[nodiscard]] float allowed_step(float distance) const noexcept;
+
   double least_normal_z_;
   double max_clutter_ratio_;
   float sensor_height_;

@@ -110,11 +110,21 @@ TEST(PatchJudge, TheFirstPatchIsComparedWithTheSensorHeight) {
   AcceptedPatches none;
   none.reserve(1);
 
-  // At 5 m the allowed step is 0.5 + 0.1 * 5 upwards and 0.5 more downwards.
-  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f + 0.99f), none), Verdict::ground);
-  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f + 1.01f), none), Verdict::off_surface);
+  // At 5 m the allowed step is 0.5 upwards, and 0.5 + 0.1 * 5 + 0.5 downwards.
+  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f + 0.49f), none), Verdict::ground);
+  EXPECT_EQ(judge.judge_step(level_at(5, -1.73f + 0.51f), none), Verdict::off_surface);
   EXPECT_EQ(judge.judge_step(level_at(5, -1.73f - 1.49f), none), Verdict::ground);
   EXPECT_EQ(judge.judge_step(level_at(5, -1.73f - 1.51f), none), Verdict::off_surface);
+}
+
+TEST(PatchJudge, TheFirstPatchCanLieOnARisingCurve) {
+  AcceptedPatches none;
+  none.reserve(1);
+  FittedPatch bank = level_at(10, -1.73f + 1.0f);
+  bank.slope_x = 0.2f;  // rises 0.75 / 2 * 0.2 * 10 m above level ground
+
+  EXPECT_EQ(PatchJudge({}).judge_step(bank, none), Verdict::ground);
+  EXPECT_EQ(PatchJudge({}).judge_step(level_at(10, -1.73f + 1.0f), none), Verdict::off_surface);
 }
 
 TEST(PatchJudge, LaterPatchesAreComparedWithNearerOnes) {
@@ -137,11 +147,12 @@ TEST(PatchJudge, TheAllowedStepStopsIncreasingAt15Metres) {
   config.acceptance.max_step = 0.5f;
   config.acceptance.max_step_per_metre = 0.1f;
   const PatchJudge judge(config);
-  AcceptedPatches none;
-  none.reserve(1);
+  AcceptedPatches nearer;
+  nearer.reserve(1);
+  nearer.add(level_at(60, -1.73f));
 
-  EXPECT_EQ(judge.judge_step(level_at(60, -1.73f + 1.99f), none), Verdict::ground);
-  EXPECT_EQ(judge.judge_step(level_at(60, -1.73f + 2.01f), none), Verdict::off_surface);
+  EXPECT_EQ(judge.judge_step(level_at(80, -1.73f + 1.99f), nearer), Verdict::ground);
+  EXPECT_EQ(judge.judge_step(level_at(80, -1.73f + 2.01f), nearer), Verdict::off_surface);
 }
 
 TEST(PatchJudge, WithoutALimitEveryStepIsGround) {
