@@ -35,6 +35,17 @@ struct NeighbourSums {
   float least_squared_distance;
 };
 
+/// Weights of neighbours that speak for and against a patch.
+struct Votes {
+  float agree;
+  float lower;  ///< they predict less height than the patch has
+};
+
+/// A neighbour agrees with a patch up to this height difference, metres, and this much more per
+/// metre of distance.
+inline constexpr float agreement = 0.4f;
+inline constexpr float agreement_per_metre = 0.05f;
+
 /// Factor by which predictions reduce slopes.
 inline constexpr float slope_factor = 0.75f;
 
@@ -135,6 +146,50 @@ void sum_neighbours(const PatchColumns& columns, const FittedPatch& patch, float
           .least_squared_distance = std::ranges::min(min_squared_distances)};
 }
 
+void count_votes(const PatchColumns& columns, const FittedPatch& patch, float squared_radius,
+                 Votes& votes) {
+  const FloatTag d;
+  HWY_ALIGN std::array<float, lanes> agree_sums;
+  HWY_ALIGN std::array<float, lanes> lower_sums;
+  const FloatVector px = hn::Set(d, patch.x);
+  const FloatVector py = hn::Set(d, patch.y);
+  const FloatVector pz = hn::Set(d, patch.z);
+  const FloatVector one = hn::Set(d, 1.0f);
+  const FloatVector zero = hn::Zero(d);
+  const FloatVector factor = hn::Set(d, slope_factor);
+  const FloatVector half = hn::Set(d, 0.5f);
+  for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(d)) {
+    FloatVector agree = zero;
+    FloatVector lower = zero;
+    for (std::size_t i = lane; i < columns.places; i += lanes) {
+      const FloatVector dx = hn::Sub(px, hn::Load(d, columns.x + i));
+      const FloatVector dy = hn::Sub(py, hn::Load(d, columns.y + i));
+      const FloatVector squared = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+      const auto near = hn::And(hn::Le(squared, hn::Set(d, squared_radius)), hn::Gt(squared, zero));
+      if (hn::AllFalse(d, near)) continue;
+      const FloatVector weight =
+          hn::IfThenElseZero(near, hn::Div(hn::Load(d, columns.trust + i), hn::Add(one, squared)));
+      const FloatVector neighbour_rise = hn::Add(hn::Mul(dx, hn::Load(d, columns.slope_x + i)),
+                                                 hn::Mul(dy, hn::Load(d, columns.slope_y + i)));
+      const FloatVector own_rise =
+          hn::Add(hn::Mul(dx, hn::Set(d, patch.slope_x)), hn::Mul(dy, hn::Set(d, patch.slope_y)));
+      const FloatVector above = hn::Sub(pz, hn::Load(d, columns.z + i));
+      const FloatVector above_straight = hn::Sub(above, hn::Mul(factor, neighbour_rise));
+      const FloatVector above_curved =
+          hn::Sub(above, hn::Mul(hn::Mul(half, factor), hn::Add(neighbour_rise, own_rise)));
+      const auto curved = hn::Lt(hn::Abs(above_curved), hn::Abs(above_straight));
+      const FloatVector step = hn::IfThenElse(curved, above_curved, above_straight);
+      const FloatVector allowed = hn::Add(
+          hn::Set(d, agreement), hn::Mul(hn::Set(d, agreement_per_metre), hn::Sqrt(squared)));
+      lower = hn::Add(lower, hn::IfThenElseZero(hn::Gt(step, allowed), weight));
+      agree = hn::Add(agree, hn::IfThenElseZero(hn::Le(hn::Abs(step), allowed), weight));
+    }
+    hn::Store(agree, d, agree_sums.data() + lane);
+    hn::Store(lower, d, lower_sums.data() + lane);
+  }
+  votes = {.agree = sum_of_lanes(agree_sums), .lower = sum_of_lanes(lower_sums)};
+}
+
 }  // namespace
 }  // namespace flagstone::surface::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -144,6 +199,7 @@ namespace flagstone::surface {
 namespace {
 HWY_EXPORT(count_bins);
 HWY_EXPORT(sum_neighbours);
+HWY_EXPORT(count_votes);
 
 /// Planes through fewer points are not evaluated.
 constexpr double fewest_points = 5;
@@ -164,6 +220,14 @@ constexpr float longest_gap = 15;
 /// Neighbours lie within this fraction of the range, but at least within `neighbour_metres`.
 constexpr float neighbour_share = 0.5f;
 constexpr float neighbour_metres = 8;
+
+float neighbour_radius(const FittedPatch& patch) {
+  const float range = std::sqrt(patch.x * patch.x + patch.y * patch.y);
+  return std::max(neighbour_metres, neighbour_share * range);
+}
+
+/// A patch is not ground if lower neighbours weigh more than this many times those that agree.
+constexpr float contradiction = 1.5f;
 
 constexpr std::size_t column_count = 6;
 constexpr float far_away = 1e15f;  // its square is finite
@@ -201,17 +265,26 @@ void AcceptedPatches::add(const FittedPatch& patch) noexcept {
   ++count_;
 }
 
-AcceptedPatches::Fit AcceptedPatches::fit(const FittedPatch& patch, float radius) const noexcept {
+PatchColumns AcceptedPatches::columns() const noexcept {
   const float* const x = columns_.data();
-  const PatchColumns columns{.x = x,
-                             .y = x + capacity_,
-                             .z = x + 2 * capacity_,
-                             .slope_x = x + 3 * capacity_,
-                             .slope_y = x + 4 * capacity_,
-                             .trust = x + 5 * capacity_,
-                             .places = (count_ + 15) / 16 * 16};
+  return {.x = x,
+          .y = x + capacity_,
+          .z = x + 2 * capacity_,
+          .slope_x = x + 3 * capacity_,
+          .slope_y = x + 4 * capacity_,
+          .trust = x + 5 * capacity_,
+          .places = (count_ + 15) / 16 * 16};
+}
+
+bool AcceptedPatches::contradict(const FittedPatch& patch, float radius) const noexcept {
+  Votes votes{};
+  HWY_DYNAMIC_DISPATCH(count_votes)(columns(), patch, radius * radius, votes);
+  return votes.lower > contradiction * votes.agree;
+}
+
+AcceptedPatches::Fit AcceptedPatches::fit(const FittedPatch& patch, float radius) const noexcept {
   NeighbourSums sums{};
-  HWY_DYNAMIC_DISPATCH(sum_neighbours)(columns, patch, radius * radius, sums);
+  HWY_DYNAMIC_DISPATCH(sum_neighbours)(columns(), patch, radius * radius, sums);
   if (sums.trust <= 0) return {.has_neighbour = false, .distance = 0, .step = 0};
   const float above_straight = patch.z - sums.continued / sums.trust;
   const float above_curved = patch.z - sums.curved / sums.trust;
@@ -251,9 +324,7 @@ float PatchJudge::allowed_step(float distance) const noexcept {
 
 Verdict PatchJudge::judge_step(const FittedPatch& patch,
                                const AcceptedPatches& nearer) const noexcept {
-  const float range = std::sqrt(patch.x * patch.x + patch.y * patch.y);
-  const AcceptedPatches::Fit fit =
-      nearer.fit(patch, std::max(neighbour_metres, neighbour_share * range));
+  const AcceptedPatches::Fit fit = nearer.fit(patch, neighbour_radius(patch));
   if (fit.has_neighbour) {
     const float allowed = allowed_step(fit.distance);
     return is_within(fit.step, allowed, allowed + extra_step_down);
@@ -263,8 +334,15 @@ Verdict PatchJudge::judge_step(const FittedPatch& patch,
   const float above_level = patch.z + sensor_height_;
   const float above_curved =
       above_level - slope_factor / 2 * (patch.x * patch.slope_x + patch.y * patch.slope_y);
+  const float range = std::sqrt(patch.x * patch.x + patch.y * patch.y);
   const float step = std::abs(above_curved) < std::abs(above_level) ? above_curved : above_level;
   return is_within(step, step_, allowed_step(range) + extra_step_down);
+}
+
+Verdict PatchJudge::judge_among(const FittedPatch& patch,
+                                const AcceptedPatches& accepted) const noexcept {
+  return accepted.contradict(patch, neighbour_radius(patch)) ? Verdict::off_surface
+                                                             : Verdict::ground;
 }
 
 }  // namespace flagstone::surface

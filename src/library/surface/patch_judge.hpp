@@ -42,6 +42,8 @@ struct FittedPatch {
   }
 };
 
+struct PatchColumns;
+
 /// The patches accepted as ground so far, and the heights that they predict.
 class AcceptedPatches {
  public:
@@ -66,7 +68,14 @@ class AcceptedPatches {
   /// patch, so that the ground continues at the base of a bank.
   [[nodiscard]] Fit fit(const FittedPatch& patch, float radius) const noexcept;
 
+  /// True if the patches within `radius` show that `patch` is not ground but on top of something:
+  /// those that predict less height than it has weigh more than 1.5 times those that agree with it.
+  /// Patches with the same mean do not count, so that `patch` can be one of them.
+  [[nodiscard]] bool contradict(const FittedPatch& patch, float radius) const noexcept;
+
  private:
+  [[nodiscard]] PatchColumns columns() const noexcept;
+
   std::size_t count_ = 0;
   std::size_t capacity_ = 0;
   Buffer<float> columns_;  ///< x, y, z, slope_x, slope_y, trust, one column after the other
@@ -86,6 +95,11 @@ class PatchJudge {
   /// `off_surface`.
   [[nodiscard]] Verdict judge_step(const FittedPatch& patch,
                                    const AcceptedPatches& nearer) const noexcept;
+
+  /// Compares an accepted patch with all accepted patches around it, nearer and farther. Returns
+  /// `ground` or `off_surface`.
+  [[nodiscard]] Verdict judge_among(const FittedPatch& patch,
+                                    const AcceptedPatches& accepted) const noexcept;
 
  private:
   /// Allowed step at a distance from the nearest neighbour.

@@ -247,22 +247,28 @@ void Surface::Pipeline::judge_alone(std::span<FittedSquare> squares, const Fitte
 }
 
 /// Evaluates the patches from the sensor outward: each must match the height that nearer patches
-/// predict.
+/// predict. Then removes those that the patches around them contradict, and adds the others to the
+/// coarse surface.
 void Surface::Pipeline::join(std::span<const FittedSquare> squares,
                              std::span<Patch> patches) noexcept {
   accepted.clear();
   for (const FittedSquare& fitted : squares) {
     Patch& patch = patches[fitted.patch];
+    if (patch.verdict != Verdict::ground) continue;
+    const FittedPatch seen = FittedPatch::of(fitted.plane);
+    patch.verdict = judge.judge_step(seen, accepted);
+    if (patch.verdict == Verdict::ground) accepted.add(seen);
+  }
+  for (const FittedSquare& fitted : squares) {
+    Patch& patch = patches[fitted.patch];
     if (patch.verdict == Verdict::ground) {
-      const FittedPatch seen = FittedPatch::of(fitted.plane);
-      patch.verdict = judge.judge_step(seen, accepted);
-      if (patch.verdict == Verdict::ground) {
-        accepted.add(seen);
-        coarse.add(fitted.plane, fitted.square->size);
-        continue;
-      }
+      patch.verdict = judge.judge_among(FittedPatch::of(fitted.plane), accepted);
     }
-    patch.ground_count = 0;
+    if (patch.verdict == Verdict::ground) {
+      coarse.add(fitted.plane, fitted.square->size);
+    } else {
+      patch.ground_count = 0;
+    }
   }
 }
 

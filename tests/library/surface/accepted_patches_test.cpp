@@ -153,6 +153,38 @@ TEST_P(AcceptedPatchesOn, MatchesANaiveSum) {
   }
 }
 
+TEST_P(AcceptedPatchesOn, ContradictTheRoofOfACar) {
+  const FittedPatch roof = patch_at(10, 4, -0.4f);
+  const AcceptedPatches patches =
+      accepted({patch_at(10, 0, -1.7f), patch_at(14, 4, -1.7f), patch_at(10, 8, -1.7f), roof});
+
+  EXPECT_TRUE(patches.contradict(roof, 8));
+  EXPECT_FALSE(patches.contradict(patch_at(10, 0, -1.7f), 8));
+}
+
+TEST_P(AcceptedPatchesOn, DoNotContradictATerrace) {
+  // As many patches on the terrace as below it
+  const FittedPatch edge = patch_at(10, 4, -0.4f);
+  const AcceptedPatches patches =
+      accepted({patch_at(6, 0, -1.7f), patch_at(10, 0, -1.7f), patch_at(14, 0, -1.7f), edge,
+                patch_at(6, 4, -0.4f), patch_at(14, 4, -0.4f)});
+
+  EXPECT_FALSE(patches.contradict(edge, 8));
+}
+
+TEST_P(AcceptedPatchesOn, DoNotContradictASlopeOrALowerPatch) {
+  EXPECT_FALSE(accepted({patch_at(10, 0, -1.7f, 0.3f, 0)})
+                   .contradict(patch_at(14, 0, -1.7f + 1.2f, 0.3f, 0), 8));
+  EXPECT_FALSE(accepted({patch_at(10, 0, -1.7f)}).contradict(patch_at(14, 0, -5), 8));
+}
+
+TEST_P(AcceptedPatchesOn, ContradictOnlyWithinTheRadius) {
+  const AcceptedPatches patches = accepted({patch_at(10, 0, -1.7f)});
+
+  EXPECT_TRUE(patches.contradict(patch_at(13, 4, 0), 5.01f));
+  EXPECT_FALSE(patches.contradict(patch_at(13, 4, 0), 4.99f));
+}
+
 TEST_P(AcceptedPatchesOn, ClearRemovesAllPatches) {
   AcceptedPatches patches = accepted(std::vector<FittedPatch>(40, patch_at(10, 0, 5)));
 
