@@ -211,6 +211,13 @@ constexpr double least_normal_z = 0.05;
 /// uncertain.
 constexpr double least_grazing_slope = -0.02;
 
+/// Patches with hardly a point above them may be steeper than others: banks, but not bushes.
+/// Windows of cars are steep, too, so the limit for their step is lower, and they need a neighbour.
+constexpr double steeper = 8.7;  // degrees
+constexpr double clear_ratio = 0.05;
+constexpr float steep_step = 0.5f;
+constexpr float steep_step_per_metre = 0.05f;
+
 /// Additional step that is allowed downwards, metres.
 constexpr float extra_step_down = 0.5f;
 
@@ -231,6 +238,10 @@ constexpr float contradiction = 1.5f;
 
 constexpr std::size_t column_count = 6;
 constexpr float far_away = 1e15f;  // its square is finite
+
+double normal_z_at(double upright_angle) {
+  return std::max(least_normal_z, std::sin(upright_angle * std::numbers::pi / 180));
+}
 
 Verdict is_within(float step, float up, float down) {
   return step <= up && step >= -down ? Verdict::ground : Verdict::off_surface;
@@ -295,8 +306,8 @@ AcceptedPatches::Fit AcceptedPatches::fit(const FittedPatch& patch, float radius
 }
 
 PatchJudge::PatchJudge(const SurfaceConfig& config)
-    : least_normal_z_(std::max(least_normal_z,
-                               std::sin(config.acceptance.upright_angle * std::numbers::pi / 180))),
+    : least_normal_z_(normal_z_at(config.acceptance.upright_angle)),
+      least_clear_normal_z_(normal_z_at(config.acceptance.upright_angle - steeper)),
       max_clutter_ratio_(config.acceptance.max_clutter_ratio),
       sensor_height_(config.sensor_height),
       height_(config.acceptance.max_height),
@@ -306,7 +317,10 @@ PatchJudge::PatchJudge(const SurfaceConfig& config)
 
 Verdict PatchJudge::judge_alone(const Plane& plane, const SlabCounts& counts) const noexcept {
   if (plane.count < fewest_points) return Verdict::no_plane;
-  if (plane.normal[2] < least_normal_z_) return Verdict::not_upright;
+  if (plane.normal[2] < least_clear_normal_z_) return Verdict::not_upright;
+  if (plane.normal[2] < least_normal_z_ && counts.above > clear_ratio * counts.within) {
+    return Verdict::not_upright;
+  }
   if (counts.above > max_clutter_ratio_ * counts.within) return Verdict::mixed;
   const double range = std::sqrt(plane.mean[0] * plane.mean[0] + plane.mean[1] * plane.mean[1]);
   if (plane.mean[2] > -double{sensor_height_} + std::max(height_, rise_ * range))
@@ -325,6 +339,12 @@ float PatchJudge::allowed_step(float distance) const noexcept {
 Verdict PatchJudge::judge_step(const FittedPatch& patch,
                                const AcceptedPatches& nearer) const noexcept {
   const AcceptedPatches::Fit fit = nearer.fit(patch, neighbour_radius(patch));
+  const float squared_steepness =  // 1 / n_z^2
+      1 + patch.slope_x * patch.slope_x + patch.slope_y * patch.slope_y;
+  if (squared_steepness * static_cast<float>(least_normal_z_ * least_normal_z_) > 1) {
+    const float allowed = steep_step + steep_step_per_metre * fit.distance;
+    return fit.has_neighbour ? is_within(fit.step, allowed, allowed) : Verdict::off_surface;
+  }
   if (fit.has_neighbour) {
     const float allowed = allowed_step(fit.distance);
     return is_within(fit.step, allowed, allowed + extra_step_down);

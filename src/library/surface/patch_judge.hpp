@@ -106,6 +106,7 @@ class PatchJudge {
   [[nodiscard]] float allowed_step(float distance) const noexcept;
 
   double least_normal_z_;
+  double least_clear_normal_z_;  ///< of patches with hardly a point above them
   double max_clutter_ratio_;
   float sensor_height_;
   double height_;

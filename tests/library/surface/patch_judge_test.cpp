@@ -40,9 +40,37 @@ TEST(PatchJudge, TooFewPointsGiveNoPlane) {
 TEST(PatchJudge, SteepPatchesAreNotUpright) {
   SurfaceConfig config;
   config.acceptance.upright_angle = 60;  // between normal and ground: a tilt of 30 degrees
+  const PatchJudge judge(config);
+  constexpr SlabCounts rough{.within = 100, .above = 6};
 
-  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, -29.9), clear), Verdict::ground);
-  EXPECT_EQ(PatchJudge(config).judge_alone(ahead(10, -1.73, -30.1), clear), Verdict::not_upright);
+  EXPECT_EQ(judge.judge_alone(ahead(10, -1.73, -29.9), rough), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(ahead(10, -1.73, -30.1), rough), Verdict::not_upright);
+}
+
+TEST(PatchJudge, ClearPatchesCanBeSteeper) {
+  SurfaceConfig config;
+  config.acceptance.upright_angle = 60;
+  const PatchJudge judge(config);
+  constexpr SlabCounts almost_clear{.within = 100, .above = 5};
+
+  EXPECT_EQ(judge.judge_alone(ahead(10, -1.73, -38.6), almost_clear), Verdict::ground);
+  EXPECT_EQ(judge.judge_alone(ahead(10, -1.73, -38.8), almost_clear), Verdict::not_upright);
+}
+
+TEST(PatchJudge, SteepPatchesNeedANeighbourThatAgrees) {
+  const PatchJudge judge({});  // a slope of 0.75 is steep
+  FittedPatch bank = level_at(16, -1.73f);
+  bank.slope_x = 0.8f;
+  AcceptedPatches patches;
+  patches.reserve(1);
+
+  EXPECT_EQ(judge.judge_step(bank, patches), Verdict::off_surface);
+  patches.add(level_at(12, -1.73f));
+  EXPECT_EQ(judge.judge_step(bank, patches), Verdict::ground);
+  bank.z += 0.375f * 0.8f * 4 + 0.69f;  // 0.5 + 0.05 * 4 above the curve
+  EXPECT_EQ(judge.judge_step(bank, patches), Verdict::ground);
+  bank.z += 0.02f;
+  EXPECT_EQ(judge.judge_step(bank, patches), Verdict::off_surface);
 }
 
 TEST(PatchJudge, AWallIsNeverGround) {
