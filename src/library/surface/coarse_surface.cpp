@@ -29,7 +29,7 @@ inline constexpr float least_deviation = 0.05f;
 
 /// kappa: typical curvature of ground, 1/metre. The error of a plane at distance d is kappa d^2 /
 /// 2.
-inline constexpr float curvature = 0.05f;
+inline constexpr float curvature = 0.03f;
 
 }  // namespace flagstone::surface
 #endif
