@@ -11,7 +11,8 @@ struct Sensor;
 /// Tests that decide which patches are ground.
 struct PatchAcceptance {
   /// Minimum angle between the normal and the x-y plane, degrees, 0 to 90; values below 2.9 have
-  /// the effect of 2.9. A larger angle is stricter and rejects steep banks.
+  /// the effect of 2.9. A larger angle is stricter and rejects steep banks. A patch with almost no
+  /// points above it can be 8.7 degrees steeper.
   float upright_angle = 53.0f;
 
   /// Maximum clutter ratio: the number of points 19 to 89 cm above the plane, divided by the number
@@ -27,6 +28,7 @@ struct PatchAcceptance {
 
   /// Maximum height of a patch above the height that nearer patches predict, right next to them;
   /// metres, 0 to 100, or infinity for no limit. Below that height, the limit is 0.5 m larger.
+  /// Also the maximum height above -h_s of a patch without neighbours, at any distance.
   float max_step = 0.5f;
   /// Added to `max_step` per metre of distance to the nearest of those patches, up to 15 m; m/m,
   /// 0 to 10.

@@ -207,7 +207,7 @@ constexpr double fewest_points = 5;
 /// Minimum z of a normal for any setting: the slope of a steeper plane is too uncertain.
 constexpr double least_normal_z = 0.05;
 
-/// The sensor may be at most this far below a plane, as a share of the range: its slope is
+/// The sensor may be at most this far below a plane, as a fraction of the range: its slope is
 /// uncertain.
 constexpr double least_grazing_slope = -0.02;
 
@@ -325,7 +325,7 @@ Verdict PatchJudge::judge_alone(const Plane& plane, const SlabCounts& counts) co
   const double range = std::sqrt(plane.mean[0] * plane.mean[0] + plane.mean[1] * plane.mean[1]);
   if (plane.mean[2] > -double{sensor_height_} + std::max(height_, rise_ * range))
     return Verdict::too_high;
-  // Ground is visible only from above: ceilings, bridges and tree tops are not.
+  // The sensor sees ground only from its upper side, but ceilings and bridges from below.
   const double sensor_above_plane =
       static_cast<double>(sensor_z(sensor_height_)) + plane.d / plane.normal[2];
   if (sensor_above_plane < least_grazing_slope * range) return Verdict::too_high;
@@ -349,8 +349,8 @@ Verdict PatchJudge::judge_step(const FittedPatch& patch,
     const float allowed = allowed_step(fit.distance);
     return is_within(fit.step, allowed, allowed + extra_step_down);
   }
-  // Level ground continues from below the sensor, or rises in a curve. It can fall unseen, but what
-  // is higher is more likely the roof of a car.
+  // Level ground continues from below the sensor, or rises in a curve. It can fall unseen, but a
+  // higher patch is more likely the roof of a car.
   const float above_level = patch.z + sensor_height_;
   const float above_curved =
       above_level - slope_factor / 2 * (patch.x * patch.slope_x + patch.y * patch.slope_y);
