@@ -3,6 +3,8 @@
 #include "library/surface/packed_points.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <utility>
 
 #undef HWY_TARGET_INCLUDE
@@ -51,12 +53,32 @@ std::size_t pack_slice(const PackedSlice& slice, const SquareCells& cells) {
   return runs.close(slice.end - slice.begin);
 }
 
+/// Copies `count` points, up to eight, and writes no others.
+HWY_INLINE void copy_up_to_8(const PackedPoint* from, std::size_t count, PackedPoint* to) {
+#if HWY_TARGET <= HWY_AVX3
+  const hn::CappedTag<std::uint32_t, 8> d;
+  hn::BlendedStore(hn::LoadU(d, from), hn::FirstN(d, count), d, to);
+#else
+  // Two copies of four points that overlap, or three of one point. Masked stores are slow here.
+  constexpr std::size_t four = 4 * sizeof(PackedPoint);
+  if (count >= 4) {
+    std::array<std::byte, four> last;
+    std::memcpy(last.data(), from + count - 4, four);
+    std::memcpy(to, from, four);
+    std::memcpy(to + count - 4, last.data(), four);
+  } else {
+    to[0] = from[0];
+    to[count / 2] = from[count / 2];
+    to[count - 1] = from[count - 1];
+  }
+#endif
+}
+
 /// Copies each run to the place of its cell, `next[cell]`, and moves that place on. Most runs take
 /// one step of up to eight points, which avoids mispredicted branches.
 void sort_runs(const plane_fits::ScanRuns::Chunk& runs, std::uint32_t* HWY_RESTRICT next,
                const PackedPoint* HWY_RESTRICT points, PackedPoint* HWY_RESTRICT sorted) {
-  const hn::CappedTag<std::uint32_t, 8> d;
-  constexpr std::size_t step = hn::MaxLanes(d);
+  constexpr std::size_t step = 8;
   for (std::size_t run = 0; run < runs.count; ++run) {
     const plane_fits::RunStart start = runs.starts[run];
     const std::uint32_t begin = start >> plane_fits::bin_bits;
@@ -67,11 +89,11 @@ void sort_runs(const plane_fits::ScanRuns::Chunk& runs, std::uint32_t* HWY_RESTR
     next[cell] += end - begin;
     std::size_t rest = end - begin;
     for (; HWY_UNLIKELY(rest > step); rest -= step) {
-      hn::StoreU(hn::LoadU(d, from), d, to);
+      std::memcpy(to, from, step * sizeof(PackedPoint));
       from += step;
       to += step;
     }
-    hn::BlendedStore(hn::LoadU(d, from), hn::FirstN(d, rest), d, to);
+    copy_up_to_8(from, rest, to);
   }
 }
 

@@ -151,8 +151,8 @@ void ResidualPyramid::list_fine_cells(const PackedPoints& points,
   }
 }
 
-/// Lists `cells` cells along the Z-order curve, the first of which is at `first_place`. Cell i begins
-/// at point `begins[i * each]`.
+/// Lists `cells` cells along the Z-order curve, the first of which is at `first_place`. Cell i
+/// begins at point `begins[i * each]`.
 void ResidualPyramid::list_cells_of(std::size_t level, std::uint32_t first_place,
                                     std::uint32_t cells, const std::uint32_t* begins,
                                     std::size_t each) noexcept {

@@ -83,7 +83,7 @@ class ResidualPyramid {
   Buffer<float> weights_;
   Buffer<std::int32_t> slopes_;  ///< of the level in work; see CellPlanes
   Buffer<std::int32_t> offsets_;
-  Buffer<std::uint8_t> flat_;     ///< of the coarsest grid; see Observations
+  Buffer<std::uint8_t> flat_;  ///< of the coarsest grid; see Observations
   /// Row and column of the flat coarse cells, counted from the edge of the coarsest grid.
   struct FlatCell {
     std::uint32_t row, column;
