@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The result of `surface` does not depend on the order of the points: labels and heights of every
-// point, patches and grids are the same bytes for each permutation. The environment variable
+// point, patches and grids are bit-identical for each permutation. The environment variable
 // FLAGSTONE_SHUFFLES sets the number of random permutations per cloud (default: 3).
 #include <gtest/gtest.h>
 
