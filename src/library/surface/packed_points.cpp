@@ -39,7 +39,9 @@ struct PackVector {
     const IntTag di;
     const Located located = locate(x, y, z, cells);
     hn::StoreU(located.packed, di, reinterpret_cast<std::int32_t*>(slice.points) + i);
-    slice.unusual[i / 4] = located.all_have_cells ? 0 : 1;
+    // A vector can have fewer than four points.
+    const unsigned before = i % 4 == 0 ? 0U : slice.unusual[i / 4];
+    slice.unusual[i / 4] = static_cast<std::uint8_t>(before | (located.all_have_cells ? 0U : 1U));
     runs.add(located.cell);
   }
   const PackedSlice& slice;

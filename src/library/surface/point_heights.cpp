@@ -101,27 +101,43 @@ struct Square {
   FloatVector share_x, share_y;
 };
 
-/// For points within the extent.
-HWY_INLINE Square square_at(FloatVector x, FloatVector y, const GridTables& tables) {
-  const FloatTag d;
-  const IntTag di;
-  const FloatVector reach = hn::Max(hn::Abs(x), hn::Abs(y));
-  IntVector grid = hn::Zero(di);
-  for (std::size_t i = 1; i < tables.count; ++i) {
-    const auto covers = hn::Le(reach, hn::Set(d, tables.extents[i]));
-    grid = increment_if(hn::RebindMask(di, covers), grid);
+/// Finds the squares around points within the extent.
+class SquareFinder {
+ public:
+  HWY_INLINE explicit SquareFinder(const GridTables& tables)
+      : tables_(tables),
+        per_cell_(tables.per_cell.data()),
+        middles_(tables.middles.data()),
+        strides_(reinterpret_cast<const float*>(tables.strides.data())),
+        firsts_(reinterpret_cast<const float*>(tables.firsts.data())) {}
+
+  HWY_INLINE Square at(FloatVector x, FloatVector y) const {
+    const FloatTag d;
+    const IntTag di;
+    const FloatVector reach = hn::Max(hn::Abs(x), hn::Abs(y));
+    IntVector grid = hn::Zero(di);
+    for (std::size_t i = 1; i < tables_.count; ++i) {
+      const auto covers = hn::Le(reach, hn::Set(d, tables_.extents[i]));
+      grid = increment_if(hn::RebindMask(di, covers), grid);
+    }
+    const FloatVector per_cell = per_cell_[grid];
+    const FloatVector middle = middles_[grid];
+    const bool reaches_edge = tables_.reaches_edge;
+    const FloatVector last = reaches_edge ? lookup_8(tables_.last.data(), grid) : hn::Zero(d);
+    const Between column = between(x, per_cell, middle, last, reaches_edge);
+    const Between row = between(y, per_cell, middle, last, reaches_edge);
+    const IntVector strides = hn::BitCast(di, strides_[grid]);
+    const IntVector place = hn::Or(column.first, hn::ShiftLeft<16>(row.first));
+    const IntVector near =
+        hn::Add(hn::BitCast(di, firsts_[grid]), sum_of_products(place, strides));
+    return {near, hn::Add(near, hn::ShiftRight<16>(strides)), column.share, row.share};
   }
-  const FloatVector per_cell = lookup_8(tables.per_cell.data(), grid);
-  const FloatVector middle = lookup_8(tables.middles.data(), grid);
-  const FloatVector last = tables.reaches_edge ? lookup_8(tables.last.data(), grid) : hn::Zero(d);
-  const Between column = between(x, per_cell, middle, last, tables.reaches_edge);
-  const Between row = between(y, per_cell, middle, last, tables.reaches_edge);
-  const IntVector strides = lookup_8(tables.strides.data(), grid);
-  const IntVector place = hn::Or(column.first, hn::ShiftLeft<16>(row.first));
-  const IntVector near =
-      hn::Add(lookup_8(tables.firsts.data(), grid), sum_of_products(place, strides));
-  return {near, hn::Add(near, hn::ShiftRight<16>(strides)), column.share, row.share};
-}
+
+ private:
+  const GridTables& tables_;
+  Table8 per_cell_, middles_;
+  Table8 strides_, firsts_;  ///< integers
+};
 
 /// The 0.5 m cells of points within the extent.
 HWY_INLINE IntVector obstacle_cell(FloatVector x, FloatVector y, const ObstacleCells& obstacles) {
@@ -171,6 +187,7 @@ class FindSquares {
       : scan_(scan),
         unusual_(scan.unusual + begin / 4),
         lookups_(lookups),
+        squares_(scan.tables),
         previous_(hn::Set(IntTag(), -1)) {}
 
   HWY_INLINE void operator()(std::size_t i, FloatVector x, FloatVector y, FloatVector z) {
@@ -195,7 +212,7 @@ class FindSquares {
     hn::Store(z, d, lookups_.z.data() + i);
     hn::Store(obstacle_cell(x, y, scan_.obstacles), di, lookups_.obstacle_cell.data() + i);
 
-    const Square square = square_at(x, y, scan_.tables);
+    const Square square = squares_.at(x, y);
     hn::Store(square.share_x, d, lookups_.share_x.data() + i);
     hn::Store(square.share_y, d, lookups_.share_y.data() + i);
     const auto starts = hn::Ne(square.near, move_up(square.near, previous_));
@@ -210,6 +227,7 @@ class FindSquares {
   const MeasuredScan& scan_;
   const std::uint8_t* unusual_;
   Lookups& lookups_;
+  SquareFinder squares_;
   IntVector previous_;  ///< squares of the previous vector, -1 before the first
 };
 
@@ -246,25 +264,42 @@ HWY_INLINE FloatVector surface_at(const Lookups& lookups, std::size_t i, std::si
                          blend_with_care(far_left, far_right, share_x), share_y);
 }
 
-/// Margins of a point above the surface: the smallest and the largest one that the obstacles around
-/// the point can lead to, metres.
-struct Margins {
-  explicit Margins(const PointRule& rule)
-      : least(std::min(rule.margin, rule.obstacle_margin)),
-        most(std::max(rule.margin, rule.obstacle_margin)) {}
-  float least, most;
+/// Limits of heights above the surface, metres.
+struct Limits {
+  HWY_INLINE Limits(const PointRule& rule, const ObstacleCells& obstacles)
+      : least_margin(hn::Set(FloatTag(), std::min(rule.margin, rule.obstacle_margin))),
+        most_margin(hn::Set(FloatTag(), std::max(rule.margin, rule.obstacle_margin))),
+        noise(hn::Set(FloatTag(), -rule.noise_depth)),
+        low(hn::Set(FloatTag(), obstacles.low)),
+        high(hn::Set(FloatTag(), obstacles.high)),
+        overhanging(hn::Set(FloatTag(), overhang)) {}
+  FloatVector least_margin, most_margin;  ///< that the obstacles around a point can lead to
+  FloatVector noise;                      ///< points above this are not noise
+  FloatVector low, high, overhanging;     ///< of obstacles
+};
+
+/// Numbers of points.
+struct Counts {
+  std::size_t ground = 0;
+  std::size_t noise = 0;
+  std::size_t out_of_range = 0;
+  std::size_t invalid = 0;
+  std::size_t undecided = 0;
+  std::size_t marked = 0;  ///< listed marks
 };
 
 /// Computes heights and labels.
 class LabelPoints {
  public:
   HWY_INLINE LabelPoints(const MeasuredScan& scan, const MeasuredSlice& slice)
-      : scan_(scan), slice_(slice), margins_(scan.rule), points_(hn::Iota(IntTag(), 0)) {}
+      : scan_(scan), slice_(slice) {}
 
   /// Labels `count` points, beginning with point `begin` of the slice.
   HWY_INLINE void label(Lookups& lookups, std::size_t begin, std::size_t count) {
     const FloatTag d;
     const bool reaches_edge = scan_.tables.reaches_edge;
+    const Limits limits(scan_.rule, scan_.obstacles);
+    Counts counts = counts_;  // a local copy stays in registers
     std::size_t squares = 0;  // that begin before the vector
     std::size_t i = 0;
     const auto next_heights = [&] HWY_ATTR {
@@ -277,22 +312,17 @@ class LabelPoints {
     };
     for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
       const FloatVector height = next_heights();
-      const IntVector label = label_vector(lookups, i, height);
+      const IntVector label = label_vector(lookups, i, begin, height, limits, counts);
       hn::StoreU(height, d, slice_.heights + begin + i);
       hn::StoreU(hn::DemoteTo(d8, label), d8, slice_.labels + begin + i);
     }
-    if (i < count) label_rest(lookups, i, next_heights(), begin + i, count - i);
-    set_marks();
+    if (i < count) label_rest(lookups, i, begin, next_heights(), count - i, limits, counts);
+    set_marks(counts.marked);
+    counts.marked = 0;
+    counts_ = counts;
   }
 
-  [[nodiscard]] std::size_t undecided() const { return undecided_; }
-
-  void add_to(LabelTotals& totals) const {
-    totals[static_cast<std::size_t>(Label::ground)] += ground_;
-    totals[static_cast<std::size_t>(Label::noise)] += noise_;
-    totals[static_cast<std::size_t>(Label::out_of_range)] += out_of_range_;
-    totals[static_cast<std::size_t>(Label::invalid)] += invalid_;
-  }
+  [[nodiscard]] const Counts& counts() const { return counts_; }
 
  private:
   using ByteTag = hn::Rebind<std::uint8_t, FloatTag>;
@@ -300,27 +330,27 @@ class LabelPoints {
 
   /// The labels of a vector. Points with an unknown height are `nonground`, unless they have a
   /// code.
-  HWY_INLINE IntVector label_vector(const Lookups& lookups, std::size_t i, FloatVector height) {
+  HWY_INLINE IntVector label_vector(const Lookups& lookups, std::size_t i, std::size_t begin,
+                                    FloatVector height, const Limits& limits, Counts& counts) {
     const FloatTag d;
     const IntTag di;
     const IntVector cell = hn::Load(di, lookups.obstacle_cell.data() + i);
-    mark(height, cell);
+    mark(height, cell, limits, counts);
 
-    const FloatVector least = hn::Set(d, margins_.least);
-    const auto below_least = hn::Lt(height, least);
-    auto undecided = hn::And(hn::Ge(height, least), hn::Lt(height, hn::Set(d, margins_.most)));
+    const auto below_least = hn::Lt(height, limits.least_margin);
+    auto undecided =
+        hn::And(hn::Ge(height, limits.least_margin), hn::Lt(height, limits.most_margin));
     IntVector label = hn::IfThenElseZero(hn::RebindMask(di, below_least), code_of(Label::ground));
-    ground_ += hn::CountTrue(d, below_least);
-    const auto may_be_noise = hn::Le(height, hn::Set(d, -scan_.rule.noise_depth));
+    counts.ground += hn::CountTrue(d, below_least);
+    const auto may_be_noise = hn::Le(height, limits.noise);
     if (HWY_UNLIKELY(!hn::AllFalse(d, may_be_noise))) {
       const FloatVector range = hn::Sqrt(hn::Load(d, lookups.squared_range.data() + i));
       const FloatVector deepest =
-          hn::Neg(hn::Add(hn::Set(d, scan_.rule.noise_depth),
-                          hn::Mul(hn::Set(d, scan_.rule.noise_depth_per_metre), range)));
+          hn::Sub(limits.noise, hn::Mul(hn::Set(d, scan_.rule.noise_depth_per_metre), range));
       const auto noise = hn::Le(height, deepest);
       label = hn::IfThenElse(hn::RebindMask(di, noise), code_of(Label::noise), label);
-      ground_ -= hn::CountTrue(d, hn::And(noise, below_least));
-      noise_ += hn::CountTrue(d, noise);
+      counts.ground -= hn::CountTrue(d, hn::And(noise, below_least));
+      counts.noise += hn::CountTrue(d, noise);
     }
     if (HWY_UNLIKELY(lookups.has_code[i / hn::Lanes(d)] != 0)) {
       const IntVector code = hn::Load(di, lookups.code.data() + i);
@@ -331,27 +361,28 @@ class LabelPoints {
         const auto is = hn::And(has_code, hn::Eq(code, code_of(one)));
         count += hn::CountTrue(di, is) - hn::CountTrue(di, was);
       };
-      recount(Label::ground, ground_);
-      recount(Label::noise, noise_);
-      recount(Label::out_of_range, out_of_range_);
-      recount(Label::invalid, invalid_);
+      recount(Label::ground, counts.ground);
+      recount(Label::noise, counts.noise);
+      recount(Label::out_of_range, counts.out_of_range);
+      recount(Label::invalid, counts.invalid);
       label = hn::IfThenElse(has_code, code, label);
     }
 
     const auto is_undecided = hn::RebindMask(di, undecided);
+    const IntVector points =
+        hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(begin + i)));
     compress_store(cell, is_undecided,
-                   reinterpret_cast<std::int32_t*>(slice_.undecided_cells + undecided_));
-    undecided_ +=
-        compress_store(points_, is_undecided,
-                       reinterpret_cast<std::int32_t*>(slice_.undecided_points + undecided_));
-    points_ = hn::Add(points_, hn::Set(di, static_cast<std::int32_t>(hn::Lanes(di))));
+                   reinterpret_cast<std::int32_t*>(slice_.undecided_cells + counts.undecided));
+    counts.undecided +=
+        compress_store(points, is_undecided,
+                       reinterpret_cast<std::int32_t*>(slice_.undecided_points + counts.undecided));
     return label;
   }
 
   /// Labels the last `rest` points of a cloud. The other points of the vector get an unknown height
   /// and no code, so that they are not counted.
-  void label_rest(Lookups& lookups, std::size_t i, FloatVector height, std::size_t point,
-                  std::size_t rest) {
+  HWY_INLINE void label_rest(Lookups& lookups, std::size_t i, std::size_t begin, FloatVector height,
+                             std::size_t rest, const Limits& limits, Counts& counts) {
     const FloatTag d;
     const IntTag di;
     HWY_ALIGN std::array<float, lanes> heights;
@@ -361,54 +392,45 @@ class LabelPoints {
     std::int32_t* const codes = lookups.code.data() + i;
     hn::Store(hn::IfThenElse(hn::FirstN(di, rest), hn::Load(di, codes), hn::Set(di, no_code)), di,
               codes);
-    const IntVector label = label_vector(lookups, i, height);
+    const IntVector label = label_vector(lookups, i, begin, height, limits, counts);
     hn::Store(height, d, heights.data());
     hn::StoreU(hn::DemoteTo(d8, label), d8, labels.data());
-    std::copy_n(heights.data(), rest, slice_.heights + point);
-    std::copy_n(labels.data(), rest, slice_.labels + point);
+    std::copy_n(heights.data(), rest, slice_.heights + begin + i);
+    std::copy_n(labels.data(), rest, slice_.labels + begin + i);
   }
 
   /// Lists the marks of points on obstacles.
-  HWY_INLINE void mark(FloatVector height, IntVector cell) {
+  HWY_INLINE void mark(FloatVector height, IntVector cell, const Limits& limits, Counts& counts) {
     const FloatTag d;
     const IntTag di;
-    const ObstacleCells& obstacles = scan_.obstacles;
     const auto is_obstacle =
-        hn::And(hn::Gt(height, hn::Set(d, obstacles.low)), hn::Lt(height, hn::Set(d, overhang)));
+        hn::And(hn::Gt(height, limits.low), hn::Lt(height, limits.overhanging));
     if (hn::AllFalse(d, is_obstacle)) return;
-    const auto is_high = hn::RebindMask(di, hn::Gt(height, hn::Set(d, obstacles.high)));
+    const auto is_high = hn::RebindMask(di, hn::Gt(height, limits.high));
     const IntVector mark =
         hn::IfThenElse(hn::RebindMask(di, is_obstacle),
                        increment_if(is_high, hn::ShiftLeft<1>(cell)), hn::Set(di, no_mark));
     // Neighbours often set the same mark.
     const auto is_new =
         hn::And(hn::RebindMask(di, is_obstacle), hn::Ne(mark, move_up(mark, hn::Set(di, no_mark))));
-    marked_count_ += compress_store(mark, is_new, marked_.data() + marked_count_);
+    counts.marked += compress_store(mark, is_new, marked_.data() + counts.marked);
   }
 
-  /// Sets the listed marks.
-  HWY_INLINE void set_marks() {
+  /// Sets the first `count` listed marks.
+  HWY_INLINE void set_marks(std::size_t count) {
     const ObstacleCells& obstacles = scan_.obstacles;
-    for (std::size_t i = 0; i < marked_count_; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       // Other threads may set the same mark.
       std::atomic_ref<std::uint8_t>(obstacles.marks[marked_[i]])
           .store(obstacles.mark, std::memory_order_relaxed);
     }
-    marked_count_ = 0;
   }
 
   static constexpr std::int32_t no_mark = -1;
 
   const MeasuredScan& scan_;
   const MeasuredSlice& slice_;
-  Margins margins_;
-  IntVector points_;  ///< indices of the next points in the slice
-  std::size_t ground_ = 0;
-  std::size_t noise_ = 0;
-  std::size_t out_of_range_ = 0;
-  std::size_t invalid_ = 0;
-  std::size_t undecided_ = 0;
-  std::size_t marked_count_ = 0;
+  Counts counts_;
   std::array<std::int32_t, lookup_size + lanes> marked_;  ///< marks to set
 };
 
@@ -425,8 +447,12 @@ std::size_t measure_points(const MeasuredScan& scan, const MeasuredSlice& slice,
     look_up(scan.tables, lookups);
     results.label(lookups, begin - slice.begin, end - begin);
   }
-  results.add_to(totals);
-  return results.undecided();
+  const Counts& counts = results.counts();
+  totals[static_cast<std::size_t>(Label::ground)] += counts.ground;
+  totals[static_cast<std::size_t>(Label::noise)] += counts.noise;
+  totals[static_cast<std::size_t>(Label::out_of_range)] += counts.out_of_range;
+  totals[static_cast<std::size_t>(Label::invalid)] += counts.invalid;
+  return counts.undecided;
 }
 
 }  // namespace

@@ -75,6 +75,33 @@ HWY_INLINE IntVector lookup_8(const std::int32_t* HWY_RESTRICT table, IntVector 
   return hn::BitCast(IntTag(), lookup_8(reinterpret_cast<const float*>(table), index));
 }
 
+/// A table of 8 numbers, kept in a register if it fits.
+class Table8 {
+ public:
+#if HWY_TARGET <= HWY_AVX2
+  HWY_INLINE explicit Table8(const float* table)
+#if HWY_TARGET <= HWY_AVX3
+      : numbers_{_mm512_castps256_ps512(_mm256_loadu_ps(table))} {
+  }
+#else
+      : numbers_{_mm256_loadu_ps(table)} {
+  }
+#endif
+  HWY_INLINE FloatVector operator[](IntVector index) const {
+    return hn::TableLookupLanes(numbers_, hn::IndicesFromVec(FloatTag(), index));
+  }
+
+ private:
+  FloatVector numbers_;
+#else
+  HWY_INLINE explicit Table8(const float* table) : numbers_(table) {}
+  HWY_INLINE FloatVector operator[](IntVector index) const { return lookup_8(numbers_, index); }
+
+ private:
+  const float* numbers_;
+#endif
+};
+
 /// Looks up element `index` and the element after it. Reading pairs is twice as fast with AVX-512.
 HWY_INLINE void gather_pairs(const float* HWY_RESTRICT table, IntVector index, FloatVector& first,
                              FloatVector& second) {
