@@ -74,15 +74,10 @@ inline constexpr std::int16_t reflection_gap = units(0.2);
 /// Minimum depth of a lower bound below the surface.
 inline constexpr std::int16_t least_lowering = units(0.03);
 
-/// Maximum height difference between the points of a flat cell.
-inline constexpr std::int16_t flat_range = units(0.10);
-
 /// What the points of 32 cells tell, heights in units of a packed z.
 struct alignas(64) TileStatistics {
   using PerCell = std::array<std::int16_t, tile_cells>;
-  PerCell points;      ///< number of points used
   PerCell seen;        ///< number of points near the surface
-  PerCell range;       ///< height difference between the highest and the lowest of them
   PerCell gated;       ///< number of points within the gate
   PerCell bound;       ///< the lowest point that is not a reflection
   PerCell mean;        ///< centre of the window before the last step
@@ -338,7 +333,6 @@ HWY_INLINE void sum_up(std::int16_t* HWY_RESTRICT heights, ShortVector gate, std
   const ShortVector gate_end = hn::Add(gate, all(1));
   ShortVector seen = hn::Zero(d);
   ShortVector gated = hn::Zero(d);
-  ShortVector highest = all(-no_height);
   Lowest of_all;
   Lowest of_gate;
   for (std::size_t row = 0; row < rows; ++row) {
@@ -347,7 +341,6 @@ HWY_INLINE void sum_up(std::int16_t* HWY_RESTRICT heights, ShortVector gate, std
     const ShortVector h = hn::IfThenElse(is_seen, height, all(no_height));
     hn::Store(h, d, heights + row * tile_cells);
     seen = count_if(is_seen, seen);
-    highest = hn::Max(highest, hn::IfThenElse(is_seen, height, all(-no_height)));
     of_all.add(h);
     const ShortMask is_gated = hn::Lt(hn::Abs(h), gate_end);
     gated = count_if(is_gated, gated);
@@ -355,7 +348,6 @@ HWY_INLINE void sum_up(std::int16_t* HWY_RESTRICT heights, ShortVector gate, std
   }
   note(seen, tile.seen);
   note(gated, tile.gated);
-  note(hn::SaturatedSub(highest, of_all.first), tile.range);
 
   // One or two points far below the others are reflections.
   const auto is_alone = [&](ShortVector low, ShortVector next) HWY_ATTR {
@@ -414,7 +406,6 @@ HWY_INLINE void sum_up(std::int16_t* HWY_RESTRICT heights, ShortVector gate, std
 /// Corrections and weights of 32 cells.
 struct TileObservations {
   std::array<float, tile_cells> corrections, weights;
-  std::array<std::int32_t, tile_cells> flat;
 };
 
 void conclude(const Observations& o, const TileStatistics& tile,
@@ -432,7 +423,6 @@ void conclude(const Observations& o, const TileStatistics& tile,
                               HWY_ATTR { return hn::Ge(v, hn::Set(d, limit)); };
     const FloatVector at_surface = number(tile.at_surface);
     const FloatVector gated = number(tile.gated);
-    const FloatVector seen = number(tile.seen);
     const FloatVector bound = number(tile.bound);
     const auto has_mode =
         hn::And(at_least(gated, fewest_points), at_least(at_surface, fewest_points));
@@ -443,18 +433,13 @@ void conclude(const Observations& o, const TileStatistics& tile,
     const auto only_below =
         hn::And(hn::Lt(gated, hn::Set(d, fewest_points)), hn::Lt(bound, hn::Neg(number(gates))));
     const auto is_bound = hn::And(hn::And(hn::Or(only_below, hn::And(has_mode, has_obstacle)),
-                                          at_least(seen, fewest_for_lower_bound)),
+                                          at_least(number(tile.seen), fewest_for_lower_bound)),
                                   hn::Lt(bound, hn::Set(d, -least_lowering)));
 
     const FloatVector mean =
         hn::Add(number(tile.mean), hn::Div(number(tile.sum), hn::Max(number(tile.count), one)));
     const FloatVector mode_weight =
         hn::Min(one, hn::Mul(at_surface, hn::Set(d, 1 / points_of_full_weight)));
-    const auto is_flat = hn::And(hn::And(is_mode, at_least(at_surface, points_of_full_weight)),
-                                 hn::And(hn::Eq(seen, number(tile.points)),
-                                         hn::Le(number(tile.range), hn::Set(d, flat_range))));
-    hn::StoreU(hn::IfThenElseZero(hn::RebindMask(di, is_flat), hn::Set(di, 1)), di,
-               found.flat.data() + lane);
     const FloatVector bound_weight = hn::IfThenElseZero(is_bound, hn::Set(d, o.lower_bound_weight));
     hn::StoreU(hn::IfThenElse(is_mode, mode_weight, bound_weight), d, found.weights.data() + lane);
     hn::StoreU(hn::Mul(hn::IfThenElse(is_mode, mean, bound), metre), d,
@@ -469,7 +454,6 @@ void write(const Observations& o, std::span<const OccupiedCell> cells,
     if (found.weights[i] <= 0) continue;
     o.corrections[cells[i].place] = found.corrections[i];
     o.weights[cells[i].place] = found.weights[i];
-    if (o.flat != nullptr) o.flat[cells[i].place] = static_cast<std::uint8_t>(found.flat[i]);
   }
 }
 
@@ -481,7 +465,6 @@ HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell
   constexpr std::size_t block_count = rows / block_rows;
   HWY_ALIGN std::array<HeightBlock, block_count> blocks;
   HWY_ALIGN std::array<std::int16_t, tile_cells> gates{};
-  TileStatistics tile;
   HWY_ALIGN std::array<std::array<PackedPoint, medium_cell + 3 * lanes>, 2> sampled;
   for (std::size_t pair = 0; pair < tile_cells / 2; ++pair) {
     std::array<const PackedPoint*, 2> points = {sampled[0].data(), sampled[1].data()};
@@ -497,11 +480,9 @@ HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell
       offsets[side] = o.planes.offsets[cell.place];
       points[side] = o.points + cell.first;
       counts[side] = cell.count;
-      if constexpr (size == CellSize::large) {
-        counts[side] = take_sample(points[side], cell.count, sample_size, sampled[side].data());
-        points[side] = sampled[side].data();
-      }
-      tile.points[i] = static_cast<std::int16_t>(counts[side]);
+      if constexpr (size != CellSize::large) continue;
+      counts[side] = take_sample(points[side], cell.count, sample_size, sampled[side].data());
+      points[side] = sampled[side].data();
     }
     for (std::size_t block = 0; block < block_count; ++block) {
       const std::size_t first = block * block_rows;
@@ -514,6 +495,7 @@ HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell
   }
   for (HeightBlock& block : blocks) arrange(block);
 
+  TileStatistics tile;
   for (std::size_t lane = 0; lane < tile_cells; lane += hn::Lanes(d)) {
     sum_up<rows>(blocks[0].data() + lane, hn::Load(d, gates.data() + lane), lane, tile);
   }

@@ -41,9 +41,6 @@ struct Observations {
   float lower_bound_weight;
   float* corrections;  ///< by cell, row by row, metres; only written for observed cells
   float* weights;      ///< by cell, 0 to 1; only written for observed cells
-  /// By cell: 1 if all points of the cell lie close to one plane, so that finer levels have nothing
-  /// to correct. Only written for observed cells; may be null.
-  std::uint8_t* flat;
 };
 
 /// Cells by their number of points: up to 16, up to 32, more. Of a large cell, a sample is used

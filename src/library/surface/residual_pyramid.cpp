@@ -56,8 +56,6 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
   slopes_.reserve(largest + slack);
   offsets_.reserve(largest + slack);
   gates_.reserve(total);
-  flat_.reserve(grids_.front().size());
-  flat_cells_.reserve(grids_.front().size());
   std::fill_n(heights_.data(), readable, 0.0f);
   std::size_t first = 0;
   for (Grid& grid : grids_) {
@@ -108,65 +106,43 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
   }
 }
 
-/// Lists the cells of the coarsest level, block by block.
-void ResidualPyramid::list_coarse_cells(const CoarseSamples& samples) noexcept {
-  cells_.front().counts = {};
-  const std::uint32_t* begins = samples.begins();
+/// Lists the cells of all levels, block by block.
+void ResidualPyramid::list_cells(const PackedPoints& points,
+                                 const CoarseSamples& samples) noexcept {
+  for (LevelCells& level : cells_) level.counts = {};
+  const std::uint32_t* coarse = samples.begins();
   for (const Block& block : blocks_) {
-    if (begins[0] != begins[coarse_cells_of_block]) {
-      list_cells_of(0, place_of(block, 0), coarse_cells_of_block, begins, 1);
-    }
-    begins += coarse_cells_of_block;
-  }
-}
-
-/// Lists the cells of the other levels, except in flat coarse cells, which it lists, too.
-void ResidualPyramid::list_fine_cells(const PackedPoints& points,
-                                      const CoarseSamples& samples) noexcept {
-  for (LevelCells& level : std::span(cells_).subspan(1)) level.counts = {};
-  flat_count_ = 0;
-  const std::uint32_t* coarse_begins = samples.begins();
-  for (const Block& block : blocks_) {
-    const std::uint32_t* const begins = coarse_begins;
-    coarse_begins += coarse_cells_of_block;
-    if (block.levels < 2 || begins[0] == begins[coarse_cells_of_block]) continue;
-    const std::size_t each = (block.cells.last - block.cells.first) / coarse_cells_of_block;
-    for (std::uint32_t i = 0; i < coarse_cells_of_block; ++i) {
-      if (begins[i] == begins[i + 1]) continue;
-      const InBlock place = in_z_order[i];
-      const FlatCell coarse{.row = 4 * block.row + place.row,
-                            .column = 4 * block.column + place.column};
-      if (flat_.data()[coarse.row * grids_.front().width + coarse.column] != 0) {
-        flat_cells_.data()[flat_count_++] = coarse;
-        continue;
-      }
-      const std::uint32_t* const fine_begins = points.begins() + block.cells.first + i * each;
-      for (std::size_t level = 1; level < block.levels; ++level) {
-        const auto cells =
-            static_cast<std::uint32_t>(cells_[level].places.size() / coarse_cells_of_block);
-        list_cells_of(level, place_of(block, level) + cells_[level].places[i * cells], cells,
-                      fine_begins, each / cells);
-      }
+    const std::uint32_t* const coarse_begins = coarse;
+    coarse += coarse_cells_of_block;
+    if (coarse_begins[0] == coarse_begins[coarse_cells_of_block]) continue;
+    if (block.levels > 0) list_cells_of(block, 0, coarse_begins, 1);
+    if (block.levels < 2) continue;
+    const std::uint32_t* const begins = points.begins() + block.cells.first;
+    for (std::size_t level = 1; level < block.levels; ++level) {
+      list_cells_of(block, level, begins,
+                    (block.cells.last - block.cells.first) / cells_[level].places.size());
     }
   }
 }
 
-/// Lists `cells` cells along the Z-order curve, the first of which is at `first_place`. Cell i
-/// begins at point `begins[i * each]`.
-void ResidualPyramid::list_cells_of(std::size_t level, std::uint32_t first_place,
-                                    std::uint32_t cells, const std::uint32_t* begins,
-                                    std::size_t each) noexcept {
+/// Cell i of the level begins at point `begins[i * each]`.
+void ResidualPyramid::list_cells_of(const Block& block, std::size_t level,
+                                    const std::uint32_t* begins, std::size_t each) noexcept {
   LevelCells& list = cells_[level];
+  const auto along = static_cast<std::uint32_t>(block_size / levels[level].cell);
+  const std::uint32_t first_place =
+      (block.row - list.first_block) * along * static_cast<std::uint32_t>(grids_[level].width) +
+      (block.column - list.first_block) * along;
   std::array<OccupiedCell*, cell_sizes> next;
   for (std::size_t size = 0; size < cell_sizes; ++size) {
     next[size] = list.cells[size].data() + list.counts[size];
   }
   auto& [small, medium, large] = next;
-  for (std::uint32_t i = 0; i < cells; ++i) {
+  for (const std::uint32_t place : list.places) {
     const std::uint32_t first = *begins;
     begins += each;
     const std::uint32_t count = *begins - first;
-    const OccupiedCell cell{.first = first, .count = count, .place = first_place + list.places[i]};
+    const OccupiedCell cell{.first = first, .count = count, .place = first_place + place};
     // Without branches, because the number of points in a cell is hard to predict.
     *small = *medium = *large = cell;
     small += static_cast<std::ptrdiff_t>(count >= fewest_points_in_cell && count <= small_cell);
@@ -178,42 +154,14 @@ void ResidualPyramid::list_cells_of(std::size_t level, std::uint32_t first_place
   }
 }
 
-/// Index of the first cell of a block in a grid.
-std::uint32_t ResidualPyramid::place_of(const Block& block, std::size_t level) const noexcept {
-  const LevelCells& list = cells_[level];
-  const auto along = static_cast<std::uint32_t>(block_size / levels[level].cell);
-  return ((block.row - list.first_block) * static_cast<std::uint32_t>(grids_[level].width) +
-          (block.column - list.first_block)) *
-         along;
-}
-
-/// Observes that the surface needs no correction in the flat coarse cells.
-void ResidualPyramid::keep_flat_cells(std::size_t level) noexcept {
-  const auto along = static_cast<std::size_t>(levels.front().cell / levels[level].cell);
-  const std::size_t width = grids_[level].width;
-  const std::size_t first = 4 * cells_[level].first_block;
-  for (const FlatCell& cell : std::span(flat_cells_.data(), flat_count_)) {
-    const std::size_t row = cell.row - first;
-    const std::size_t column = cell.column - first;
-    if (row * along >= width || column * along >= width) continue;  // or negative
-    for (std::size_t i = 0; i < along; ++i) {
-      std::fill_n(weights_.data() + (row * along + i) * width + column * along, along, 1.0f);
-    }
-  }
-}
-
 void ResidualPyramid::refine(const PackedPoints& points, const CoarseSamples& samples,
                              PullPush& pull_push, ThreadPool& pool) noexcept {
-  if (cells_.empty()) return;
-  list_coarse_cells(samples);
-  std::fill_n(flat_.data(), grids_.front().size(), std::uint8_t{0});
+  list_cells(points, samples);
   for (std::size_t level = 0; level < cells_.size(); ++level) {
     const Grid& grid = grids_[level];
     if (level > 0) upsample(grids_[level - 1], grid);
     std::fill_n(corrections_.data(), grid.size(), 0.0f);
     std::fill_n(weights_.data(), grid.size(), 0.0f);
-    if (level == 1) list_fine_cells(points, samples);
-    if (level > 0) keep_flat_cells(level);
     observe_level(level, level == 0 ? samples.data() : points.data(), pool);
     pull_push.fill(corrections_.data(), weights_.data(), grid.width, full_weight);
     const bool inner = level > 0 && grid.extent() < grids_[level - 1].extent();
@@ -238,8 +186,7 @@ void ResidualPyramid::observe_level(std::size_t level, const PackedPoint* points
                                   .max_clutter_ratio = settings_.max_clutter_ratio,
                                   .lower_bound_weight = settings_.lower_bound_weight,
                                   .corrections = corrections_.data(),
-                                  .weights = weights_.data(),
-                                  .flat = level == 0 ? flat_.data() : nullptr};
+                                  .weights = weights_.data()};
   const LevelCells& list = cells_[level];
   const auto jobs_of = [](std::size_t count) {
     return (count + cells_of_a_job - 1) / cells_of_a_job;

@@ -63,12 +63,9 @@ class ResidualPyramid {
     const std::int16_t* gates = nullptr;  ///< by cell of the grid
   };
 
-  void list_coarse_cells(const CoarseSamples& samples) noexcept;
-  void list_fine_cells(const PackedPoints& points, const CoarseSamples& samples) noexcept;
-  void list_cells_of(std::size_t level, std::uint32_t first_place, std::uint32_t cells,
-                     const std::uint32_t* begins, std::size_t each) noexcept;
-  [[nodiscard]] std::uint32_t place_of(const Block& block, std::size_t level) const noexcept;
-  void keep_flat_cells(std::size_t level) noexcept;
+  void list_cells(const PackedPoints& points, const CoarseSamples& samples) noexcept;
+  void list_cells_of(const Block& block, std::size_t level, const std::uint32_t* begins,
+                     std::size_t each) noexcept;
   [[nodiscard]] float gate_of(std::size_t level) const noexcept;
   void observe_level(std::size_t level, const PackedPoint* points, ThreadPool& pool) noexcept;
 
@@ -83,13 +80,6 @@ class ResidualPyramid {
   Buffer<float> weights_;
   Buffer<std::int32_t> slopes_;  ///< of the level in work; see CellPlanes
   Buffer<std::int32_t> offsets_;
-  Buffer<std::uint8_t> flat_;  ///< of the coarsest grid; see Observations
-  /// Row and column of the flat coarse cells, counted from the edge of the coarsest grid.
-  struct FlatCell {
-    std::uint32_t row, column;
-  };
-  Buffer<FlatCell> flat_cells_;
-  std::size_t flat_count_ = 0;
   Buffer<std::int16_t> gates_;  ///< of all grids
 };
 
