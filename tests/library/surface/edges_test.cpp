@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <random>
 #include <utility>
 #include <vector>
 
 #include "edge_scan.hpp"
 #include "flagstone/surface.hpp"
-#include "library/plane_fits/scan_points.hpp"
 #include "library/surface/lower_ground.hpp"
-#include "library/surface/square_scan.hpp"
+#include "library/surface/square_cells.hpp"
 #include "outcome.hpp"
 #include "random_cloud.hpp"
 
@@ -60,10 +61,10 @@ TEST(SurfaceAtEdges, IsolatedGhostPointsAreNoise) {
 
 /// Labels of points after the search for lower ground, if all points were noise before.
 std::vector<Label> searched(const std::vector<Point>& cloud) {
-  const tests::SquareScan sorted(cloud, SurfaceConfig{});
-  surface::LowerGround lower_ground(sorted.cells);
+  const surface::SquareCells cells{SurfaceConfig{}};
+  surface::LowerGround lower_ground(cells);
   std::vector<Label> labels(cloud.size(), Label::noise);
-  const std::size_t found = lower_ground.find(sorted.scan, labels);
+  const std::size_t found = lower_ground.find(view_of(cloud), labels);
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(labels, Label::ground)), found);
   return labels;
 }
@@ -105,13 +106,45 @@ TEST(LowerGround, IsNotFoundBelowTheNoiseLimit) {
   EXPECT_EQ(std::ranges::count(searched(rows_of(60, too_low)), Label::ground), 0);
 }
 
+TEST(LowerGround, DoesNotDependOnTheOrderOfThePoints) {
+  // Many squares with rows of points that are more or less irregular, and points on their edges.
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> position(-40, 40);
+  std::normal_distribution<float> normal;
+  std::vector<Point> cloud;
+  for (int square = 0; square < 60; ++square) {
+    const float roughness = 0.01f * static_cast<float>(square % 10);
+    const Point corner = {std::round(position(random)), std::round(position(random)), -3};
+    for (int i = 0; i < 40; ++i) {
+      const auto step = static_cast<float>(i);
+      cloud.push_back({corner.x + 0.1f * step, corner.y + 0.5f * static_cast<float>(i % 7),
+                       corner.z + 0.02f * step + roughness * normal(random)});
+    }
+  }
+  const std::vector<Label> expected = searched(cloud);
+  const auto found = std::ranges::count(expected, Label::ground);
+  ASSERT_GT(found, 400);
+  ASSERT_LT(found, static_cast<std::ptrdiff_t>(cloud.size()) - 400);
+  std::vector<std::size_t> order(cloud.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    std::ranges::shuffle(order, random);
+    std::vector<Point> shuffled;
+    for (const std::size_t i : order) shuffled.push_back(cloud[i]);
+
+    const std::vector<Label> labels = searched(shuffled);
+
+    for (std::size_t i = 0; i < order.size(); ++i) ASSERT_EQ(labels[i], expected[order[i]]);
+  }
+}
+
 TEST(LowerGround, KeepsNoStateBetweenScans) {
   const std::vector<Point> few = rows_of(11, rough);
-  const tests::SquareScan sorted(few, SurfaceConfig{});
-  surface::LowerGround lower_ground(sorted.cells);
+  const surface::SquareCells cells{SurfaceConfig{}};
+  surface::LowerGround lower_ground(cells);
   for (int scan = 0; scan < 3; ++scan) {
     std::vector<Label> labels(few.size(), Label::noise);
-    EXPECT_EQ(lower_ground.find(sorted.scan, labels), 0U);
+    EXPECT_EQ(lower_ground.find(view_of(few), labels), 0U);
   }
 }
 

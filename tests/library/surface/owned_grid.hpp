@@ -33,6 +33,14 @@ class OwnedGrid {
   }
 
   [[nodiscard]] const surface::Grid& grid() const { return grid_; }
+  /// The grid with its heights copied to `memory`, where 16 more can be read, as in the method.
+  [[nodiscard]] surface::Grid readable(std::vector<float>& memory) const {
+    memory = heights_;
+    memory.resize(heights_.size() + 16, 1e9f);
+    surface::Grid copy = grid_;
+    copy.heights = memory.data();
+    return copy;
+  }
   [[nodiscard]] float& at(std::size_t row, std::size_t column) {
     return heights_[row * grid_.width + column];
   }

@@ -4,15 +4,19 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "flagstone/ground_surface.hpp"
 #include "forced_target.hpp"
 #include "library/core/simd_target.hpp"
+#include "library/plane_fits/scan_runs.hpp"
 #include "library/surface/square_scan.hpp"
 #include "numbers.hpp"
 #include "random_surface.hpp"
@@ -27,6 +31,8 @@ class JoinedGrids {
     for (const GroundSurface::Grid& grid : made.grids()) {
       heights_.insert(heights_.end(), grid.heights.begin(), grid.heights.end());
     }
+    // What can be read after the heights, but must not be used: a row and two more.
+    heights_.insert(heights_.end(), made.grids().back().width + 2, 1e9f);
     std::size_t first = 0;
     for (const GroundSurface::Grid& grid : made.grids()) {
       grids_.push_back({.cell = grid.cell,
@@ -64,16 +70,18 @@ class PointHeightsOn : public testing::TestWithParam<std::string> {
                     const SurfaceConfig& config = {}) {
     const tests::SquareScan sorted(cloud, config);
     PointHeights point_heights(config, sorted.cells);
+    point_heights.reserve(cloud.size());
     const JoinedGrids joined(made);
     Measured out;
     out.heights.resize(cloud.size());
     out.labels.resize(cloud.size());
-    const std::size_t chunks = plane_fits::ScanPoints::chunk_count(cloud.size());
+    const PointHeights::Results results{.heights = out.heights, .labels = out.labels};
+    const std::size_t chunks = plane_fits::chunk_count(cloud.size());
     point_heights.set_surface(joined.grids());
-    for (std::size_t i = 0; i < chunks; ++i) point_heights.measure(sorted.scan, i, out.heights);
     for (std::size_t i = 0; i < chunks; ++i) {
-      point_heights.label(sorted.scan, i, out.heights, out.labels, out.totals);
+      point_heights.measure(tests::view_of(cloud), sorted.points.unusual(), i, results, out.totals);
     }
+    for (std::size_t i = 0; i < chunks; ++i) point_heights.label(i, results, out.totals);
     return out;
   }
 
@@ -193,17 +201,25 @@ TEST_P(PointHeightsOn, ObstaclesDoNotAffectTheNextScan) {
   const tests::SquareScan with_pole(pole, config);
   const tests::SquareScan without(none, config);
   PointHeights point_heights(config, with_pole.cells);
+  point_heights.reserve(2);
   const JoinedGrids joined(level_);
   std::vector<float> heights(2);
   std::vector<Label> labels(2);
-  LabelTotals totals{};
-
-  for (const tests::SquareScan* sorted : {&with_pole, &without}) {
+  const PointHeights::Results results{.heights = heights, .labels = labels};
+  const auto label_of_second = [&](const std::vector<Point>& cloud, const tests::SquareScan& scan) {
+    LabelTotals totals{};
     point_heights.set_surface(joined.grids());
-    point_heights.measure(sorted->scan, 0, heights);
-    point_heights.label(sorted->scan, 0, heights, labels, totals);
-    EXPECT_EQ(labels.back(), sorted == &without ? Label::ground : Label::nonground);
+    point_heights.measure(tests::view_of(cloud), scan.points.unusual(), 0, results, totals);
+    point_heights.label(0, results, totals);
+    return labels.back();
+  };
+
+  // Marks are numbered by scan, and the numbers repeat after 255 scans.
+  EXPECT_EQ(label_of_second(pole, with_pole), Label::nonground);
+  for (int scan = 0; scan < 600; ++scan) {
+    ASSERT_EQ(label_of_second(none, without), Label::ground) << scan;
   }
+  EXPECT_EQ(label_of_second(pole, with_pole), Label::nonground);
 }
 
 TEST_P(PointHeightsOn, TheNoiseDepthIncreasesWithRange) {
@@ -224,6 +240,50 @@ TEST_P(PointHeightsOn, NothingIsGroundIfTheSurfaceIsUnknown) {
 
   EXPECT_EQ(measured({{10, 0, -2}}, unknown).labels.front(), Label::nonground);
   EXPECT_EQ(measured({{10, 0, -200}}, unknown).labels.front(), Label::noise);
+}
+
+TEST_P(PointHeightsOn, APointHasTheSameResultInAnyPlaceOfACloud) {
+  std::vector<Point> cloud = tests::corrupted_cloud(3000, 5);
+  cloud.push_back({10.1f, 0.1f, -1.5f});
+  cloud.push_back({10.4f, 0.4f, -1.9f});  // undecided until the cell is known to be an obstacle
+  const Measured whole = measured(cloud, level_);
+  // Points are read in blocks of 16 and looked up in groups of 512.
+  for (const std::size_t omitted : {1U, 5U, 15U, 16U, 17U, 500U, 512U, 1025U}) {
+    const std::vector<Point> rest(cloud.begin() + static_cast<std::ptrdiff_t>(omitted),
+                                  cloud.end());
+
+    const Measured found = measured(rest, level_);
+
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(found.heights[i]),
+                std::bit_cast<std::uint32_t>(whole.heights[i + omitted]))
+          << i << " after " << omitted;
+    }
+    EXPECT_EQ(found.labels.back(), Label::nonground);
+  }
+}
+
+TEST_P(PointHeightsOn, ChunksCanBeMeasuredInAnyOrder) {
+  const std::vector<Point> cloud = tests::random_cloud(3 * plane_fits::chunk_size + 5, 6);
+  const SurfaceConfig config;
+  const Measured expected = measured(cloud, level_);
+  const tests::SquareScan sorted(cloud, config);
+  PointHeights point_heights(config, sorted.cells);
+  point_heights.reserve(cloud.size());
+  const JoinedGrids joined(level_);
+  std::vector<float> heights(cloud.size());
+  std::vector<Label> labels(cloud.size());
+  const PointHeights::Results results{.heights = heights, .labels = labels};
+  LabelTotals totals{};
+
+  point_heights.set_surface(joined.grids());
+  for (const std::size_t chunk : {2U, 0U, 3U, 1U}) {
+    point_heights.measure(tests::view_of(cloud), sorted.points.unusual(), chunk, results, totals);
+  }
+  for (const std::size_t chunk : {1U, 3U, 0U, 2U}) point_heights.label(chunk, results, totals);
+
+  EXPECT_EQ(labels, expected.labels);
+  EXPECT_EQ(totals, expected.totals);
 }
 
 TEST_P(PointHeightsOn, TotalsCountTheLabelsOfEveryChunk) {

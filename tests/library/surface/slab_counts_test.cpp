@@ -8,30 +8,35 @@
 #include <string>
 #include <vector>
 
+#include "flagstone/cloud_view.hpp"
 #include "forced_target.hpp"
 #include "library/core/simd_target.hpp"
 #include "library/plane_fits/bin_batch.hpp"
 #include "library/surface/patch_judge.hpp"
+#include "numbers.hpp"
 
 namespace flagstone::surface {
 namespace {
 
 using plane_fits::BinBatch;
-using plane_fits::MovedPoint;
 
-/// A point at (x, y) of a patch, `distance` above its plane.
-MovedPoint point_above(const Plane& plane, float x, float y, double distance) {
-  const auto [nx, ny, nz] = plane.normal;
+/// A point at x of a patch, `distance` above its plane.
+Point point_above(const Plane& plane, float x, double distance) {
   const double z =
-      (distance - plane.d - nx * static_cast<double>(x) - ny * static_cast<double>(y)) / nz;
-  return {.x = x, .y = y, .z = static_cast<float>(z), .index = 0};
+      (distance - plane.d - plane.normal[0] * static_cast<double>(x)) / plane.normal[2];
+  return {.x = x, .y = 0, .z = static_cast<float>(z)};
 }
 
-/// Adds a bin of these points, with 16 more readable points.
-void add(BinBatch& batch, std::vector<MovedPoint> points) {
-  const std::size_t count = points.size();
-  points.resize(count + 16);
-  batch.add_sample({points.data(), count}, 1000);
+/// Adds a bin of these points.
+void add(BinBatch& batch, const std::vector<Point>& points) {
+  const std::size_t i = batch.count();
+  batch.add_empty(points.size(), {.x = 0, .y = 0});
+  for (std::size_t k = 0; k < batch.places(i); ++k) {
+    const Point p = k < points.size() ? points[k] : Point{.x = 0, .y = 0, .z = inf};
+    batch.x(i)[k] = p.x;
+    batch.y(i)[k] = p.y;
+    batch.z(i)[k] = p.z;
+  }
 }
 
 void set(PlaneBatch& planes, std::size_t i, const Plane& plane) {
@@ -51,12 +56,10 @@ class SlabCountsOn : public testing::TestWithParam<std::string> {
   /// of the bin.
   SlabCounts count(const Plane& plane, const std::vector<double>& distances) {
     std::mt19937 random(1);
-    std::vector<MovedPoint> points;
-    // The origin is midway between the first and the last point, so both have the same position.
+    std::vector<Point> points;
     for (const double distance : distances) {
       const float x = static_cast<float>(random() % 100) / 50 - 1;
-      const bool is_end = points.empty() || points.size() + 1 == distances.size();
-      points.push_back(point_above(plane, is_end ? 0 : x, 0, distance));
+      points.push_back(point_above(plane, x, distance));
     }
     BinBatch batch;
     batch.reserve(1100);
@@ -112,8 +115,8 @@ TEST_P(SlabCountsOn, UseThePlaneOfEachPatch) {
   for (std::size_t i = 0; i < batch_size; ++i) {
     const Plane plane = tilted(0.05 * static_cast<double>(i));
     set(planes, i, plane);
-    std::vector<MovedPoint> points(i + 1, point_above(plane, 0, 0, 0));
-    points.push_back(point_above(plane, 0, 0, 0.5));
+    std::vector<Point> points(i + 1, point_above(plane, 0, 0));
+    points.push_back(point_above(plane, 0, 0.5));
     add(batch, points);
   }
 

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <new>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@
 #include "forced_target.hpp"
 #include "guarded_memory.hpp"
 #include "library/core/simd_target.hpp"
-#include "library/surface/square_scan.hpp"
+#include "library/plane_fits/scan_runs.hpp"
+#include "library/surface/vector_functions.hpp"
 #include "random_cloud.hpp"
 
 namespace flagstone::surface {
@@ -123,7 +125,7 @@ TEST_P(SquareCellsOn, EveryPointInRangeHasACellEvenAtTheLimit) {
 
     ASSERT_EQ(found.size(), cloud.size());
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-      if (found[i] == cells.out_of_range()) continue;
+      if (found[i] == cells.none()) continue;
       const std::vector<std::uint32_t> allowed = allowed_cells(cells, cloud[i]);
       EXPECT_GT(std::ranges::count(allowed, found[i]), 0)
           << "range " << range << ", (" << cloud[i].x << ", " << cloud[i].y << "), cell "
@@ -132,46 +134,43 @@ TEST_P(SquareCellsOn, EveryPointInRangeHasACellEvenAtTheLimit) {
   }
 }
 
-TEST_P(SquareCellsOn, PointsWithoutACellGetTheReason) {
+TEST_P(SquareCellsOn, InvalidPointsPointsOutOfRangeAndNoiseHaveNoCell) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   constexpr float inf = std::numeric_limits<float>::infinity();
   const SquareCells cells{SurfaceConfig{}};
-  struct Case {
-    Point point;
-    std::uint32_t expected;
-  };
-  const std::vector<Case> cases = {{{0, 0, 0}, cells.invalid()},
-                                   {{-0.0f, 0, -0.0f}, cells.invalid()},
-                                   {{nan, 5, 1}, cells.invalid()},
-                                   {{5, nan, 1}, cells.invalid()},
-                                   {{5, 5, nan}, cells.invalid()},
-                                   {{inf, 5, 1}, cells.invalid()},
-                                   {{5, -inf, 1}, cells.invalid()},
-                                   {{5, 5, -inf}, cells.invalid()},
-                                   {{1e30f, 5, 1}, cells.out_of_range()},
-                                   {{5, -3e38f, 1}, cells.out_of_range()},
-                                   {{5, 5, 3e38f}, cells.out_of_range()},
-                                   {{5, 5, 10001}, cells.out_of_range()},
-                                   {{5, 5, -10001}, cells.out_of_range()},
-                                   {{100, 0, 1}, cells.out_of_range()},
-                                   {{-71, 71, 1}, cells.out_of_range()},
-                                   // Noise limit at 10 m: -1.73 - 2 - 0.35 * 10.
-                                   {{10, 0, -7.24f}, cells.noise()},
-                                   {{0, -10, -9999}, cells.noise()}};
-  std::vector<Point> cloud(cases.size());
-  std::ranges::transform(cases, cloud.begin(), &Case::point);
-
-  const std::vector<std::uint32_t> found = tests::cells_of(cloud, cells);
-
-  ASSERT_EQ(found.size(), cases.size());
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    EXPECT_EQ(found[i], cases[i].expected) << "point " << i;
+  const std::vector<Point> without = {{0, 0, 0},
+                                      {-0.0f, 0, -0.0f},
+                                      {nan, 5, 1},
+                                      {5, nan, 1},
+                                      {5, 5, nan},
+                                      {inf, 5, 1},
+                                      {5, -inf, 1},
+                                      {5, 5, -inf},
+                                      {1e30f, 5, 1},
+                                      {5, -3e38f, 1},
+                                      {5, 5, 3e38f},
+                                      {5, 5, 10001},
+                                      {5, 5, -10001},
+                                      {100, 0, 1},
+                                      {-71, 71, 1},
+                                      // Noise limit at 10 m: -1.73 - 2 - 0.35 * 10.
+                                      {10, 0, -7.24f},
+                                      {0, -10, -9999}};
+  const std::vector<Point> with = {{10, 0, -7.22f}, {1e-40f, 0, 0}, {5, 5, 9999}, {99.9f, 0, 1}};
+  for (const Point& point : without) {
+    // Alone, and next to points with a cell.
+    EXPECT_EQ(tests::cells_of({point}, cells).front(), cells.none()) << point.x << ", " << point.z;
+    std::vector<Point> cloud(20, Point{5, 5, 1});
+    cloud[7] = point;
+    const std::vector<std::uint32_t> found = tests::cells_of(cloud, cells);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      EXPECT_EQ(found[i] == cells.none(), i == 7) << point.x << ", " << point.z << ": " << i;
+    }
   }
-  EXPECT_LT(tests::cells_of({{10, 0, -7.22f}}, cells).front(), cells.cell_count());
-  EXPECT_LT(tests::cells_of({{1e-40f, 0, 0}}, cells).front(), cells.cell_count());
+  for (const std::uint32_t cell : tests::cells_of(with, cells)) EXPECT_LT(cell, cells.none());
 }
 
-TEST_P(SquareCellsOn, EveryFloatValueGetsACellOrAReason) {
+TEST_P(SquareCellsOn, EveryFloatValueHasACellOrNone) {
   const SquareCells cells{SurfaceConfig{}};
   EXPECT_TRUE(rc::check([&](const std::vector<std::array<std::uint32_t, 3>>& bits) {
     std::vector<Point> cloud(bits.size());
@@ -194,6 +193,7 @@ TEST_P(SquareCellsOn, ReadNothingPastTheirTables) {
   const std::vector<std::uint32_t> found = tests::cells_of(tests::random_cloud(1000, 1), *cells);
 
   EXPECT_EQ(found, tests::cells_of(tests::random_cloud(1000, 1), SquareCells(SurfaceConfig{})));
+  std::destroy_at(cells);
 }
 
 TEST(SquareCells, BlocksHaveDistinctNumbers) {
@@ -213,6 +213,20 @@ TEST(SquareCells, BlocksHaveDistinctNumbers) {
       }
     }
   }
+}
+
+TEST(SquareCells, ListTheirBlocksRowByRow) {
+  const SquareCells cells(with_range(40));
+
+  std::size_t i = 0;
+  for (int row = 0; row < 2 * cells.half_blocks(); ++row) {
+    for (int column = 0; column < 2 * cells.half_blocks(); ++column) {
+      EXPECT_EQ(cells.blocks()[i].first, cells.block(column, row).first);
+      EXPECT_EQ(cells.blocks()[i].last, cells.block(column, row).last);
+      ++i;
+    }
+  }
+  EXPECT_EQ(cells.blocks().size(), i);
 }
 
 TEST(SquareCells, NumbersFitIntoBinsAtEveryRange) {

@@ -104,5 +104,21 @@ TEST(SquarePatches, ContainTheCellsOfTheirSquare) {
   }
 }
 
+TEST(SquarePatches, ContainTheCoarseCellsOfTheirSquare) {
+  const SquareCells cells{SurfaceConfig{}};
+  const SquarePatches patches({}, cells);
+
+  for (const SquarePatch& patch : patches.list()) {
+    const std::uint32_t first = patch.coarse.first % coarse_cells_of_block;
+    const std::uint32_t count = patch.coarse.last - patch.coarse.first;
+    EXPECT_EQ(count, patch.size == 4 ? 4U : 16U);
+    EXPECT_EQ(first % count, 0U);
+    const CellRange block = cells.blocks()[patch.coarse.first / coarse_cells_of_block];
+    const std::uint32_t each = (block.last - block.first) / coarse_cells_of_block;
+    EXPECT_EQ(patch.cells.first, block.first + first * each);
+    EXPECT_EQ(patch.cells.last, block.first + (first + count) * each);
+  }
+}
+
 }  // namespace
 }  // namespace flagstone::surface
