@@ -74,7 +74,8 @@ TEST_P(ContentSample, HasAtMostTheMaximumNumberOfPoints) {
     EXPECT_LE(sample.size(), most) << count;
     sampled += static_cast<double>(sample.size()) / static_cast<double>((20 * most - most - 1) / 7);
   }
-  EXPECT_NEAR(sampled, wanted, 0.1 * wanted);  // on average
+  // On average; less than `wanted`, because the threshold is reduced in a part of the cases.
+  EXPECT_NEAR(sampled, wanted, 0.15 * wanted);
 }
 
 TEST_P(ContentSample, ContainsPointsOfTheSetInTheirOrder) {

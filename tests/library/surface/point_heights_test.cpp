@@ -244,7 +244,7 @@ TEST_P(PointHeightsOn, NothingIsGroundIfTheSurfaceIsUnknown) {
 
 TEST_P(PointHeightsOn, APointHasTheSameResultInAnyPlaceOfACloud) {
   std::vector<Point> cloud = tests::corrupted_cloud(3000, 5);
-  cloud.push_back({10.1f, 0.1f, -1.5f});
+  cloud.push_back({10.1f, 0.1f, -1});
   cloud.push_back({10.4f, 0.4f, -1.9f});  // undecided until the cell is known to be an obstacle
   const Measured whole = measured(cloud, level_);
   // Points are read in blocks of 16 and looked up in groups of 512.

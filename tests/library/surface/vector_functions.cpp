@@ -21,6 +21,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;           // NOLINT(google-build-using-namespace)
 using namespace flagstone::surface::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace)
 
+std::size_t length() { return hn::Lanes(FloatTag()); }
+
 struct ListLocated {
   HWY_INLINE void operator()(std::size_t i, FloatVector x, FloatVector y, FloatVector z) const {
     const IntTag di;
@@ -64,6 +66,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace flagstone::tests {
 namespace {
+HWY_EXPORT(length);
 HWY_EXPORT(locate_all);
 HWY_EXPORT(sample);
 HWY_EXPORT(sample_patch);
@@ -72,6 +75,8 @@ HWY_EXPORT(sample_patch);
 constexpr std::size_t slack = 48;
 
 }  // namespace
+
+std::size_t vector_length() { return HWY_DYNAMIC_DISPATCH(length)(); }
 
 std::vector<Located> located(const std::vector<Point>& cloud, const surface::SquareCells& cells) {
   std::vector<Located> found(cloud.size());

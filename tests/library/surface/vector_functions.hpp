@@ -14,6 +14,9 @@
 
 namespace flagstone::tests {
 
+/// Number of points per vector.
+std::size_t vector_length();
+
 /// A point as locate() sees it.
 struct Located {
   std::uint32_t cell;           ///< or none()
