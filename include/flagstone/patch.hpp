@@ -14,9 +14,10 @@ enum class Verdict : std::uint16_t {
   too_few_points,  ///< rejected: not enough points in the bin to fit a plane
   no_plane,        ///< rejected: fewer than three points remained for the fit
   not_upright,     ///< rejected: the normal is tilted too far, as on a wall, a hedge or a trunk
-  too_high,        ///< rejected: higher than ground can be at that range, and not flat enough
+  too_high,        ///< rejected: higher than ground can be at that range, and not flat enough;
+                   ///< or, by `surface`, seen from below
   mixed,           ///< rejected by `surface`: too many points just above the plane (wall, bush)
-  off_surface,     ///< rejected by `surface`: too far from the height that nearer patches predict
+  off_surface,     ///< rejected by `surface`: too far from the height that other patches predict
 };
 
 /// Name of a `Verdict`, for example "not_upright".
@@ -39,8 +40,9 @@ constexpr const char* to_string(Verdict verdict) noexcept {
 ///
 /// The bins of `surface` are squares, of 4 m in zone 0 and of 8 m in zone 1. `ring` is the row and
 /// `sector` the column, counted from the smallest y and x. `surface` fits each plane to a sample of
-/// the points, so ground_count is an estimate. It labels points by their heights, independently of
-/// the status of their patch. Its terms of the likelihood are zero.
+/// the points, so ground_count is an estimate. For the fit, x and y are rounded to 1/128 m and z to
+/// 1/256 m. `surface` labels points by their heights, independently of the status of their patch.
+/// Its terms of the likelihood are zero.
 struct Patch {
   std::uint16_t zone = 0;    ///< m - 1: zone, 0 is the nearest to the sensor
   std::uint16_t ring = 0;    ///< i - 1: ring within the zone, 0 is the innermost

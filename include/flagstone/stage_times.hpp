@@ -8,18 +8,25 @@
 
 namespace flagstone {
 
-/// The stages of Patchwork::segment and Surface::segment, in order.
+/// The stages of Patchwork::segment and Surface::segment, in order. Bins of `surface` are the cells
+/// of its finest grid, and in the stages gather to solve its patches.
 enum class Stage : std::uint8_t {
-  bin,      ///< read each point, find its bin, record runs of points in the same bin (III-B)
-  group,    ///< sort the runs by bin, list the patches, label points without a patch
-  gather,   ///< copy the points of each bin next to each other
+  /// Read each point, find its bin, record runs of points in the same bin (III-B). `surface` also
+  /// packs each point into four bytes.
+  bin,
+  /// Sort the runs by bin, list the patches, label points without a patch. `surface` sorts the
+  /// packed points and selects samples, but labels no points.
+  group,
+  gather,   ///< copy the points of each bin (`surface`: the samples) next to each other
   seed,     ///< compute the mean height of the lowest points, eq. (5)
   moments,  ///< sum over the ground sets, eq. (6)
-  solve,    ///< compute planes and their likelihood, eqs. (4), (8) to (12)
+  solve,    ///< compute planes and evaluate each of them, eqs. (4), (8) to (12)
   join,     ///< select ground patches and merge them into a surface; `surface` only
   refine,   ///< refine the surface level by level; `surface` only
-  measure,  ///< compute the height of each point above the surface; `surface` only
-  label,    ///< write the labels
+  /// Compute the height of each point above the surface, and its label unless it depends on
+  /// obstacles; `surface` only.
+  measure,
+  label,  ///< write the labels; `surface`: of the points that depend on obstacles, and lower ground
 };
 
 /// Number of stages.

@@ -14,6 +14,9 @@ namespace flagstone {
 /// continuous surface, refines the surface with the points, and labels each point by its height
 /// above the surface. See docs/explanation/surface.md.
 ///
+/// The result does not depend on the order of the points. If they are permuted, labels and heights
+/// are permuted in the same way, and patches and surface are bit-identical.
+///
 /// Not thread-safe: use one instance per thread.
 class Surface final : public Segmenter {
  public:

@@ -21,7 +21,7 @@ struct PatchAcceptance {
   float max_clutter_ratio = 0.6f;
 
   /// Maximum height of ground above -h_s, or `max_slope` times the range if that is larger; metres,
-  /// 0 to 1,000.
+  /// 0 to 1,000. Patches whose plane is above the sensor are never ground.
   float max_height = 1.5f;
   /// Maximum slope of the ground as seen from below the sensor, m/m, 0 to 10; see `max_height`.
   float max_slope = 0.35f;

@@ -129,6 +129,9 @@ class Surface(Segmenter):
 
     It fits planes to square patches, merges the ground patches into one surface and refines the surface with the
     points. One set of settings works for every sensor. docs/explanation/surface.md describes the method.
+
+    The result does not depend on the order of the points. If they are permuted, labels and heights are permuted in the
+    same way, and patches and surface are bit-identical.
     """
 
     def __init__(
