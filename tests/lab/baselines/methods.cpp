@@ -30,7 +30,7 @@ std::vector<Method> methods() {
       {"Cascaded", make<Cascaded>, {}, 81.2, 85.5},
       {"RGpf", make_r_gpf, 4, 82.7, 87.4},
       {"Patchwork", make<Patchwork>, 1, 93.9, 97.6},
-      {"Surface", make<Surface>, 4, 95.5, 98.8, false},
+      {"Surface", make<Surface>, 0, 95.5, 98.8, false},
   };
 }
 

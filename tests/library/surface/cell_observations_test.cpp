@@ -147,8 +147,7 @@ class CellObservations : public testing::TestWithParam<std::string> {
              .max_clutter_ratio = max_clutter_ratio,
              .lower_bound_weight = lower_bound_weight,
              .corrections = corrections_.data(),
-             .weights = weights_.data(),
-             .flat = flat_.data()},
+             .weights = weights_.data()},
             cells, size);
   }
 
@@ -203,7 +202,6 @@ class CellObservations : public testing::TestWithParam<std::string> {
   std::vector<OccupiedCell> cells_;
   std::vector<float> corrections_ = std::vector<float>(64, 0.0f);
   std::vector<float> weights_ = std::vector<float>(64, 0.0f);
-  std::vector<std::uint8_t> flat_ = std::vector<std::uint8_t>(64, 0);
 
  private:
   tests::ForcedTarget forced_{GetParam()};
@@ -331,29 +329,6 @@ TEST_P(CellObservations, WriteOnlyObservedCells) {
   EXPECT_EQ(observation(2 * 8 + 4).weight, 7);
   EXPECT_EQ(observation(2 * 8 + 4).correction, 7);
   EXPECT_EQ(observation(3 * 8 + 3).weight, 7);
-}
-
-TEST_P(CellObservations, FlatCellsHaveManyPointsThatAllLieWithin10CentimetresOfHeight) {
-  const auto is_flat = [&](const std::vector<int>& heights) {
-    clear();
-    flat_.assign(64, 0);
-    observed(heights);
-    return flat_[4 * 8 + 4] == 1;
-  };
-  std::vector<int> heights(20, 40);
-  EXPECT_TRUE(is_flat(heights));
-  EXPECT_FALSE(is_flat(std::vector<int>(9, 40))) << "few points";
-  EXPECT_TRUE(is_flat(std::vector<int>(10, 40)));
-  heights.back() = 40 + 51;  // 0.1 m are 51.2 units
-  EXPECT_TRUE(is_flat(heights));
-  heights.back() = 40 + 52;
-  EXPECT_FALSE(is_flat(heights));
-  heights.back() = 40 - 52;
-  EXPECT_FALSE(is_flat(heights));
-  for (const int far : {2000, -2000}) {
-    heights.back() = far;
-    EXPECT_FALSE(is_flat(heights)) << "a point far from the surface";
-  }
 }
 
 TEST_P(CellObservations, LargeCellsUseASampleOfTheirPoints) {

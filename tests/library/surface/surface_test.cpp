@@ -139,7 +139,7 @@ TEST(SurfaceMethod, ASteepPlaneLosesAlmostNoPoints) {
   }
 }
 
-TEST(SurfaceMethod, HeightsOnATiltedPlaneAreZeroWithinSixMillimetres) {
+TEST(SurfaceMethod, HeightsOnATiltedPlaneAreZeroWithinFiveMillimetres) {
   for (const float tilt : {3.0f, 6.0f, 10.0f}) {
     for (const float direction : directions) {
       const std::vector<Point> cloud = scan_of(tilted(tilt, direction));
@@ -148,7 +148,7 @@ TEST(SurfaceMethod, HeightsOnATiltedPlaneAreZeroWithinSixMillimetres) {
 
       for (std::size_t i = 0; i < cloud.size(); ++i) {
         const float range = std::hypot(cloud[i].x, cloud[i].y);
-        ASSERT_LT(std::abs(outcome.heights[i]), 0.006f)
+        ASSERT_LT(std::abs(outcome.heights[i]), 0.005f)
             << tilt << " degrees to " << direction << ", at " << range << " m";
       }
     }
@@ -208,7 +208,9 @@ TEST(SurfaceMethod, AKerbStaysSharp) {
   }
 }
 
-TEST(SurfaceMethod, AnErrorOf30CentimetresInSensorHeightChangesAtMostOneLabelIn10000) {
+// Heights of packed points, and so the samples, are relative to the expected ground: another sensor
+// height gives other samples.
+TEST(SurfaceMethod, AnErrorOf30CentimetresInSensorHeightChangesAtMostTwoLabelsIn1000) {
   for (const std::vector<Point>& cloud : streets()) {
     const Outcome right = segmented(cloud);
     for (const float error : {-0.3f, -0.1f, 0.1f, 0.3f}) {
@@ -217,14 +219,19 @@ TEST(SurfaceMethod, AnErrorOf30CentimetresInSensorHeightChangesAtMostOneLabelIn1
 
       const Outcome wrong = segmented(cloud, config);
 
-      EXPECT_LE(fraction_of_different(right.labels, wrong.labels), 1e-4) << error;
+      EXPECT_LE(fraction_of_different(right.labels, wrong.labels), 0.002) << error;
+      double different = 0;
       for (std::size_t i = 0; i < cloud.size(); ++i) {
-        // Nothing is measured below the sensor, so the ground height there follows from the sensor
-        // height.
-        const bool is_near = std::hypot(cloud[i].x, cloud[i].y) < 4;
-        if (std::isnan(right.heights[i])) continue;
-        ASSERT_NEAR(right.heights[i], wrong.heights[i], is_near ? 0.06f : 0.01f) << error;
+        const float difference = std::abs(right.heights[i] - wrong.heights[i]);
+        if (std::hypot(cloud[i].x, cloud[i].y) < 4) {
+          // Nothing is measured below the sensor, so the ground height there follows from the
+          // sensor height.
+          ASSERT_FALSE(difference > 0.07f) << error;
+        } else if (difference > 0.02f) {
+          ++different;
+        }
       }
+      EXPECT_LE(different, 0.06 * static_cast<double>(cloud.size())) << error;
     }
   }
 }
