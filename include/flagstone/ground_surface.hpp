@@ -13,8 +13,10 @@ namespace flagstone {
 struct GroundSample {
   float height = 0;               ///< z of the ground, metres, sensor frame; NaN if unknown
   std::array<float, 3> normal{};  ///< unit length, z > 0; NaN if unknown
-  float slope = 0;       ///< angle between normal and z axis, radians, 0 to pi/2; NaN if unknown
-  float confidence = 0;  ///< 0 (unknown) to 1 (measured at this position)
+  float slope = 0;  ///< angle between normal and z axis, radians, 0 to pi/2; NaN if unknown
+  /// Probability, 0 to 1, that the height is within 10 cm of the ground, as found in simulated
+  /// worlds (docs/benchmarks/accuracy.md); 0 if the height is unknown.
+  float confidence = 0;
 };
 
 /// The ground of a scan as one continuous surface, z = height(x, y) in the sensor frame.

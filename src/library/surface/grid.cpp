@@ -5,16 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/surface/grid.cpp"
 #include <hwy/foreach_target.h>
 // The above includes this file once for each instruction set.
-#include <hwy/highway.h>
+#include "library/core/simd/lanes-inl.hpp"
 
 #ifndef FLAGSTONE_SURFACE_GRID_ONCE
 #define FLAGSTONE_SURFACE_GRID_ONCE
 namespace flagstone::surface {
+
+/// Maximum width of a grid.
+inline constexpr std::size_t most_width = 256;
 
 /// A grid in memory, cell (row, column) at `values[row * stride + column]`.
 struct FilledGrid {
@@ -30,6 +34,9 @@ struct FilledGrid {
 HWY_BEFORE_NAMESPACE();
 namespace flagstone::surface::HWY_NAMESPACE {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
 // Plain loops, which the compiler vectorises for each instruction set.
 
@@ -189,6 +196,71 @@ void fill_grids(const FilledGrid* grids, std::size_t count, float full) {
   }
 }
 
+/// Odds of a height within 10 cm of the ground, by the confidence c from pull-push and the slope in
+/// m/m: (least_odds + odds (c^2 + c^4)) / (level_slope + slope).
+inline constexpr float least_odds = 0.008f;
+inline constexpr float odds = 0.48f;
+inline constexpr float level_slope = 0.013f;
+
+/// Stores the first `count` lanes.
+HWY_INLINE void store(FloatVector v, std::size_t count, float* to) {
+  const FloatTag d;
+  if (HWY_LIKELY(count >= hn::Lanes(d))) {
+    hn::StoreU(v, d, to);
+  } else {
+    HWY_ALIGN std::array<float, lanes> all;
+    hn::Store(v, d, all.data());
+    std::copy_n(all.data(), count, to);
+  }
+}
+
+void finish_grid(const Grid& grid, float least, float* heights, float* confidences) {
+  const FloatTag d;
+  const std::size_t width = grid.width;
+  const FloatVector per_metre = hn::Set(d, 1 / (2 * grid.cell));
+  const FloatVector unknown = hn::Set(d, std::numeric_limits<float>::quiet_NaN());
+  // Rows of original heights with their ends repeated: the row before and this row.
+  HWY_ALIGN std::array<std::array<float, most_width + 2 * lanes>, 2> rows{};
+  const auto frame_row = [&](const float* row, std::array<float, most_width + 2 * lanes>& framed) {
+    framed[0] = row[0];
+    std::copy_n(row, width, framed.data() + 1);
+    framed[width + 1] = row[width - 1];
+  };
+  frame_row(grid.heights, rows[1]);
+  for (std::size_t row = 0; row < width; ++row) {
+    float* const here = grid.heights + row * width;
+    const float* const after = row + 1 < width ? here + width : here;
+    const auto& before = rows[(row + 1) % 2];
+    auto& framed = rows[row % 2];
+    frame_row(here, framed);
+    const float* const raw = grid.confidences + row * width;
+    const auto finish_vector = [&](std::size_t i) HWY_ATTR {
+      const FloatVector height = hn::LoadU(d, framed.data() + i + 1);
+      const auto slope = [&](FloatVector from, FloatVector to)
+                             HWY_ATTR { return hn::Mul(hn::Sub(to, from), per_metre); };
+      const FloatVector slope_x =
+          slope(hn::LoadU(d, framed.data() + i), hn::LoadU(d, framed.data() + i + 2));
+      const FloatVector slope_y =
+          slope(hn::LoadU(d, before.data() + i + 1), hn::LoadU(d, after + i));
+      const FloatVector steepness =
+          hn::Sqrt(hn::Add(hn::Mul(slope_x, slope_x), hn::Mul(slope_y, slope_y)));
+      const FloatVector c = hn::LoadU(d, raw + i);
+      const FloatVector squared = hn::Mul(c, c);
+      const FloatVector a =
+          hn::Add(hn::Set(d, least_odds),
+                  hn::Mul(hn::Set(d, odds), hn::Add(squared, hn::Mul(squared, squared))));
+      const FloatVector against = hn::Add(hn::Set(d, level_slope), steepness);
+      const auto known = hn::Ge(c, hn::Set(d, least));
+      const FloatVector known_height = hn::IfThenElse(known, height, unknown);
+      store(known_height, width - i, here + i);
+      store(known_height, width - i, heights + row * width + i);
+      store(hn::IfThenElseZero(known, hn::Div(a, hn::Add(a, against))), width - i,
+            confidences + row * width + i);
+    };
+    for (std::size_t i = 0; i < width; i += hn::Lanes(d)) finish_vector(i);
+  }
+}
+
 }  // namespace
 }  // namespace flagstone::surface::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -199,6 +271,7 @@ namespace {
 HWY_EXPORT(upsample_values);
 HWY_EXPORT(correct_values);
 HWY_EXPORT(fill_grids);
+HWY_EXPORT(finish_grid);
 
 constexpr std::size_t most_grids = 16;
 
@@ -215,6 +288,10 @@ void upsample(const Grid& coarse, const Grid& fine) noexcept {
 void correct(const float* corrections, const float* confidences, bool inner,
              const Grid& grid) noexcept {
   HWY_DYNAMIC_DISPATCH(correct_values)(corrections, confidences, inner, grid);
+}
+
+void finish(const Grid& grid, float least, float* heights, float* confidences) noexcept {
+  HWY_DYNAMIC_DISPATCH(finish_grid)(grid, least, heights, confidences);
 }
 
 PullPush::PullPush(std::size_t width) {

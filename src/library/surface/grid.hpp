@@ -36,6 +36,16 @@ void upsample(const Grid& coarse, const Grid& fine) noexcept;
 void correct(const float* corrections, const float* confidences, bool inner,
              const Grid& grid) noexcept;
 
+/// Finishes a grid of up to 256 x 256 cells: heights with a confidence below `least` become unknown
+/// (NaN), in the grid too. Writes the heights and their calibrated confidences, 0 for unknown ones.
+///
+/// The calibrated confidence is the probability that the height is within 10 cm of the ground. A
+/// height that was filled in is wrong by about the slope of the surface times the distance to the
+/// next measurement, so the odds are a(c) / (0.013 + slope). a is fitted to simulated worlds; see
+/// docs/benchmarks/accuracy.md. After the heights and the confidences of the grid 16 more must be
+/// readable.
+void finish(const Grid& grid, float least, float* heights, float* confidences) noexcept;
+
 /// Fills the gaps of a grid with pull-push (Gortler, Grzeszczuk, Szeliski, Cohen, The Lumigraph,
 /// SIGGRAPH 1996, section 3.4). Pull computes weighted means on coarser and coarser grids, each
 /// with half as many cells per side. Push fills cells with too little weight from the next coarser

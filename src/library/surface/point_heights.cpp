@@ -128,8 +128,7 @@ class SquareFinder {
     const Between row = between(y, per_cell, middle, last, reaches_edge);
     const IntVector strides = hn::BitCast(di, strides_[grid]);
     const IntVector place = hn::Or(column.first, hn::ShiftLeft<16>(row.first));
-    const IntVector near =
-        hn::Add(hn::BitCast(di, firsts_[grid]), sum_of_products(place, strides));
+    const IntVector near = hn::Add(hn::BitCast(di, firsts_[grid]), sum_of_products(place, strides));
     return {near, hn::Add(near, hn::ShiftRight<16>(strides)), column.share, row.share};
   }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "library/surface/grid.hpp"
 
@@ -50,7 +49,7 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
   }
   const std::size_t readable = total + grids_.front().width + slack;
   heights_.reserve(readable);
-  confidences_.reserve(total);
+  confidences_.reserve(total + slack);
   corrections_.reserve(largest);
   weights_.reserve(largest);
   slopes_.reserve(largest + slack);
@@ -218,17 +217,11 @@ void ResidualPyramid::reserve(GroundSurface& surface) const {
   }
 }
 
-void ResidualPyramid::copy_to(GroundSurface& surface) const noexcept {
+void ResidualPyramid::finish(GroundSurface& surface) noexcept {
   std::vector<GroundSurface::Grid>& copies = surface.start();
   for (std::size_t i = 0; i < copies.size(); ++i) {
-    const Grid& grid = grids_[i];
-    for (std::size_t k = 0; k < grid.size(); ++k) {
-      if (grid.confidences[k] >= min_confidence) continue;
-      grid.heights[k] = std::numeric_limits<float>::quiet_NaN();
-      grid.confidences[k] = 0;
-    }
-    std::copy_n(grid.heights, grid.size(), copies[i].heights.data());
-    std::copy_n(grid.confidences, grid.size(), copies[i].confidences.data());
+    surface::finish(grids_[i], min_confidence, copies[i].heights.data(),
+                    copies[i].confidences.data());
   }
 }
 

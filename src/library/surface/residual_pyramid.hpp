@@ -37,9 +37,9 @@ class ResidualPyramid {
   /// Reserves memory for the grids in `surface`; may throw std::bad_alloc.
   void reserve(GroundSurface& surface) const;
 
-  /// Copies the grids into `surface`, after reserve(). Heights with too little confidence become
-  /// NaN, in the grids too.
-  void copy_to(GroundSurface& surface) const noexcept;
+  /// Copies the grids into `surface`, with calibrated confidences, after reserve(). Heights with
+  /// too little confidence become NaN, in the grids too.
+  void finish(GroundSurface& surface) noexcept;
 
   /// Refines the surface on the coarsest grid, then computes the finer grids from it.
   void refine(const PackedPoints& points, const CoarseSamples& samples, PullPush& pull_push,

@@ -145,7 +145,7 @@ LabelTotals Surface::Pipeline::segment(CloudView cloud, Segmentation& result,
   coarse.finish(pull_push);
   scan_clock.end(Stage::join);
   pyramid.refine(points, samples, pull_push, pool);
-  pyramid.copy_to(result.mutable_surface());
+  pyramid.finish(result.mutable_surface());
   scan_clock.end(Stage::refine);
 
   // Compute the heights of all points above the surface, and label the points by their height
