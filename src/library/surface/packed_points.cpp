@@ -109,6 +109,9 @@ namespace {
 HWY_EXPORT(pack_slice);
 HWY_EXPORT(sort_runs);
 
+/// Number of points that are compared to find out whether points are repeated.
+constexpr std::size_t points_to_compare = 512;
+
 /// Elements that vectors can read or write after the last one.
 constexpr std::size_t slack = 16;
 
@@ -149,6 +152,38 @@ void PackedPoints::sort(std::size_t point_count, const SquareCells& cells) noexc
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) {
     HWY_DYNAMIC_DISPATCH(sort_runs)(runs_.chunk(chunk), next, packed_.data(), sorted_.data());
   }
+  cell_count_ = cells.cell_count();
+  if (repeat(point_count)) remove_repeated();
+}
+
+/// Whether more than a third of the points repeat others. Looks at about 512 points, in cells that
+/// do not depend on the order of the points.
+bool PackedPoints::repeat(std::size_t point_count) noexcept {
+  const auto step = static_cast<std::uint32_t>(1 + point_count / points_to_compare);
+  std::size_t seen = 0;
+  std::size_t different = 0;
+  for (std::uint32_t cell = 0; cell < cell_count_; cell += step) {
+    const std::span<const PackedPoint> held = points(cell, cell + 1);
+    PackedPoint* const copy = packed_.data();
+    std::ranges::copy(held, copy);
+    std::sort(copy, copy + held.size());
+    seen += held.size();
+    different += static_cast<std::size_t>(std::unique(copy, copy + held.size()) - copy);
+  }
+  return 3 * different < 2 * seen;
+}
+
+void PackedPoints::remove_repeated() noexcept {
+  PackedPoint* const all = sorted_.data();
+  PackedPoint* kept = all;
+  for (std::uint32_t cell = 0; cell < cell_count_; ++cell) {
+    PackedPoint* const first = all + begins()[cell];
+    PackedPoint* const last = all + begins()[cell + 1];
+    begins_.data()[cell] = static_cast<std::uint32_t>(kept - all);
+    std::sort(first, last);
+    kept = std::unique_copy(first, last, kept);
+  }
+  begins_.data()[cell_count_] = static_cast<std::uint32_t>(kept - all);
 }
 
 }  // namespace flagstone::surface

@@ -29,7 +29,10 @@ inline constexpr int z_per_metre = 512;
 /// Side of the cell that x and y of a packed point refer to, metres.
 inline constexpr int packed_cell = 2;
 
-/// The points of a scan, packed and sorted by cell. Within a cell their order is the input order.
+/// The points of a scan, packed and sorted by cell. Within a cell they have no particular order.
+///
+/// If more than a third of the points repeat others, as with some sensors in dual-return mode,
+/// equal points of a cell become one. Repeated points then have no influence on the surface.
 class PackedPoints {
  public:
   /// Reserves memory for scans of up to `points` points. May throw std::bad_alloc.
@@ -60,7 +63,11 @@ class PackedPoints {
   [[nodiscard]] const std::uint8_t* unusual() const noexcept { return unusual_.data(); }
 
  private:
-  Buffer<PackedPoint> packed_;  ///< in input order
+  [[nodiscard]] bool repeat(std::size_t point_count) noexcept;
+  void remove_repeated() noexcept;
+
+  std::uint32_t cell_count_ = 0;
+  Buffer<PackedPoint> packed_;  ///< in input order; after sort() free for other uses
   Buffer<PackedPoint> sorted_;
   Buffer<std::uint8_t> unusual_;
   plane_fits::ScanRuns runs_;
