@@ -15,7 +15,7 @@ struct GroundSample {
   std::array<float, 3> normal{};  ///< unit length, z > 0; NaN if unknown
   float slope = 0;  ///< angle between normal and z axis, radians, 0 to pi/2; NaN if unknown
   /// Probability, 0 to 1, that the height is within 10 cm of the ground, as found in simulated
-  /// worlds (docs/benchmarks/accuracy.md); 0 if the height is unknown.
+  /// scenes (docs/benchmarks/accuracy.md); 0 if the height is unknown.
   float confidence = 0;
 };
 
@@ -39,7 +39,7 @@ class GroundSurface {
     /// within a row: the centre of cell (row, column) is x = (column + 0.5 - width / 2) * cell,
     /// y = (row + 0.5 - width / 2) * cell.
     std::vector<float> heights;
-    std::vector<float> confidences;  ///< confidence of each height, 0 to 1
+    std::vector<float> confidences;  ///< of each height, 0 to 1; see GroundSample::confidence
 
     /// Half the side of the grid, metres: it covers |x| <= extent and |y| <= extent.
     [[nodiscard]] float extent() const noexcept { return static_cast<float>(width) * cell / 2; }

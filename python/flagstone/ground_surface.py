@@ -23,7 +23,7 @@ class GroundSample(NamedTuple):
     slope: npt.NDArray[np.float32]
     """S: angle between the normal and the z axis, radians, 0 to pi/2; NaN if unknown."""
     confidence: npt.NDArray[np.float32]
-    """S: 0 (unknown) to 1 (measured at this position)."""
+    """S: probability, 0 to 1, that the height is within 10 cm of the ground, as found in simulated scenes; 0 if unknown."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +38,7 @@ class Grid:
     heights: npt.NDArray[np.float32]
     """(W, W): z of the ground at the centre of each cell, metres; NaN if unknown. A read-only view."""
     confidences: npt.NDArray[np.float32]
-    """(W, W): 0 (unknown) to 1 (measured). A read-only view."""
+    """(W, W): probability that the height is within 10 cm of the ground; 0 if unknown. A read-only view."""
 
     @property
     def extent(self) -> float:
