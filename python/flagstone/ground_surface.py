@@ -23,7 +23,7 @@ class GroundSample(NamedTuple):
     slope: npt.NDArray[np.float32]
     """S: angle between the normal and the z axis, radians, 0 to pi/2; NaN if unknown."""
     confidence: npt.NDArray[np.float32]
-    """S: probability, 0 to 1, that the height is within 10 cm of the ground, as found in simulated scenes; 0 if unknown."""
+    """S: probability that the height is within 10 cm of the ground, as found in simulated scenes; 0 if unknown."""
 
 
 @dataclass(frozen=True, eq=False)

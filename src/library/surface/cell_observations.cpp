@@ -74,7 +74,7 @@ inline constexpr std::int16_t reflection_gap = units(0.2);
 /// Minimum depth of a lower bound below the surface.
 inline constexpr std::int16_t least_lowering = units(0.03);
 
-/// What the points of 32 cells tell, heights in units of a packed z.
+/// Statistics of the points of 32 cells, heights in units of a packed z.
 struct alignas(64) TileStatistics {
   using PerCell = std::array<std::int16_t, tile_cells>;
   PerCell seen;        ///< number of points near the surface

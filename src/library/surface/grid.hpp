@@ -41,7 +41,7 @@ void correct(const float* corrections, const float* confidences, bool inner,
 ///
 /// The calibrated confidence is the probability that the height is within 10 cm of the ground. A
 /// height that was filled in is wrong by about the slope of the surface times the distance to the
-/// next measurement, so the odds are a(c) / (0.013 + slope). a is fitted to simulated worlds; see
+/// next measurement, so the odds are a(c) / (0.013 + slope). a is fitted to simulated scenes; see
 /// docs/benchmarks/accuracy.md. After the heights and the confidences of the grid 16 more must be
 /// readable.
 void finish(const Grid& grid, float least, float* heights, float* confidences) noexcept;

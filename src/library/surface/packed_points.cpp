@@ -76,7 +76,7 @@ HWY_INLINE void copy_up_to_8(const PackedPoint* from, std::size_t count, PackedP
 #endif
 }
 
-/// Copies each run to the place of its cell, `next[cell]`, and moves that place on. Most runs take
+/// Copies each run to the next position of its cell, `next[cell]`, and advances it. Most runs take
 /// one step of up to eight points, which avoids mispredicted branches.
 void sort_runs(const plane_fits::ScanRuns::Chunk& runs, std::uint32_t* HWY_RESTRICT next,
                const PackedPoint* HWY_RESTRICT points, PackedPoint* HWY_RESTRICT sorted) {
@@ -156,7 +156,7 @@ void PackedPoints::sort(std::size_t point_count, const SquareCells& cells) noexc
   if (repeat(point_count)) remove_repeated();
 }
 
-/// Whether more than a third of the points repeat others. Looks at about 512 points, in cells that
+/// Whether more than a third of the points repeat others. Compares about 512 points, in cells that
 /// do not depend on the order of the points.
 bool PackedPoints::repeat(std::size_t point_count) noexcept {
   const auto step = static_cast<std::uint32_t>(1 + point_count / points_to_compare);

@@ -32,7 +32,7 @@ struct ObstacleCells {
   float low, high;     ///< metres above the surface
 };
 
-/// What is the same for all points of a scan.
+/// Data that all points of a scan share.
 struct MeasuredScan {
   CloudView cloud;
   const std::uint8_t* unusual;  ///< see PackedPoints::unusual
@@ -242,7 +242,7 @@ HWY_INLINE void look_up(const GridTables& tables, Lookups& lookups) {
 }
 
 /// The height of the surface at the points of a vector, bit-identical to GroundSurface::height.
-/// They use the squares from `first` on, as far as `starts` tells.
+/// Their squares are consecutive from `first`; `starts` has a bit for each point with a new square.
 HWY_INLINE FloatVector surface_at(const Lookups& lookups, std::size_t i, std::size_t first,
                                   std::uint32_t starts, bool reaches_edge) {
   const FloatTag d;

@@ -54,7 +54,7 @@ class PointHeights {
   /// the point is invalid or out of range, or if the surface is unknown there. Several threads may
   /// process different chunks at the same time.
   ///
-  /// `unusual` tells which points have no cell; see PackedPoints::unusual.
+  /// `unusual` shows which points have no cell; see PackedPoints::unusual.
   void measure(CloudView cloud, const std::uint8_t* unusual, std::size_t chunk,
                const Results& results, LabelTotals& totals) noexcept;
 

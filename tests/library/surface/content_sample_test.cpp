@@ -131,7 +131,7 @@ TEST_P(ContentSample, IsTheSameOnEveryInstructionSet) {
   }
 }
 
-TEST_P(ContentSample, SpreadsOverPositionsAndHeights) {
+TEST_P(ContentSample, CoversAllPositionsAndHeights) {
   // Points of a wall and of ground, at the positions of a lattice.
   Points points;
   for (std::uint32_t i = 0; i < 1024; ++i) points.push_back(i % 32 * 8 | (i / 32 * 8) << 8);

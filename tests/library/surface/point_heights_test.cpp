@@ -31,7 +31,7 @@ class JoinedGrids {
     for (const GroundSurface::Grid& grid : made.grids()) {
       heights_.insert(heights_.end(), grid.heights.begin(), grid.heights.end());
     }
-    // What can be read after the heights, but must not be used: a row and two more.
+    // Values that can be read after the heights, but must not be used: a row and two more.
     heights_.insert(heights_.end(), made.grids().back().width + 2, 1e9f);
     std::size_t first = 0;
     for (const GroundSurface::Grid& grid : made.grids()) {
@@ -242,7 +242,7 @@ TEST_P(PointHeightsOn, NothingIsGroundIfTheSurfaceIsUnknown) {
   EXPECT_EQ(measured({{10, 0, -200}}, unknown).labels.front(), Label::noise);
 }
 
-TEST_P(PointHeightsOn, APointHasTheSameResultInAnyPlaceOfACloud) {
+TEST_P(PointHeightsOn, APointHasTheSameResultAtAnyIndexOfACloud) {
   std::vector<Point> cloud = tests::corrupted_cloud(3000, 5);
   cloud.push_back({10.1f, 0.1f, -1});
   cloud.push_back({10.4f, 0.4f, -1.9f});  // undecided until the cell is known to be an obstacle
