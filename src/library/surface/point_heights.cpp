@@ -32,7 +32,7 @@ struct ObstacleCells {
   float low, high;     ///< metres above the surface
 };
 
-/// Data that all points of a scan share.
+/// Data for all points of a scan.
 struct MeasuredScan {
   CloudView cloud;
   const std::uint8_t* unusual;  ///< see PackedPoints::unusual
