@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <flagstone/segmentation.hpp>
 #include <flagstone/surface.hpp>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -31,10 +32,10 @@
 #include "lab/sim/ground_step.hpp"
 #include "lab/sim/noise.hpp"
 #include "lab/sim/scene.hpp"
-#include "library/plane_fits/bin_groups.hpp"
-#include "library/plane_fits/scan_points.hpp"
+#include "library/plane_fits/scan_runs.hpp"
 #include "library/surface/cell_observations.hpp"
 #include "library/surface/grid.hpp"
+#include "library/surface/packed_points.hpp"
 #include "library/surface/square_cells.hpp"
 
 namespace flagstone::performance {
@@ -73,7 +74,7 @@ class OutputDirectory {
 /// A grid with its own memory, in the form that src/library/surface uses.
 struct OwnGrid {
   explicit OwnGrid(float cell, std::size_t width)
-      : heights(width * width),
+      : heights(width * width + 16),  // find_planes() reads 16 more
         confidences(width * width),
         grid{.cell = cell,
              .width = width,
@@ -131,62 +132,71 @@ Json patches_json(const Segmentation& result, const SurfaceConfig& config) {
   return patches;
 }
 
-/// The points of a scan sorted by cell, as in the method: the points of a cell of any level are
-/// contiguous.
+/// The points of a scan packed and sorted by cell, as in the method: the points of a cell of any
+/// level are contiguous.
 class SortedPoints {
  public:
-  SortedPoints(const sim::SimulatedScan& scan, const SurfaceConfig& config)
-      : cells_(config), groups_(plane_fits::Listing::points) {
+  SortedPoints(const sim::SimulatedScan& scan, const SurfaceConfig& config) : cells_(config) {
     const CloudView cloud(scan.xyzi.data(), scan.size(), 4);
-    plane_fits::ScanPoints points;
-    points.reserve(cloud.size());
-    groups_.reserve(cloud.size(), cells_.group_count());
-    for (std::size_t i = 0; i < plane_fits::ScanPoints::chunk_count(cloud.size()); ++i) {
-      surface::read_chunk(cloud, i, cells_, points);
+    points_.reserve(cloud.size(), cells_);
+    for (std::size_t i = 0; i < plane_fits::chunk_count(cloud.size()); ++i) {
+      points_.read(cloud, i, cells_);
     }
-    groups_.group(points, cloud.size(), cells_.group_count());
+    points_.sort(cloud.size(), cells_);
   }
 
-  [[nodiscard]] std::span<const plane_fits::MovedPoint> all() const {
-    return groups_.points(0, cells_.cell_count());
-  }
+  [[nodiscard]] const surface::PackedPoint* data() const { return points_.data(); }
 
   /// The cells of a grid with at least three points.
   [[nodiscard]] std::vector<OccupiedCell> cells_of(const surface::Grid& grid) const {
     std::vector<OccupiedCell> found;
-    const std::span<const plane_fits::MovedPoint> points = all();
-    for (std::uint32_t begin = 0; begin < points.size();) {
-      const OccupiedCell cell = cell_around(points[begin], grid);
-      std::uint32_t end = begin + 1;
-      while (end < points.size() && is_in(points[end], cell, grid)) ++end;
-      if (cell.row < grid.width && end - begin >= 3) {
-        found.push_back(
-            {.first = begin, .count = end - begin, .row = cell.row, .column = cell.column});
+    const auto along = static_cast<std::uint32_t>(surface::block_size / grid.cell);  // per block
+    const int blocks = static_cast<int>(grid.width / along);
+    const int first_block = cells_.half_blocks() - blocks / 2;
+    for (int row = 0; row < blocks; ++row) {
+      for (int column = 0; column < blocks; ++column) {
+        const surface::CellRange block = cells_.block(first_block + column, first_block + row);
+        const std::uint32_t each = (block.last - block.first) / (along * along);
+        for (std::uint32_t i = 0; i < along * along; ++i) {
+          const std::uint32_t* const begins = points_.begins() + block.first + i * each;
+          const std::uint32_t count = begins[each] - begins[0];
+          if (count < 3) continue;
+          const surface::InBlock in_block = surface::in_z_order[i];
+          const std::size_t place =
+              (static_cast<std::size_t>(row) * along + in_block.row) * grid.width +
+              static_cast<std::size_t>(column) * along + in_block.column;
+          found.push_back(
+              {.first = begins[0], .count = count, .place = static_cast<std::uint32_t>(place)});
+        }
       }
-      begin = end;
     }
     return found;
   }
 
  private:
-  /// The cell of a point. Outside the grid, row and column are the width of the grid.
-  static OccupiedCell cell_around(const plane_fits::MovedPoint& point, const surface::Grid& grid) {
-    const auto outside = static_cast<std::uint32_t>(grid.width);
-    const bool inside = std::max(std::abs(point.x), std::abs(point.y)) < grid.extent();
-    const auto index = [&](float metres) {
-      return inside ? static_cast<std::uint32_t>((metres + grid.extent()) / grid.cell) : outside;
-    };
-    return {.first = 0, .count = 0, .row = index(point.y), .column = index(point.x)};
-  }
-  static bool is_in(const plane_fits::MovedPoint& point, const OccupiedCell& cell,
-                    const surface::Grid& grid) {
-    const OccupiedCell own = cell_around(point, grid);
-    return own.row == cell.row && own.column == cell.column;
-  }
-
   surface::SquareCells cells_;
-  plane_fits::BinGroups groups_;
+  surface::PackedPoints points_;
 };
+
+/// The gates of the cells of a level, in units of a packed z.
+std::vector<std::int16_t> gates_of(const surface::Grid& grid, const Refinement& settings,
+                                   int level) {
+  const float gate = settings.gate * std::pow(settings.gate_factor, static_cast<float>(level));
+  std::vector<std::int16_t> gates;
+  for (std::size_t row = 0; row < grid.width; ++row) {
+    for (std::size_t column = 0; column < grid.width; ++column) {
+      const float range = std::hypot(grid.center(column), grid.center(row));
+      gates.push_back(static_cast<std::int16_t>((gate + settings.gate_per_metre * range) *
+                                                static_cast<float>(surface::z_per_metre)));
+    }
+  }
+  return gates;
+}
+
+surface::CellSize size_of(const OccupiedCell& cell) {
+  if (cell.count <= surface::small_cell) return surface::CellSize::small;
+  return cell.count <= surface::medium_cell ? surface::CellSize::medium : surface::CellSize::large;
+}
 
 /// The surface at the start of a level: the result of the previous levels on the grid of this
 /// level.
@@ -209,19 +219,28 @@ void write_observations(const OutputDirectory& output, const SortedPoints& point
   std::vector<float> corrections(grid.size());
   std::vector<float> weights(grid.size());
   const Refinement& settings = config.refinement;
-  surface::observe(
-      {.points = points.all().data(),
-       .surface = &grid,
-       .gate = settings.gate * std::pow(settings.gate_factor, static_cast<float>(level)),
-       .gate_per_metre = settings.gate_per_metre,
-       .max_clutter_ratio = settings.max_clutter_ratio,
-       .lower_bound_weight = settings.lower_bound_weight,
-       .corrections = corrections.data(),
-       .weights = weights.data()},
-      cells, surface::CellSize::any);
+  std::vector<std::int32_t> slopes(grid.size() + 16);
+  std::vector<std::int32_t> offsets(grid.size() + 16);
+  const surface::CellPlanes planes{.slopes = slopes.data(), .offsets = offsets.data()};
+  surface::find_planes(grid, -config.sensor_height, planes);
+  const std::vector<std::int16_t> gates = gates_of(grid, settings, level);
+  const surface::Observations observations{.points = points.data(),
+                                           .planes = planes,
+                                           .gates = gates.data(),
+                                           .max_clutter_ratio = settings.max_clutter_ratio,
+                                           .lower_bound_weight = settings.lower_bound_weight,
+                                           .corrections = corrections.data(),
+                                           .weights = weights.data()};
+  for (const auto size :
+       {surface::CellSize::small, surface::CellSize::medium, surface::CellSize::large}) {
+    std::vector<OccupiedCell> of_size;
+    std::ranges::copy_if(cells, std::back_inserter(of_size),
+                         [&](const OccupiedCell& cell) { return size_of(cell) == size; });
+    surface::observe(observations, of_size, size);
+  }
   std::vector<float> occupied(grid.size());
   for (const OccupiedCell& cell : cells) {
-    occupied[cell.row * grid.width + cell.column] = static_cast<float>(cell.count);
+    occupied[cell.place] = static_cast<float>(cell.count);
   }
   std::vector<float> all = std::move(corrections);
   all.insert(all.end(), weights.begin(), weights.end());

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+//
+// Functions of src/library/core/simd/lanes-inl.hpp for sixteen lanes, for tests.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace flagstone::tests {
+
+using Lanes = std::array<std::int32_t, 16>;
+using FloatLanes = std::array<float, 16>;
+
+Lanes sum_of_products(const Lanes& pairs, const Lanes& factors);
+Lanes saturated_pairs(const Lanes& first, const Lanes& second);
+
+/// ranks_of() for the lanes of one vector. The lanes after them are 0.
+Lanes ranks_of(std::uint32_t bits);
+
+/// Looks up elements of a table of two vectors. Each index is less than twice vector_length().
+FloatLanes lookup_in_two(const float* table, const Lanes& indices);
+
+/// Looks up elements of a table of eight numbers.
+FloatLanes lookup_in_eight(const float* table, const Lanes& indices);
+
+/// bits_of() for the lanes of one vector that are not 0.
+std::uint32_t bits_of(const Lanes& lanes);
+
+/// Number of lanes per vector.
+std::size_t vector_length();
+
+}  // namespace flagstone::tests
