@@ -26,6 +26,9 @@ constexpr float min_confidence = 1.0f / 16;
 /// Elements that vectors can read or write after the last one.
 constexpr std::size_t slack = 16;
 
+/// Neighbours along the Z-order curve that are skipped at once if they contain no points.
+constexpr std::size_t cells_of_group = 8;
+
 /// Number of cells per job.
 constexpr std::size_t cells_of_a_job = 256;
 
@@ -137,16 +140,24 @@ void ResidualPyramid::list_cells_of(const Block& block, std::size_t level,
     next[size] = list.cells[size].data() + list.counts[size];
   }
   auto& [small, medium, large] = next;
-  for (const std::uint32_t place : list.places) {
-    const std::uint32_t first = *begins;
-    begins += each;
-    const std::uint32_t count = *begins - first;
-    const OccupiedCell cell{.first = first, .count = count, .place = first_place + place};
-    // Without branches, because the number of points in a cell is hard to predict.
-    *small = *medium = *large = cell;
-    small += static_cast<std::ptrdiff_t>(count >= fewest_points_in_cell && count <= small_cell);
-    medium += static_cast<std::ptrdiff_t>(count > small_cell && count <= medium_cell);
-    large += static_cast<std::ptrdiff_t>(count > medium_cell);
+  const std::uint32_t* place = list.places.data();
+  for (std::size_t rest = list.places.size(); rest > 0; rest -= cells_of_group) {
+    const std::uint32_t* const group = begins;
+    const std::uint32_t* const places = place;
+    begins += cells_of_group * each;
+    place += cells_of_group;
+    if (*group == *begins) continue;  // no points
+    for (std::size_t i = 0; i < cells_of_group; ++i) {
+      const std::uint32_t first = group[i * each];
+      const std::uint32_t count = group[(i + 1) * each] - first;
+      const OccupiedCell cell{
+          .first = first, .count = count, .place = first_place + places[i]};
+      // Without branches, because the number of points in a cell is hard to predict.
+      *small = *medium = *large = cell;
+      small += static_cast<std::ptrdiff_t>(count >= fewest_points_in_cell && count <= small_cell);
+      medium += static_cast<std::ptrdiff_t>(count > small_cell && count <= medium_cell);
+      large += static_cast<std::ptrdiff_t>(count > medium_cell);
+    }
   }
   for (std::size_t size = 0; size < cell_sizes; ++size) {
     list.counts[size] = static_cast<std::size_t>(next[size] - list.cells[size].data());
