@@ -38,7 +38,10 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-// Plain loops, which the compiler vectorises for each instruction set.
+/// For the rest of a row that does not fill a vector.
+using ShortTag = hn::CappedTag<float, 4>;
+
+// Loops without vectors are vectorised by the compiler for each instruction set.
 
 /// Number of cells over which corrections fade at an inner edge.
 inline constexpr std::size_t fading = 3;
@@ -98,6 +101,41 @@ void correct_values(const float* HWY_RESTRICT corrections, const float* HWY_REST
   }
 }
 
+/// Weighted means of two by two cells in two rows, for as many columns as fill whole vectors of D.
+/// Returns the number of columns.
+template <class D>
+HWY_INLINE std::size_t pull_columns(D d, const FilledGrid& fine, std::size_t upper,
+                                    std::size_t lower, float lower_there, float full,
+                                    std::size_t first, std::size_t pairs, float* values,
+                                    float* weights) {
+  const auto most = hn::Set(d, full);
+  const auto there = hn::Set(d, lower_there);
+  const float* const v0 = fine.values + upper * fine.stride;
+  const float* const v1 = fine.values + lower * fine.stride;
+  const float* const w0 = fine.weights + upper * fine.stride;
+  const float* const w1 = fine.weights + lower * fine.stride;
+  std::size_t column = first;
+  for (; column + hn::Lanes(d) <= pairs; column += hn::Lanes(d)) {
+    hn::Vec<D> value_a, value_b, value_c, value_d, a, b, c, e;
+    hn::LoadInterleaved2(d, v0 + 2 * column, value_a, value_b);
+    hn::LoadInterleaved2(d, v1 + 2 * column, value_c, value_d);
+    hn::LoadInterleaved2(d, w0 + 2 * column, a, b);
+    hn::LoadInterleaved2(d, w1 + 2 * column, c, e);
+    a = hn::Min(a, most);
+    b = hn::Min(b, most);
+    c = hn::Mul(hn::Min(c, most), there);
+    e = hn::Mul(hn::Min(e, most), there);
+    const auto weight = hn::Add(hn::Add(a, b), hn::Add(c, e));
+    const auto sum = hn::Add(hn::Add(hn::Mul(a, value_a), hn::Mul(b, value_b)),
+                             hn::Add(hn::Mul(c, value_c), hn::Mul(e, value_d)));
+    const auto has_weight = hn::Gt(weight, hn::Zero(d));
+    const auto divisor = hn::IfThenElse(has_weight, weight, hn::Set(d, 1.0f));
+    hn::StoreU(hn::IfThenElseZero(has_weight, hn::Div(sum, divisor)), d, values + column);
+    hn::StoreU(weight, d, weights + column);
+  }
+  return column;
+}
+
 /// Weighted means of two by two cells. If the width is odd, the last row and column have no
 /// partner.
 void pull(const FilledGrid& fine, const FilledGrid& coarse, float full) {
@@ -123,9 +161,11 @@ void pull(const FilledGrid& fine, const FilledGrid& coarse, float full) {
       weights[column] = weight;
     };
     const std::size_t pairs = fine.width / 2;
-    for (std::size_t column = 0; column < pairs; ++column) {
-      pull_cell(column, 2 * column, 2 * column + 1, 1.0f);
-    }
+    std::size_t column =
+        pull_columns(FloatTag(), fine, upper, lower, lower_there, full, 0, pairs, values, weights);
+    column = pull_columns(ShortTag(), fine, upper, lower, lower_there, full, column, pairs, values,
+                          weights);
+    for (; column < pairs; ++column) pull_cell(column, 2 * column, 2 * column + 1, 1.0f);
     if (pairs < coarse.width) pull_cell(pairs, 2 * pairs, 2 * pairs, 0.0f);
   }
 }
@@ -145,40 +185,83 @@ void frame(const FilledGrid& grid) {
   }
 }
 
-/// Fills the finer grid from the coarser one, which has a frame and contains confidences.
+/// A row of a coarser grid and its neighbour, interpolated at the centres of a row of the finer
+/// grid. Elements -1 and `width` are the frame.
+struct FramedRow {
+  std::array<float, most_width / 2 + 2 * lanes + 2> values, confidences;
+};
+
+void interpolate_row(const FilledGrid& coarse, std::ptrdiff_t near, std::ptrdiff_t far,
+                     FramedRow& row) {
+  const auto stride = static_cast<std::ptrdiff_t>(coarse.stride);
+  const float* HWY_RESTRICT v_near = coarse.values + near * stride - 1;
+  const float* HWY_RESTRICT v_far = coarse.values + far * stride - 1;
+  const float* HWY_RESTRICT c_near = coarse.weights + near * stride - 1;
+  const float* HWY_RESTRICT c_far = coarse.weights + far * stride - 1;
+  for (std::size_t i = 0; i < coarse.width + 2; ++i) {
+    row.values[i] = 0.75f * v_near[i] + 0.25f * v_far[i];
+    row.confidences[i] = 0.75f * c_near[i] + 0.25f * c_far[i];
+  }
+}
+
+/// Fills pairs of cells of a row, for as many pairs as fill whole vectors of D. Returns the number
+/// of pairs.
+template <class D>
+HWY_INLINE std::size_t push_pairs(D d, const FramedRow& row, float per_weight, std::size_t first,
+                                  std::size_t pairs, float* values, float* weights) {
+  const auto one = hn::Set(d, 1.0f);
+  const auto near_share = hn::Set(d, 0.75f);
+  const auto far_share = hn::Set(d, 0.25f);
+  std::size_t pair = first;
+  for (; pair + hn::Lanes(d) <= pairs; pair += hn::Lanes(d)) {
+    const auto push_cells = [&](std::size_t beside, hn::Vec<D>& value,
+                                hn::Vec<D>& weight) HWY_ATTR {
+      const auto blended = [&](const auto& coarse) HWY_ATTR {
+        return hn::Add(hn::Mul(near_share, hn::LoadU(d, coarse.data() + pair + 1)),
+                       hn::Mul(far_share, hn::LoadU(d, coarse.data() + beside)));
+      };
+      const auto known = hn::Min(one, hn::Mul(weight, hn::Set(d, per_weight)));
+      const auto rest = hn::Sub(one, known);
+      value = hn::Add(hn::Mul(known, value), hn::Mul(rest, blended(row.values)));
+      weight = hn::Add(known, hn::Mul(rest, hn::Mul(hn::Set(d, 0.5f), blended(row.confidences))));
+    };
+    hn::Vec<D> left, right, left_weight, right_weight;
+    hn::LoadInterleaved2(d, values + 2 * pair, left, right);
+    hn::LoadInterleaved2(d, weights + 2 * pair, left_weight, right_weight);
+    push_cells(pair, left, left_weight);
+    push_cells(pair + 2, right, right_weight);
+    hn::StoreInterleaved2(left, right, d, values + 2 * pair);
+    hn::StoreInterleaved2(left_weight, right_weight, d, weights + 2 * pair);
+  }
+  return pair;
+}
+
+/// Fills the finer grid from the coarser one, which has a frame and contains confidences. Bilinear
+/// between centres: three quarters of the enclosing coarse cell, one quarter of the next.
 void push(const FilledGrid& coarse, const FilledGrid& fine, float full) {
   const float per_weight = 1 / full;
+  FramedRow framed;
   for (std::size_t row = 0; row < fine.width; ++row) {
-    // Bilinear between centres: three quarters of the enclosing coarse cell, one quarter of the
-    // next.
     const auto near = static_cast<std::ptrdiff_t>(row / 2);
-    const std::ptrdiff_t far = row % 2 == 0 ? near - 1 : near + 1;
-    const auto stride = static_cast<std::ptrdiff_t>(coarse.stride);
-    const float* HWY_RESTRICT v_near = coarse.values + near * stride;
-    const float* HWY_RESTRICT v_far = coarse.values + far * stride;
-    const float* HWY_RESTRICT c_near = coarse.weights + near * stride;
-    const float* HWY_RESTRICT c_far = coarse.weights + far * stride;
+    interpolate_row(coarse, near, row % 2 == 0 ? near - 1 : near + 1, framed);
     float* HWY_RESTRICT values = fine.values + row * fine.stride;
     float* HWY_RESTRICT weights = fine.weights + row * fine.stride;
-    const auto push_cell = [&](std::size_t column, std::ptrdiff_t here, std::ptrdiff_t beside) {
-      const float value = 0.75f * (0.75f * v_near[here] + 0.25f * v_far[here]) +
-                          0.25f * (0.75f * v_near[beside] + 0.25f * v_far[beside]);
-      const float confidence = 0.75f * (0.75f * c_near[here] + 0.25f * c_far[here]) +
-                               0.25f * (0.75f * c_near[beside] + 0.25f * c_far[beside]);
+    const auto push_cell = [&](std::size_t column, std::size_t here, std::size_t beside) {
+      const float value = 0.75f * framed.values[here] + 0.25f * framed.values[beside];
+      const float confidence =
+          0.75f * framed.confidences[here] + 0.25f * framed.confidences[beside];
       const float known = std::min(1.0f, weights[column] * per_weight);
       values[column] = known * values[column] + (1 - known) * value;
       weights[column] = known + (1 - known) * (0.5f * confidence);
     };
     const std::size_t pairs = fine.width / 2;
-    for (std::size_t pair = 0; pair < pairs; ++pair) {
-      const auto here = static_cast<std::ptrdiff_t>(pair);
-      push_cell(2 * pair, here, here - 1);
-      push_cell(2 * pair + 1, here, here + 1);
+    std::size_t pair = push_pairs(FloatTag(), framed, per_weight, 0, pairs, values, weights);
+    pair = push_pairs(ShortTag(), framed, per_weight, pair, pairs, values, weights);
+    for (; pair < pairs; ++pair) {
+      push_cell(2 * pair, pair + 1, pair);
+      push_cell(2 * pair + 1, pair + 1, pair + 2);
     }
-    if (fine.width % 2 != 0) {
-      const auto here = static_cast<std::ptrdiff_t>(pairs);
-      push_cell(2 * pairs, here, here - 1);
-    }
+    if (fine.width % 2 != 0) push_cell(2 * pairs, pairs + 1, pairs);
   }
 }
 
