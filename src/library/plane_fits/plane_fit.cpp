@@ -40,7 +40,7 @@ void PlaneFit::fit(BinBatch& batch, const Seeds& seeds, StageClock& clock,
   GroundSets& sets = result.sets;
   std::array<FirstSet, batch_size> first_sets{};
   for (std::size_t i = 0; i < batch.count(); ++i) {
-    float origin = static_cast<float>(initial_heights[i]);
+    auto origin = static_cast<float>(initial_heights[i]);
     if (settings_.exact) {
       origin = on_grid(initial_heights[i]);
     } else if (initial_heights[i] == settings_.height_without_seeds) {

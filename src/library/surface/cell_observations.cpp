@@ -131,7 +131,7 @@ void find_planes_of(const Grid& grid, float expected_ground, const CellPlanes& p
   const float two_sided = slope_unit / (2 * grid.cell);
   const float one_sided = slope_unit / grid.cell;
   HWY_ALIGN std::array<float, most_width + lanes> factors;
-  std::fill(factors.begin(), factors.end(), two_sided);
+  std::ranges::fill(factors, two_sided);
   factors[0] = factors[width - 1] = one_sided;
 
   HWY_ALIGN std::array<float, most_width + 2 * lanes> framed{};  // a row, its ends repeated

@@ -50,7 +50,7 @@ struct SampleSize {
 HWY_INLINE std::int32_t sample_threshold(const PackedPoint* points, std::size_t count,
                                          SampleSize size, std::int32_t factors) {
   const IntTag di;
-  std::uint32_t threshold = static_cast<std::uint32_t>((std::uint64_t{size.wanted} << 16U) / count);
+  auto threshold = static_cast<std::uint32_t>((std::uint64_t{size.wanted} << 16U) / count);
   const auto* HWY_RESTRICT from = reinterpret_cast<const std::int32_t*>(points);
   for (; threshold > 0; threshold = threshold * 3 / 4) {
     const IntVector limit = hn::Set(di, static_cast<std::int32_t>(threshold));
@@ -100,7 +100,7 @@ HWY_INLINE std::size_t take_sample(const PackedPoint* points, std::size_t count,
   const auto* HWY_RESTRICT from = reinterpret_cast<const std::int32_t*>(points);
   auto* const to = reinterpret_cast<std::int32_t*>(sample);
   // The same thresholds as sample_threshold(), but most samples are taken in one pass.
-  std::uint32_t threshold = static_cast<std::uint32_t>((std::uint64_t{size.wanted} << 16U) / count);
+  auto threshold = static_cast<std::uint32_t>((std::uint64_t{size.wanted} << 16U) / count);
   for (; threshold > 0; threshold = threshold * 3 / 4) {
     const IntVector limit = hn::Set(di, static_cast<std::int32_t>(threshold));
     std::size_t sampled = 0;
