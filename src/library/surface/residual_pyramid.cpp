@@ -150,8 +150,7 @@ void ResidualPyramid::list_cells_of(const Block& block, std::size_t level,
     for (std::size_t i = 0; i < cells_of_group; ++i) {
       const std::uint32_t first = group[i * each];
       const std::uint32_t count = group[(i + 1) * each] - first;
-      const OccupiedCell cell{
-          .first = first, .count = count, .place = first_place + places[i]};
+      const OccupiedCell cell{.first = first, .count = count, .place = first_place + places[i]};
       // Without branches, because the number of points in a cell is hard to predict.
       *small = *medium = *large = cell;
       small += static_cast<std::ptrdiff_t>(count >= fewest_points_in_cell && count <= small_cell);

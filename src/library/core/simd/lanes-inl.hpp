@@ -81,13 +81,13 @@ class Table8 {
 #if HWY_TARGET <= HWY_AVX2
   HWY_INLINE explicit Table8(const float* table)
 #if HWY_TARGET <= HWY_AVX3
-      : numbers_{_mm512_castps256_ps512(_mm256_loadu_ps(table))} {
-  }
+      : numbers_{_mm512_castps256_ps512(_mm256_loadu_ps(table))} {}
 #else
       : numbers_{_mm256_loadu_ps(table)} {
   }
 #endif
-  HWY_INLINE FloatVector operator[](IntVector index) const {
+        HWY_INLINE FloatVector
+        operator[](IntVector index) const {
     return hn::TableLookupLanes(numbers_, hn::IndicesFromVec(FloatTag(), index));
   }
 
