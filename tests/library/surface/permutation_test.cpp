@@ -15,6 +15,7 @@
 #include <numeric>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "files/io/cloud.hpp"
@@ -67,7 +68,7 @@ std::vector<Order> orders_of(const std::vector<Point>& cloud) {
       const float value = key(cloud[i]);
       return std::isnan(value) ? -inf : value;
     };
-    std::ranges::stable_sort(order, {}, number);
+    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(number(i), i); });
     return order;
   };
   std::vector<Order> orders = {
