@@ -58,12 +58,13 @@ constexpr std::size_t not_scored = 2 * (range_bands.size() + 1);
 
 std::uint32_t cell_of(Point p) {
   constexpr float half_side = range_bands.back();
-  const float x = p.x + half_side;
-  const float y = p.y + half_side;
-  const auto is_covered = [](float v) { return v >= 0 && v < 2 * half_side; };  // false for NaN
-  if (!is_covered(x) || !is_covered(y)) return no_cell;
-  return static_cast<std::uint32_t>(x / cell_size) * row_cells +
-         static_cast<std::uint32_t>(y / cell_size);
+  const auto is_covered = [](float v) { return v >= -half_side && v < half_side; };  // not NaN
+  if (!is_covered(p.x) || !is_covered(p.y)) return no_cell;
+  // Exact, so that points next to the edge of a cell are not moved across it.
+  const auto index = [](float v) {
+    return static_cast<std::uint32_t>(std::floor(v / cell_size) + half_side / cell_size);
+  };
+  return index(p.x) * row_cells + index(p.y);
 }
 
 /// Index of the range band of a point; bands.size() beyond the last band and for non-finite points.
