@@ -174,7 +174,7 @@ def test_quads_and_surface_of_a_tilted_sensor_match_its_points() -> None:
     for corners in (quads.reshape(-1, 3), surface_mesh(result).corners):
         assert len(corners) > 100
         distances = np.abs(corners @ axes[2] + 1.73)
-        # Planes of patches with few points lean a little, most at the corners.
+        # Planes of patches with few points are slightly tilted; their corners show it most.
         assert np.quantile(distances, 0.99) < 0.1 and distances.max() < 0.2
 
 
