@@ -49,7 +49,9 @@ struct Patch {
   std::uint16_t sector = 0;  ///< j - 1: counted counter-clockwise from -x (theta = -pi)
   Verdict verdict = Verdict::too_few_points;  ///< status: ground, or the reason for rejection
 
-  std::uint32_t point_count = 0;  ///< |S_n|: number of points in the bin
+  /// |S_n|: number of points in the bin. `surface` counts repeated points once if more than a third
+  /// of the scan repeats other points.
+  std::uint32_t point_count = 0;
   /// Number of points in the bin that are labelled ground; 0 if the patch is rejected.
   std::uint32_t ground_count = 0;
   /// Number of ground points that form a separate plane below, such as the bottom of a ditch.

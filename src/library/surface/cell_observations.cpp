@@ -39,9 +39,6 @@ inline constexpr float most_slope = 32700;
 inline constexpr float offset_unit = static_cast<float>(1 << plane_shift) * z_per_metre;
 inline constexpr float most_offset = 200 * offset_unit;
 
-/// Maximum width of a grid.
-inline constexpr std::size_t most_width = 256;
-
 /// A length in units of a packed z, rounded down.
 constexpr std::int16_t units(double metres) {
   return static_cast<std::int16_t>(metres * z_per_metre);

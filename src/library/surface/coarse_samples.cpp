@@ -96,7 +96,7 @@ std::int32_t patch_threshold(const PackedPoint* points, std::size_t count) {
 
 std::size_t copy_patch_sample(const PackedPoint* points, std::size_t count, std::int32_t threshold,
                               PackedPoint* sample) {
-  return copy_sample(points, count, threshold, patch_hash, sample);
+  return copy_sample(points, count, threshold, patch_hash, most_of_patch, sample);
 }
 
 }  // namespace

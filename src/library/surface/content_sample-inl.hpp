@@ -69,10 +69,10 @@ HWY_INLINE std::int32_t sample_threshold(const PackedPoint* points, std::size_t 
   return static_cast<std::int32_t>(threshold);
 }
 
-/// Copies the points whose hash is below the threshold and returns their number. May write one
-/// vector more.
+/// Copies the points whose hash is below the threshold and returns their number, or a number above
+/// `most` as soon as there are more. Can write 48 elements more than `most`.
 HWY_INLINE std::size_t copy_sample(const PackedPoint* points, std::size_t count,
-                                   std::int32_t threshold, std::int32_t factors,
+                                   std::int32_t threshold, std::int32_t factors, std::size_t most,
                                    PackedPoint* sample) {
   const IntTag di;
   const IntVector limit = hn::Set(di, threshold);
@@ -80,11 +80,11 @@ HWY_INLINE std::size_t copy_sample(const PackedPoint* points, std::size_t count,
   auto* const to = reinterpret_cast<std::int32_t*>(sample);
   std::size_t sampled = 0;
   std::size_t i = 0;
-  for (; i + hn::Lanes(di) <= count; i += hn::Lanes(di)) {
+  for (; i + hn::Lanes(di) <= count && sampled <= most; i += hn::Lanes(di)) {
     const IntVector v = hn::LoadU(di, from + i);
     sampled += compress_store(v, hn::Lt(hash_of(v, factors), limit), to + sampled);
   }
-  if (i < count) {
+  if (i < count && sampled <= most) {
     const IntVector v = hn::LoadU(di, from + i);
     const auto there = hn::FirstN(di, count - i);
     sampled += compress_store(v, hn::And(there, hn::Lt(hash_of(v, factors), limit)), to + sampled);
@@ -92,29 +92,14 @@ HWY_INLINE std::size_t copy_sample(const PackedPoint* points, std::size_t count,
   return sampled;
 }
 
-/// Copies a sample of the points and returns its size. 48 elements more than `size.most` can be
-/// written.
+/// Copies a sample of the points and returns its size. Can write 48 elements more than `size.most`.
+/// The thresholds are those of sample_threshold(), but most samples are taken in one pass.
 HWY_INLINE std::size_t take_sample(const PackedPoint* points, std::size_t count, SampleSize size,
                                    PackedPoint* sample) {
-  const IntTag di;
-  const auto* HWY_RESTRICT from = reinterpret_cast<const std::int32_t*>(points);
-  auto* const to = reinterpret_cast<std::int32_t*>(sample);
-  // The same thresholds as sample_threshold(), but most samples are taken in one pass.
   auto threshold = static_cast<std::uint32_t>((std::uint64_t{size.wanted} << 16U) / count);
   for (; threshold > 0; threshold = threshold * 3 / 4) {
-    const IntVector limit = hn::Set(di, static_cast<std::int32_t>(threshold));
-    std::size_t sampled = 0;
-    std::size_t i = 0;
-    for (; i + hn::Lanes(di) <= count && sampled <= size.most; i += hn::Lanes(di)) {
-      const IntVector v = hn::LoadU(di, from + i);
-      sampled += compress_store(v, hn::Lt(hash_of(v, cell_hash), limit), to + sampled);
-    }
-    if (i < count && sampled <= size.most) {
-      const IntVector v = hn::LoadU(di, from + i);
-      const auto there = hn::FirstN(di, count - i);
-      sampled +=
-          compress_store(v, hn::And(there, hn::Lt(hash_of(v, cell_hash), limit)), to + sampled);
-    }
+    const std::size_t sampled = copy_sample(points, count, static_cast<std::int32_t>(threshold),
+                                            cell_hash, size.most, sample);
     if (sampled <= size.most) return sampled;
   }
   return 0;

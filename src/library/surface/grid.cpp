@@ -17,9 +17,6 @@
 #define FLAGSTONE_SURFACE_GRID_ONCE
 namespace flagstone::surface {
 
-/// Maximum width of a grid.
-inline constexpr std::size_t most_width = 256;
-
 /// A grid in memory, cell (row, column) at `values[row * stride + column]`.
 struct FilledGrid {
   float* values;

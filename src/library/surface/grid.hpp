@@ -8,6 +8,9 @@
 
 namespace flagstone::surface {
 
+/// Maximum width of a grid, cells.
+inline constexpr std::size_t most_width = 256;
+
 /// A square grid of heights centred on the sensor, in memory owned by the caller; see
 /// GroundSurface::Grid.
 struct Grid {

@@ -54,7 +54,7 @@ std::size_t sample_patch(const surface::PackedPoint* points, std::size_t count, 
                          surface::PackedPoint* sample) {
   const std::int32_t threshold = sample_threshold(
       points, count, SampleSize{.most = size.most, .wanted = size.wanted}, patch_hash);
-  return copy_sample(points, count, threshold, patch_hash, sample);
+  return copy_sample(points, count, threshold, patch_hash, count, sample);
 }
 
 }  // namespace

@@ -102,26 +102,6 @@ class Table8 {
 #endif
 };
 
-/// Looks up element `index` and the element after it. Reading pairs is twice as fast with AVX-512.
-HWY_INLINE void gather_pairs(const float* HWY_RESTRICT table, IntVector index, FloatVector& first,
-                             FloatVector& second) {
-#if HWY_TARGET <= HWY_AVX3
-  const __m256i low = _mm512_castsi512_si256(index.raw);
-  const __m256i high = _mm512_extracti64x4_epi64(index.raw, 1);
-  const __m512 a = _mm512_castpd_ps(_mm512_i32gather_pd(low, table, sizeof(float)));
-  const __m512 b = _mm512_castpd_ps(_mm512_i32gather_pd(high, table, sizeof(float)));
-  HWY_ALIGN static constexpr std::int32_t even[] = {0,  2,  4,  6,  8,  10, 12, 14,
-                                                    16, 18, 20, 22, 24, 26, 28, 30};
-  const __m512i firsts = _mm512_load_si512(even);
-  first = FloatVector{_mm512_permutex2var_ps(a, firsts, b)};
-  second = FloatVector{_mm512_permutex2var_ps(a, _mm512_or_si512(firsts, _mm512_set1_epi32(1)), b)};
-#else
-  const FloatTag d;
-  first = hn::GatherIndex(d, table, index);
-  second = hn::GatherIndex(d, table + 1, index);
-#endif
-}
-
 /// Looks up element `index` in a table of two vectors with any alignment.
 HWY_INLINE FloatVector lookup_in_two(const float* HWY_RESTRICT table, IntVector index) {
 #if HWY_TARGET <= HWY_AVX3
