@@ -111,7 +111,7 @@ std::int32_t to_centre(std::size_t index, float cell) {
   return static_cast<std::int32_t>((2 * (index % per_packed_cell) + 1) * units_of_cell) - 1;
 }
 
-void find_planes_of(const Grid& grid, float expected_ground, const CellPlanes& planes) {
+void find_planes_of(const Grid& grid, float packed_zero, const CellPlanes& planes) {
   const FloatTag d;
   const IntTag di;
   const std::size_t width = grid.width;
@@ -149,7 +149,7 @@ void find_planes_of(const Grid& grid, float expected_ground, const CellPlanes& p
       const IntVector slopes =
           hn::Or(hn::And(slope_x, hn::Set(di, 0xFFFF)), hn::ShiftLeft<16>(slope_y));
       const FloatVector height =
-          hn::Mul(hn::Sub(hn::LoadU(d, framed.data() + i + 1), hn::Set(d, expected_ground)),
+          hn::Mul(hn::Sub(hn::LoadU(d, framed.data() + i + 1), hn::Set(d, packed_zero)),
                   hn::Set(d, offset_unit));
       const IntVector centre_height = hn::NearestInt(hn::Max(hn::Min(height, most), hn::Neg(most)));
       const IntVector centre = hn::Or(hn::Load(di, centres.data() + i % lanes), row_centre);
@@ -527,8 +527,8 @@ HWY_EXPORT(find_planes_of);
 HWY_EXPORT(observe_cells);
 }  // namespace
 
-void find_planes(const Grid& grid, float expected_ground, const CellPlanes& planes) noexcept {
-  HWY_DYNAMIC_DISPATCH(find_planes_of)(grid, expected_ground, planes);
+void find_planes(const Grid& grid, float packed_zero, const CellPlanes& planes) noexcept {
+  HWY_DYNAMIC_DISPATCH(find_planes_of)(grid, packed_zero, planes);
 }
 
 void observe(const Observations& observations, std::span<const OccupiedCell> cells,

@@ -27,9 +27,9 @@ struct CellPlanes {
 };
 
 /// Computes the planes of all cells of a grid of up to 256 x 256 cells. After the heights of the
-/// grid 16 more must be readable, and after the planes 16 more are written. `expected_ground` is
+/// grid 16 more must be readable, and after the planes 16 more are written. `packed_zero` is
 /// the height of a packed z of 0, metres.
-void find_planes(const Grid& grid, float expected_ground, const CellPlanes& planes) noexcept;
+void find_planes(const Grid& grid, float packed_zero, const CellPlanes& planes) noexcept;
 
 /// Corrections of the surface from the points in the cells of a level. A positive correction raises
 /// the surface.

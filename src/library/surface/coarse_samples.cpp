@@ -120,7 +120,7 @@ constexpr std::size_t most_cells_of_patch = 16;
 }  // namespace
 
 CoarseSamples::CoarseSamples(const SquareCells& cells)
-    : blocks_(cells.blocks()), expected_ground_(-cells.sensor_height()) {
+    : blocks_(cells.blocks()), packed_zero_(cells.packed_zero()) {
   begins_.reserve(coarse_cells_of_block * blocks_.size() + 1);
 }
 
@@ -183,7 +183,7 @@ void CoarseSamples::add_patch(const SquarePatch& patch,
   // x and y are rounded down in packed points.
   constexpr float rounding = plane_fits::ExactGrid::xy_step / 2;
   const std::size_t bin = batch.count();
-  batch.add_empty(size, {.x = patch.x + rounding, .y = patch.y + rounding, .z = expected_ground_});
+  batch.add_empty(size, {.x = patch.x + rounding, .y = patch.y + rounding, .z = packed_zero_});
   HWY_DYNAMIC_DISPATCH(unpack_patch)
   (std::span(cells.data(), cell_count),
    PatchPlaces{.x = batch.x(bin), .y = batch.y(bin), .z = batch.z(bin)});

@@ -41,12 +41,12 @@ class CoarseSamples {
   [[nodiscard]] const PackedPoint* data() const noexcept { return samples_.data(); }
 
   /// Adds a patch to the batch, on the grid of plane_fits::ExactGrid, with z relative to the
-  /// expected ground. Uses at most 128 points.
+  /// SquareCells::packed_zero(). Uses at most 128 points.
   void add_patch(const SquarePatch& patch, plane_fits::BinBatch& batch) const noexcept;
 
  private:
   std::span<const CellRange> blocks_;  ///< of the cells
-  float expected_ground_;
+  float packed_zero_;
   Buffer<PackedPoint> samples_;
   Buffer<std::uint32_t> begins_;
 };

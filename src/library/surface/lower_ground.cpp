@@ -29,7 +29,7 @@ LowerGround::LowerGround(const SquareCells& cells)
 
 /// Calls `work(index, point, number of its square)` for each point labelled noise that can be
 /// ground, in the order of the cloud. Points are relative to the corner of their square, at the
-/// height of the expected ground, and rounded, so that sums over them are exact in any order.
+/// height SquareCells::packed_zero(), and rounded, so that sums over them are exact in any order.
 template <class Work>
 void LowerGround::each_noise(CloudView cloud, std::span<const Label> labels,
                              const Work& work) noexcept {
@@ -58,7 +58,7 @@ void LowerGround::each_noise(CloudView cloud, std::span<const Label> labels,
     };
     work(i,
          Vector3{from_corner(p.x, column), from_corner(p.y, row),
-                 rounded(double{p.z} + double{cells_->sensor_height()})},
+                 rounded(double{p.z} - double{cells_->packed_zero()})},
          row * width_ + column);
   }
 }

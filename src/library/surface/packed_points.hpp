@@ -15,7 +15,7 @@
 namespace flagstone::surface {
 
 /// A point in four bytes. Bits 0 to 7 and 8 to 15: x and y within the enclosing cell of 2 m,
-/// rounded down to 1/128 m. Bits 16 to 31: height above the expected ground at -h_s, rounded to
+/// rounded down to 1/128 m. Bits 16 to 31: height above SquareCells::packed_zero(), rounded to
 /// 1/512 m and limited to 64 m above or below it, as a signed integer.
 ///
 /// All steps that estimate the surface use this form. Sums over such integers are exact, so the

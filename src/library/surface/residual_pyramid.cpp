@@ -39,7 +39,7 @@ float reach_of(std::size_t level, const SquareCells& cells) {
 }  // namespace
 
 ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells& cells)
-    : settings_(config.refinement), expected_ground_(-config.sensor_height) {
+    : settings_(config.refinement), packed_zero_(cells.packed_zero()) {
   const auto grid_count = static_cast<std::size_t>(std::max(settings_.levels, 1));
   std::size_t total = 0;
   std::size_t largest = 0;
@@ -188,7 +188,7 @@ float ResidualPyramid::gate_of(std::size_t level) const noexcept {
 void ResidualPyramid::observe_level(std::size_t level, const PackedPoint* points,
                                     ThreadPool& pool) noexcept {
   const CellPlanes planes{.slopes = slopes_.data(), .offsets = offsets_.data()};
-  find_planes(grids_[level], expected_ground_, planes);
+  find_planes(grids_[level], packed_zero_, planes);
   const Observations observations{.points = points,
                                   .planes = planes,
                                   .gates = cells_[level].gates,

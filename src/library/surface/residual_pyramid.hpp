@@ -70,7 +70,7 @@ class ResidualPyramid {
   void observe_level(std::size_t level, const PackedPoint* points, ThreadPool& pool) noexcept;
 
   Refinement settings_;
-  float expected_ground_;  ///< metres
+  float packed_zero_;  ///< see SquareCells
   std::vector<Grid> grids_;
   std::vector<Block> blocks_;
   std::vector<LevelCells> cells_;  ///< by level

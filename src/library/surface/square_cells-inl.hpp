@@ -73,9 +73,8 @@ HWY_INLINE IntVector packed(IntVector edges, FloatVector z, const SquareCells& c
   const FloatTag d;
   const IntTag di;
   constexpr float limit = 32768;
-  const FloatVector units =
-      hn::Add(hn::Mul(z, hn::Set(d, z_per_metre)),
-              hn::Set(d, cells.sensor_height() * z_per_metre + (limit + 0.5f)));
+  const FloatVector units = hn::Add(hn::Mul(z, hn::Set(d, z_per_metre)),
+                                    hn::Set(d, limit + 0.5f - cells.packed_zero() * z_per_metre));
   const IntVector height =
       whole_part(hn::Min(hn::Max(units, hn::Zero(d)), hn::Set(d, 2 * limit - 1)));
   const IntVector in_cell = hn::And(edges, hn::Set(di, 0xFF00FF));

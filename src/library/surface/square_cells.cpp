@@ -36,6 +36,9 @@ int class_of_ring(int ring, int half_blocks) {
 /// edge is rounded. This matters only if the range ends at the edge of a block.
 constexpr float last_inside = 1 - 1.0f / (1 << 22);
 
+/// Step of SquareCells::packed_zero(), metres.
+constexpr float packed_step = 32;
+
 float squared(float value) { return value * value; }
 
 /// Cells along one side of a block: 32, 16, 8, 4.
@@ -48,7 +51,7 @@ SquareCells::SquareCells(const SurfaceConfig& config)
       max_squared_range_(squared(std::min(config.max_range, last_inside * extent()))),
       noise_height_(-config.sensor_height - config.noise_depth),
       noise_slope_(config.noise_slope),
-      sensor_height_(config.sensor_height) {
+      packed_zero_(packed_step * std::nearbyint(-config.sensor_height / packed_step)) {
   std::array<std::uint32_t, level_count> bases{};
   for (int ring_class = 0; ring_class < 4; ++ring_class) {
     const auto width = static_cast<std::uint32_t>(2 * class_reach(ring_class, half_blocks_));

@@ -75,8 +75,9 @@ class SquareCells {
   /// The cells of all blocks, row by row from the edge.
   [[nodiscard]] std::span<const CellRange> blocks() const noexcept { return blocks_; }
 
-  /// h_s: height of the sensor above the expected ground, metres.
-  [[nodiscard]] float sensor_height() const noexcept { return sensor_height_; }
+  /// Height of a packed z of 0, metres: 0, or for sensors higher or lower than 16 m a multiple of
+  /// 32 m near the expected ground. Small changes of h_s do not change it.
+  [[nodiscard]] float packed_zero() const noexcept { return packed_zero_; }
 
   /// @name Tables by ring of a block, 0 to 7; the last entry applies to all farther rings
   /// The block at (column, row) begins with cell class_bases + n * column + m * row.
@@ -93,7 +94,7 @@ class SquareCells {
   float max_squared_range_;
   float noise_height_;
   float noise_slope_;
-  float sensor_height_;
+  float packed_zero_;
   std::uint32_t cell_count_ = 0;
   std::vector<CellRange> blocks_;
   std::array<std::int32_t, 8> class_bases_{};

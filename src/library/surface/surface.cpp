@@ -49,13 +49,13 @@ namespace {
 /// Patches with fewer points are not fitted.
 constexpr std::size_t fewest_points = 11;
 
-/// Within this range, metres, points below this height above the expected ground are not used to
+/// Within this range, metres, points lower than this above the expected ground are not used to
 /// choose the seeds: they are reflections of cars.
 constexpr float reflection_range = 10;
 constexpr float seed_floor = -0.5f;
 
-/// Heights are relative to the expected ground.
-plane_fits::FitSettings fit_settings() {
+/// Heights are relative to SquareCells::packed_zero().
+plane_fits::FitSettings fit_settings(const SurfaceConfig& config, const SquareCells& cells) {
   return {.seed_height = 0.5,
           .seed_depth = 1.0,
           .distance_margin = 0.125,
@@ -64,7 +64,7 @@ plane_fits::FitSettings fit_settings() {
           .keep_below_floor = true,
           .evaluate_final_set = false,
           .exact = true,
-          .height_without_seeds = 0};
+          .height_without_seeds = sensor_z(config.sensor_height) - cells.packed_zero()};
 }
 
 /// Number of lowest points of a patch whose mean height selects the seeds.
@@ -182,7 +182,7 @@ Surface::Pipeline::Pipeline(const SurfaceConfig& given, unsigned threads)
       lower_ground(cells),
       samples(cells),
       pool(checked_threads("surface", threads)),
-      fitters(pool.size(), fit_settings()) {
+      fitters(pool.size(), fit_settings(config, cells)) {
   fitters.reserve(batch_size * plane_fits::ExactGrid::most_points);
   fitted_squares.reserve(square_patches.list().size());
   accepted.reserve(square_patches.list().size());
@@ -223,7 +223,8 @@ void Surface::Pipeline::gather(std::span<const FittedSquare> squares, Fitter& fi
     samples.add_patch(square, fitter.batch);
     const bool near =
         square.x * square.x + square.y * square.y < reflection_range * reflection_range;
-    fitter.seeds.floors[i] = near ? seed_floor : -std::numeric_limits<float>::infinity();
+    fitter.seeds.floors[i] = near ? seed_floor - config.sensor_height - cells.packed_zero()
+                                  : -std::numeric_limits<float>::infinity();
     fitter.seeds.counts[i] = seed_count(fitter.batch.size(i));
   }
 }

@@ -31,7 +31,7 @@ struct Unpacked {
         y((point >> 8U & 0xFFU) / double{xy_per_metre}),
         z((static_cast<std::int32_t>(point) >> 16) / double{z_per_metre}) {}
   double x, y;  ///< from the corner of a cell of 2 m
-  double z;     ///< above the expected ground
+  double z;     ///< above SquareCells::packed_zero()
 };
 
 /// The points of each cell, found point by point, in input order.
@@ -89,7 +89,7 @@ TEST_P(PackedPointsOn, DoNotDependOnThePreviousScan) {
 }
 
 TEST_P(PackedPointsOn, ContainPositionsRoundedDownAndHeightsRounded) {
-  for (const float sensor_height : {1.73f, 0.0f, -2.5f}) {
+  for (const float sensor_height : {1.73f, 0.0f, -2.5f, 40.0f}) {
     const SurfaceConfig config{.sensor_height = sensor_height};
     const SquareCells cells(config);
     std::vector<Point> cloud = random_cloud(20000, 7);
@@ -111,9 +111,20 @@ TEST_P(PackedPointsOn, ContainPositionsRoundedDownAndHeightsRounded) {
       ASSERT_LT(below(cloud[i].x, unpacked.x), 1.0 / xy_per_metre + rounding) << i;
       ASSERT_GE(below(cloud[i].y, unpacked.y), -rounding) << i;
       ASSERT_LT(below(cloud[i].y, unpacked.y), 1.0 / xy_per_metre + rounding) << i;
-      ASSERT_NEAR(unpacked.z, double{cloud[i].z} + double{sensor_height}, 0.5 / z_per_metre + 1e-5);
+      ASSERT_NEAR(unpacked.z, double{cloud[i].z} - double{cells.packed_zero()},
+                  0.5 / z_per_metre + 1e-5);
     }
   }
+}
+
+TEST(PackedZero, IsNearTheExpectedGroundButDoesNotChangeWithIt) {
+  const auto zero_at = [](float sensor_height) {
+    return SquareCells(SurfaceConfig{.sensor_height = sensor_height}).packed_zero();
+  };
+  EXPECT_EQ(zero_at(1.73f), 0);
+  EXPECT_EQ(zero_at(-15.9f), 0);
+  EXPECT_EQ(zero_at(40.0f), -32);
+  EXPECT_EQ(zero_at(-100.0f), 96);
 }
 
 TEST_P(PackedPointsOn, PositionsOnTheLatticeAreExact) {

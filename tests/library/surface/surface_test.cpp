@@ -105,13 +105,13 @@ std::vector<Point> every(std::size_t step, const std::vector<Point>& cloud) {
   return some;
 }
 
-TEST(SurfaceMethod, LevelGroundIsGroundAtHeightZero) {
+TEST(SurfaceMethod, LevelGroundIsGroundAtHeightZeroWithinAMillimetre) {
   const std::vector<Point> cloud = scan_of(level);
 
   const Outcome outcome = segmented(cloud);
 
   EXPECT_EQ(ground_count(outcome), cloud.size());
-  EXPECT_THAT(outcome.heights, testing::Each(testing::FloatNear(0, 1e-6f)));
+  EXPECT_THAT(outcome.heights, testing::Each(testing::FloatNear(0, 0.001f)));
 }
 
 constexpr std::array<float, 4> directions = {0, 40, 90, 200};
@@ -208,9 +208,8 @@ TEST(SurfaceMethod, AKerbStaysSharp) {
   }
 }
 
-// Heights of packed points, and so the samples, are relative to the expected ground: another sensor
-// height gives other samples.
-TEST(SurfaceMethod, AnErrorOf30CentimetresInSensorHeightChangesAtMostTwoLabelsIn1000) {
+// The first patches are accepted by their height above the expected ground.
+TEST(SurfaceMethod, AnErrorOf30CentimetresInSensorHeightChangesAtMostOneLabelIn1000) {
   for (const std::vector<Point>& cloud : streets()) {
     const Outcome right = segmented(cloud);
     for (const float error : {-0.3f, -0.1f, 0.1f, 0.3f}) {
@@ -219,19 +218,14 @@ TEST(SurfaceMethod, AnErrorOf30CentimetresInSensorHeightChangesAtMostTwoLabelsIn
 
       const Outcome wrong = segmented(cloud, config);
 
-      EXPECT_LE(fraction_of_different(right.labels, wrong.labels), 0.002) << error;
-      double different = 0;
+      EXPECT_LE(fraction_of_different(right.labels, wrong.labels), 1e-3) << error;
       for (std::size_t i = 0; i < cloud.size(); ++i) {
-        const float difference = std::abs(right.heights[i] - wrong.heights[i]);
-        if (std::hypot(cloud[i].x, cloud[i].y) < 4) {
-          // Nothing is measured below the sensor, so the ground height there follows from the
-          // sensor height.
-          ASSERT_FALSE(difference > 0.07f) << error;
-        } else if (difference > 0.02f) {
-          ++different;
-        }
+        // Nothing is measured below the sensor, so the ground height there follows from the sensor
+        // height.
+        const bool is_near = std::hypot(cloud[i].x, cloud[i].y) < 4;
+        if (std::isnan(right.heights[i])) continue;
+        ASSERT_NEAR(right.heights[i], wrong.heights[i], is_near ? 0.06f : 0.02f) << error;
       }
-      EXPECT_LE(different, 0.06 * static_cast<double>(cloud.size())) << error;
     }
   }
 }
