@@ -62,7 +62,7 @@ HWY_INLINE IntVector ring_of(FloatVector squared_range, const RingTree& tree) {
   };
   const std::vector<float>* level = tree.boundaries.data();
   IntVector node = step(hn::Zero(di), hn::Set(d, level[0][0]));
-  for (std::size_t l = 1; l < 4; ++l) node = step(node, lookup_8(level[l].data(), node));
+  for (std::size_t l = 1; l < 4; ++l) node = step(node, Table8<FloatTag>(level[l].data())[node]);
   if constexpr (!few) {
     node = step(node, lookup_16(level[4].data(), node));  // 17 or more rings have a fifth level
     for (std::size_t l = 5; l < tree.boundaries.size(); ++l) {

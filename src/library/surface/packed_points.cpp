@@ -34,40 +34,60 @@ HWY_BEFORE_NAMESPACE();
 namespace flagstone::surface::HWY_NAMESPACE {
 namespace {
 
-struct PackVector {
-  HWY_INLINE void operator()(std::size_t i, FloatVector x, FloatVector y, FloatVector z) const {
-    const IntTag di;
-    const Located located = locate(x, y, z, cells);
-    hn::StoreU(located.packed, di, reinterpret_cast<std::int32_t*>(slice.points) + i);
+class PackVector {
+ public:
+  HWY_INLINE PackVector(const PackedSlice& slice, const SquareCells& cells)
+      : points_(reinterpret_cast<std::int32_t*>(slice.points)),
+        unusual_(slice.unusual),
+        locator_(cells),
+        runs_(slice.starts) {}
+
+  HWY_INLINE void operator()(std::size_t i, FloatVector x, FloatVector y, FloatVector z) {
+    const Located located = locator_.locate(x, y, z);
+    hn::StoreU(located.packed, IntTag(), points_ + i);
     // A vector can have fewer than four points.
-    const unsigned before = i % 4 == 0 ? 0U : slice.unusual[i / 4];
-    slice.unusual[i / 4] = static_cast<std::uint8_t>(before | (located.all_have_cells ? 0U : 1U));
-    runs.add(located.cell);
+    const unsigned before = i % 4 == 0 ? 0U : unusual_[i / 4];
+    unusual_[i / 4] = static_cast<std::uint8_t>(before | (located.all_have_cells ? 0U : 1U));
+    runs_.add(located.cell);
   }
-  const PackedSlice& slice;
-  const SquareCells& cells;
-  plane_fits::HWY_NAMESPACE::RunWriter& runs;
+
+  /// Returns the number of runs of `count` points.
+  std::size_t close(std::size_t count) { return runs_.close(count); }
+
+ private:
+  std::int32_t* points_;
+  std::uint8_t* unusual_;
+  CellLocator locator_;
+  plane_fits::HWY_NAMESPACE::RunWriter runs_;
 };
 
 std::size_t pack_slice(const PackedSlice& slice, const SquareCells& cells) {
-  plane_fits::HWY_NAMESPACE::RunWriter runs(slice.starts);
-  read_cloud(slice.cloud, slice.begin, slice.end, PackVector{slice, cells, runs});
-  return runs.close(slice.end - slice.begin);
+  PackVector pack(slice, cells);
+  read_cloud(slice.cloud, slice.begin, slice.end, pack);
+  return pack.close(slice.end - slice.begin);
 }
 
-/// Copies `count` points, up to eight, and writes no others.
-HWY_INLINE void copy_up_to_8(const PackedPoint* from, std::size_t count, PackedPoint* to) {
+/// Copies `count` points, N to 2 N, and writes no others: two copies of N points that overlap.
+template <std::size_t N>
+HWY_INLINE void copy_overlapping(const PackedPoint* from, std::size_t count, PackedPoint* to) {
+  std::array<PackedPoint, N> first, last;
+  std::memcpy(first.data(), from, sizeof first);
+  std::memcpy(last.data(), from + count - N, sizeof last);
+  std::memcpy(to, first.data(), sizeof first);
+  std::memcpy(to + count - N, last.data(), sizeof last);
+}
+
+/// Copies `count` points, 1 to 16, and writes no others.
+HWY_INLINE void copy_up_to_16(const PackedPoint* from, std::size_t count, PackedPoint* to) {
 #if HWY_TARGET <= HWY_AVX3
-  const hn::CappedTag<std::uint32_t, 8> d;
+  const hn::CappedTag<std::uint32_t, 16> d;
   hn::BlendedStore(hn::LoadU(d, from), hn::FirstN(d, count), d, to);
 #else
-  // Two copies of four points that overlap, or three of one point. Masked stores are slow here.
-  constexpr std::size_t four = 4 * sizeof(PackedPoint);
-  if (count >= 4) {
-    std::array<std::byte, four> last;
-    std::memcpy(last.data(), from + count - 4, four);
-    std::memcpy(to, from, four);
-    std::memcpy(to + count - 4, last.data(), four);
+  // Masked stores are slow here.
+  if (count >= 8) {
+    copy_overlapping<8>(from, count, to);
+  } else if (count >= 4) {
+    copy_overlapping<4>(from, count, to);
   } else {
     to[0] = from[0];
     to[count / 2] = from[count / 2];
@@ -76,26 +96,24 @@ HWY_INLINE void copy_up_to_8(const PackedPoint* from, std::size_t count, PackedP
 #endif
 }
 
-/// Copies each run to the next position of its cell, `next[cell]`, and advances it. Most runs take
-/// one step of up to eight points, which avoids mispredicted branches.
+/// Copies each run to the next position of its cell, `next[cell]`, and advances it. Nearly all runs
+/// take one step of up to sixteen points, which avoids mispredicted branches.
 void sort_runs(const plane_fits::ScanRuns::Chunk& runs, std::uint32_t* HWY_RESTRICT next,
                const PackedPoint* HWY_RESTRICT points, PackedPoint* HWY_RESTRICT sorted) {
-  constexpr std::size_t step = 8;
   for (std::size_t run = 0; run < runs.count; ++run) {
     const plane_fits::RunStart start = runs.starts[run];
     const std::uint32_t begin = start >> plane_fits::bin_bits;
     const std::uint32_t end = runs.starts[run + 1] >> plane_fits::bin_bits;
     const std::uint32_t cell = start & plane_fits::bin_mask;
-    const PackedPoint* from = points + runs.first + begin;
-    PackedPoint* to = sorted + next[cell];
+    const PackedPoint* const from = points + runs.first + begin;
+    PackedPoint* const to = sorted + next[cell];
+    const std::size_t count = end - begin;
     next[cell] += end - begin;
-    std::size_t rest = end - begin;
-    for (; HWY_UNLIKELY(rest > step); rest -= step) {
-      std::memcpy(to, from, step * sizeof(PackedPoint));
-      from += step;
-      to += step;
+    if (HWY_LIKELY(count <= 16)) {
+      copy_up_to_16(from, count, to);
+    } else {
+      std::memcpy(to, from, count * sizeof(PackedPoint));
     }
-    copy_up_to_8(from, rest, to);
   }
 }
 

@@ -44,11 +44,10 @@ struct MeasuredScan {
 
 /// Where to write the results of consecutive points, and the points without a final label.
 struct MeasuredSlice {
-  std::size_t begin, end;           ///< points of the cloud
-  float* heights;                   ///< of point `begin`
-  std::uint8_t* labels;             ///< of point `begin`
-  std::uint32_t* undecided_points;  ///< 16 more than points can be written
-  std::uint32_t* undecided_cells;   ///< 16 more than points can be written
+  std::size_t begin, end;     ///< points of the cloud
+  float* heights;             ///< of point `begin`
+  std::uint8_t* labels;       ///< of point `begin`
+  UndecidedPoint* undecided;  ///< up to one per point
 };
 
 /// Points whose cells of the surface are looked up together. Their intermediate results stay in the
@@ -70,17 +69,19 @@ struct Between {
   FloatVector share;  ///< weight of the second cell, 0 to 1
 };
 
+/// `reaches_edge`: whether the coordinate can lie beyond the first or last centre.
+template <bool reaches_edge>
 HWY_INLINE Between between(FloatVector coordinate, FloatVector per_cell, FloatVector middle,
-                           FloatVector last, bool reaches_edge) {
+                           FloatVector last) {
   const FloatTag d;
   FloatVector centre = hn::Add(hn::Mul(coordinate, per_cell), middle);
-  if (HWY_UNLIKELY(reaches_edge)) {
+  FloatVector first = centre;
+  if constexpr (reaches_edge) {
     centre = hn::Min(hn::Max(centre, hn::Zero(d)), last);
-    const IntVector first = whole_part(hn::Min(centre, hn::Sub(last, hn::Set(d, 1.0f))));
-    return {first, hn::Sub(centre, hn::ConvertTo(d, first))};
+    first = hn::Min(centre, hn::Sub(last, hn::Set(d, 1.0f)));
   }
-  const IntVector first = whole_part(centre);
-  return {first, hn::Sub(centre, hn::ConvertTo(d, first))};
+  const IntVector whole = whole_part(first);
+  return {whole, hn::Sub(centre, hn::ConvertTo(d, whole))};
 }
 
 HWY_INLINE FloatVector blend(FloatVector a, FloatVector b, FloatVector share_of_b) {
@@ -97,58 +98,67 @@ HWY_INLINE FloatVector blend_with_care(FloatVector a, FloatVector b, FloatVector
 
 /// The four heights of the surface around a position, and the weights of the second ones.
 struct Square {
-  IntVector near, far;  ///< index of the first of two heights in each row
+  IntVector place;  ///< index of the first height | grid << grid_shift
   FloatVector share_x, share_y;
 };
 
 /// Finds the squares around points within the extent.
+template <bool reaches_edge>
 class SquareFinder {
  public:
   HWY_INLINE explicit SquareFinder(const GridTables& tables)
-      : tables_(tables),
+      : count_(std::min(tables.count, tables.extents.size())),
+        extents_(tables.extents),
+        last_centres_(tables.last.data()),
         per_cell_(tables.per_cell.data()),
         middles_(tables.middles.data()),
-        strides_(reinterpret_cast<const float*>(tables.strides.data())),
-        firsts_(reinterpret_cast<const float*>(tables.firsts.data())) {}
+        strides_(tables.strides.data()),
+        firsts_(tables.firsts.data()) {}
 
   HWY_INLINE Square at(FloatVector x, FloatVector y) const {
     const FloatTag d;
     const IntTag di;
     const FloatVector reach = hn::Max(hn::Abs(x), hn::Abs(y));
     IntVector grid = hn::Zero(di);
-    for (std::size_t i = 1; i < tables_.count; ++i) {
-      const auto covers = hn::Le(reach, hn::Set(d, tables_.extents[i]));
+    for (std::size_t i = 1; i < count_; ++i) {
+      const auto covers = hn::Le(reach, hn::Set(d, extents_[i]));
       grid = increment_if(hn::RebindMask(di, covers), grid);
     }
     const FloatVector per_cell = per_cell_[grid];
     const FloatVector middle = middles_[grid];
-    const bool reaches_edge = tables_.reaches_edge;
-    const FloatVector last = reaches_edge ? lookup_8(tables_.last.data(), grid) : hn::Zero(d);
-    const Between column = between(x, per_cell, middle, last, reaches_edge);
-    const Between row = between(y, per_cell, middle, last, reaches_edge);
-    const IntVector strides = hn::BitCast(di, strides_[grid]);
-    const IntVector place = hn::Or(column.first, hn::ShiftLeft<16>(row.first));
-    const IntVector near = hn::Add(hn::BitCast(di, firsts_[grid]), sum_of_products(place, strides));
-    return {near, hn::Add(near, hn::ShiftRight<16>(strides)), column.share, row.share};
+    FloatVector last = middle;  // not used inside
+    if constexpr (reaches_edge) last = last_centres_[grid];
+    const Between column = between<reaches_edge>(x, per_cell, middle, last);
+    const Between row = between<reaches_edge>(y, per_cell, middle, last);
+    const IntVector cell = hn::Or(column.first, hn::ShiftLeft<16>(row.first));
+    return {hn::Add(firsts_[grid], sum_of_products(cell, strides_[grid])), column.share, row.share};
   }
 
  private:
-  const GridTables& tables_;
-  Table8 per_cell_, middles_;
-  Table8 strides_, firsts_;  ///< integers
+  std::size_t count_;
+  std::array<float, 8> extents_;
+  Table8<FloatTag> last_centres_, per_cell_, middles_;
+  Table8<IntTag> strides_, firsts_;
 };
 
-/// The 0.5 m cells of points within the extent.
-HWY_INLINE IntVector obstacle_cell(FloatVector x, FloatVector y, const ObstacleCells& obstacles) {
-  const FloatTag d;
-  const IntTag di;
-  const FloatVector two = hn::Set(d, 2.0f);
-  const FloatVector edge = hn::Set(d, obstacles.edge);
-  const IntVector column = whole_part(hn::Add(hn::Mul(x, two), edge));
-  const IntVector row = whole_part(hn::Add(hn::Mul(y, two), edge));
-  return sum_of_products(hn::Or(column, hn::ShiftLeft<16>(row)),
-                         hn::Set(di, 1 | obstacles.width << 16));
-}
+/// Finds the 0.5 m cells of points within the extent.
+class ObstacleFinder {
+ public:
+  HWY_INLINE explicit ObstacleFinder(const ObstacleCells& obstacles)
+      : edge_(obstacles.edge), strides_(1 | obstacles.width << 16) {}
+
+  HWY_INLINE IntVector at(FloatVector x, FloatVector y) const {
+    const FloatTag d;
+    const FloatVector edge = hn::Set(d, edge_);
+    const IntVector column = whole_part(hn::Add(hn::Add(x, x), edge));
+    const IntVector row = whole_part(hn::Add(hn::Add(y, y), edge));
+    return sum_of_products(hn::Or(column, hn::ShiftLeft<16>(row)), hn::Set(IntTag(), strides_));
+  }
+
+ private:
+  float edge_;
+  std::int32_t strides_;
+};
 
 /// Intermediate results of up to `lookup_size` points.
 struct alignas(64) Lookups {
@@ -157,16 +167,14 @@ struct alignas(64) Lookups {
 
   PerPoint<float> share_x, share_y;
   PerPoint<float> z;  ///< NaN for points that are invalid or out of range
-  PerPoint<float> squared_range;
   PerPoint<std::int32_t> obstacle_cell;
   PerPoint<std::int32_t> code;  ///< label of points without a height, and of noise below all cells
   std::array<std::uint8_t, lookup_size> has_code;  ///< per vector: whether any point has a code
 
   /// Per vector: where the square of the surface differs from that of the point before.
   std::array<std::uint16_t, lookup_size> starts;
-  /// The squares, one per start.
-  std::array<std::int32_t, lookup_size + lanes> near, far;
-  std::size_t squares = 0;
+  /// The squares, one per start; see Square::place.
+  std::array<std::int32_t, lookup_size + lanes> places;
   /// Pairs of heights of each square.
   std::array<float, 2 * (lookup_size + lanes)> near_pairs, far_pairs;
 };
@@ -179,26 +187,27 @@ HWY_INLINE IntVector code_of(Label label) {
 }
 
 /// Finds the squares of the surface around points.
+template <bool reaches_edge>
 class FindSquares {
  public:
   /// For points from `begin` on.
   HWY_INLINE FindSquares(const MeasuredScan& scan, std::size_t begin, Lookups& lookups)
-      : scan_(scan),
-        unusual_(scan.unusual + begin / 4),
+      : unusual_(scan.unusual + begin / 4),
         lookups_(lookups),
+        locator_(scan.cells),
         squares_(scan.tables),
+        obstacles_(scan.obstacles),
         previous_(hn::Set(IntTag(), -1)) {}
 
   HWY_INLINE void operator()(std::size_t i, FloatVector x, FloatVector y, FloatVector z) {
     const FloatTag d;
     const IntTag di;
     const std::size_t vector = i / hn::Lanes(d);
-    const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
-    hn::Store(squared_range, d, lookups_.squared_range.data() + i);
     lookups_.has_code[vector] = unusual_[i / 4];
     if (HWY_UNLIKELY(unusual_[i / 4] != 0)) {
-      const auto good = is_good(x, y, z, scan_.cells);
-      const auto too_low = hn::And(good, is_below_cells(squared_range, z, scan_.cells));
+      const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+      const auto good = locator_.is_good(squared_range, x, y, z);
+      const auto too_low = hn::And(good, locator_.is_below_cells(squared_range, z));
       const IntVector bad = hn::IfThenElse(hn::RebindMask(di, is_valid(x, y, z)),
                                            code_of(Label::out_of_range), code_of(Label::invalid));
       const IntVector low =
@@ -209,42 +218,48 @@ class FindSquares {
       z = hn::IfThenElse(good, z, hn::Set(d, std::numeric_limits<float>::quiet_NaN()));
     }
     hn::Store(z, d, lookups_.z.data() + i);
-    hn::Store(obstacle_cell(x, y, scan_.obstacles), di, lookups_.obstacle_cell.data() + i);
+    hn::Store(obstacles_.at(x, y), di, lookups_.obstacle_cell.data() + i);
 
     const Square square = squares_.at(x, y);
     hn::Store(square.share_x, d, lookups_.share_x.data() + i);
     hn::Store(square.share_y, d, lookups_.share_y.data() + i);
-    const auto starts = hn::Ne(square.near, move_up(square.near, previous_));
-    previous_ = square.near;
-    compress_store(square.far, starts, lookups_.far.data() + lookups_.squares);
-    lookups_.squares +=
-        compress_store(square.near, starts, lookups_.near.data() + lookups_.squares);
+    const auto starts = hn::Ne(square.place, move_up(square.place, previous_));
+    previous_ = square.place;
+    found_ += compress_store(square.place, starts, lookups_.places.data() + found_);
     lookups_.starts[vector] = static_cast<std::uint16_t>(bits_of(di, starts));
   }
 
+  /// Number of squares.
+  [[nodiscard]] std::size_t found() const { return found_; }
+
  private:
-  const MeasuredScan& scan_;
   const std::uint8_t* unusual_;
   Lookups& lookups_;
-  SquareFinder squares_;
+  CellLocator locator_;
+  SquareFinder<reaches_edge> squares_;
+  ObstacleFinder obstacles_;
   IntVector previous_;  ///< squares of the previous vector, -1 before the first
+  std::size_t found_ = 0;
 };
 
-/// Reads the heights of the squares. Neighbours in the cloud often share a square, so this takes
-/// less time than reading them for every point.
-HWY_INLINE void look_up(const GridTables& tables, Lookups& lookups) {
-  for (std::size_t i = 0; i < lookups.squares; ++i) {
-    std::memcpy(lookups.near_pairs.data() + 2 * i, tables.heights + lookups.near[i],
-                2 * sizeof(float));
-    std::memcpy(lookups.far_pairs.data() + 2 * i, tables.heights + lookups.far[i],
-                2 * sizeof(float));
+/// Reads the heights of the first `count` squares. Neighbours in the cloud often share a square, so
+/// this takes less time than reading them for every point.
+HWY_INLINE void look_up(const GridTables& tables, std::size_t count, Lookups& lookups) {
+  constexpr std::uint32_t index_mask = (1U << grid_shift) - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto place = static_cast<std::uint32_t>(lookups.places[i]);
+    const float* const near = tables.heights + (place & index_mask);
+    const float* const far = near + tables.widths[place >> grid_shift];
+    std::memcpy(lookups.near_pairs.data() + 2 * i, near, 2 * sizeof(float));
+    std::memcpy(lookups.far_pairs.data() + 2 * i, far, 2 * sizeof(float));
   }
 }
 
 /// The height of the surface at the points of a vector, bit-identical to GroundSurface::height.
 /// Their squares are consecutive from `first`; `starts` has a bit for each point with a new square.
+template <bool reaches_edge>
 HWY_INLINE FloatVector surface_at(const Lookups& lookups, std::size_t i, std::size_t first,
-                                  std::uint32_t starts, bool reaches_edge) {
+                                  std::uint32_t starts) {
   const FloatTag d;
   const IntVector left = hn::ShiftLeft<1>(ranks_of(starts | 1U));
   const IntVector right = hn::Or(left, hn::Set(IntTag(), 1));
@@ -258,7 +273,7 @@ HWY_INLINE FloatVector surface_at(const Lookups& lookups, std::size_t i, std::si
   const FloatVector far_right = lookup_in_two(far, right);
   const FloatVector height =
       blend(blend(near_left, near_right, share_x), blend(far_left, far_right, share_x), share_y);
-  if (HWY_LIKELY(!reaches_edge && hn::AllFalse(d, hn::IsNaN(height)))) return height;
+  if (!reaches_edge && HWY_LIKELY(hn::AllFalse(d, hn::IsNaN(height)))) return height;
   return blend_with_care(blend_with_care(near_left, near_right, share_x),
                          blend_with_care(far_left, far_right, share_x), share_y);
 }
@@ -287,7 +302,14 @@ struct Counts {
   std::size_t marked = 0;  ///< listed marks
 };
 
+/// Lists of a block of up to `lookup_size` points.
+struct BlockLists {
+  std::array<std::int32_t, lookup_size + lanes> undecided;  ///< indices of points in the block
+  std::array<std::int32_t, 2 * lookup_size> marked;         ///< marks to set
+};
+
 /// Computes heights and labels.
+template <bool reaches_edge>
 class LabelPoints {
  public:
   HWY_INLINE LabelPoints(const MeasuredScan& scan, const MeasuredSlice& slice)
@@ -296,32 +318,36 @@ class LabelPoints {
   /// Labels `count` points, beginning with point `begin` of the slice.
   HWY_INLINE void label(Lookups& lookups, std::size_t begin, std::size_t count) {
     const FloatTag d;
-    const bool reaches_edge = scan_.tables.reaches_edge;
     const Limits limits(scan_.rule, scan_.obstacles);
-    Counts counts = counts_;  // a local copy stays in registers
+    float* const heights = slice_.heights + begin;
+    std::uint8_t* const labels = slice_.labels + begin;
+    Counts counts;
     std::size_t squares = 0;  // that begin before the vector
     std::size_t i = 0;
     const auto next_heights = [&] HWY_ATTR {
       const std::uint32_t starts = lookups.starts[i / hn::Lanes(d)];
       // If the first point starts no square, it uses the last one before.
       const FloatVector surface =
-          surface_at(lookups, i, squares - 1 + (starts & 1U), starts, reaches_edge);
+          surface_at<reaches_edge>(lookups, i, squares - 1 + (starts & 1U), starts);
       squares += static_cast<std::size_t>(std::popcount(starts));
       return hn::Sub(hn::Load(d, lookups.z.data() + i), surface);
     };
     for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
       const FloatVector height = next_heights();
       const IntVector label = label_vector(lookups, i, begin, height, limits, counts);
-      hn::StoreU(height, d, slice_.heights + begin + i);
-      hn::StoreU(hn::DemoteTo(d8, label), d8, slice_.labels + begin + i);
+      hn::StoreU(height, d, heights + i);
+      hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
     }
     if (i < count) label_rest(lookups, i, begin, next_heights(), count - i, limits, counts);
     set_marks(counts.marked);
-    counts.marked = 0;
-    counts_ = counts;
+    list_undecided(lookups, begin, counts.undecided);
+    totals_.ground += counts.ground;
+    totals_.noise += counts.noise;
+    totals_.out_of_range += counts.out_of_range;
+    totals_.invalid += counts.invalid;
   }
 
-  [[nodiscard]] const Counts& counts() const { return counts_; }
+  [[nodiscard]] const Counts& totals() const { return totals_; }
 
  private:
   using ByteTag = hn::Rebind<std::uint8_t, FloatTag>;
@@ -333,8 +359,7 @@ class LabelPoints {
                                     FloatVector height, const Limits& limits, Counts& counts) {
     const FloatTag d;
     const IntTag di;
-    const IntVector cell = hn::Load(di, lookups.obstacle_cell.data() + i);
-    mark(height, cell, limits, counts);
+    mark(lookups, i, height, limits, counts);
 
     const auto below_least = hn::Lt(height, limits.least_margin);
     auto undecided =
@@ -343,9 +368,8 @@ class LabelPoints {
     counts.ground += hn::CountTrue(d, below_least);
     const auto may_be_noise = hn::Le(height, limits.noise);
     if (HWY_UNLIKELY(!hn::AllFalse(d, may_be_noise))) {
-      const FloatVector range = hn::Sqrt(hn::Load(d, lookups.squared_range.data() + i));
-      const FloatVector deepest =
-          hn::Sub(limits.noise, hn::Mul(hn::Set(d, scan_.rule.noise_depth_per_metre), range));
+      const FloatVector deepest = hn::Sub(
+          limits.noise, hn::Mul(hn::Set(d, scan_.rule.noise_depth_per_metre), ranges(begin + i)));
       const auto noise = hn::Le(height, deepest);
       label = hn::IfThenElse(hn::RebindMask(di, noise), code_of(Label::noise), label);
       counts.ground -= hn::CountTrue(d, hn::And(noise, below_least));
@@ -366,16 +390,22 @@ class LabelPoints {
       recount(Label::invalid, counts.invalid);
       label = hn::IfThenElse(has_code, code, label);
     }
-
-    const auto is_undecided = hn::RebindMask(di, undecided);
-    const IntVector points =
-        hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(begin + i)));
-    compress_store(cell, is_undecided,
-                   reinterpret_cast<std::int32_t*>(slice_.undecided_cells + counts.undecided));
-    counts.undecided +=
-        compress_store(points, is_undecided,
-                       reinterpret_cast<std::int32_t*>(slice_.undecided_points + counts.undecided));
+    const IntVector points = hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(i)));
+    counts.undecided += compress_store(points, hn::RebindMask(di, undecided),
+                                       lists_.undecided.data() + counts.undecided);
     return label;
+  }
+
+  /// Distances of points from the sensor, from point `first` of the slice on.
+  HWY_INLINE FloatVector ranges(std::size_t first) const {
+    const FloatTag d;
+    HWY_ALIGN std::array<float, lanes> squares{};
+    const std::size_t begin = slice_.begin + first;
+    for (std::size_t i = 0; i < hn::Lanes(d) && begin + i < slice_.end; ++i) {
+      const Point p = scan_.cloud[begin + i];
+      squares[i] = p.x * p.x + p.y * p.y;
+    }
+    return hn::Sqrt(hn::Load(d, squares.data()));
   }
 
   /// Labels the last `rest` points of a cloud. The other points of the vector get an unknown height
@@ -399,12 +429,14 @@ class LabelPoints {
   }
 
   /// Lists the marks of points on obstacles.
-  HWY_INLINE void mark(FloatVector height, IntVector cell, const Limits& limits, Counts& counts) {
+  HWY_INLINE void mark(const Lookups& lookups, std::size_t i, FloatVector height,
+                       const Limits& limits, Counts& counts) {
     const FloatTag d;
     const IntTag di;
     const auto is_obstacle =
         hn::And(hn::Gt(height, limits.low), hn::Lt(height, limits.overhanging));
     if (hn::AllFalse(d, is_obstacle)) return;
+    const IntVector cell = hn::Load(di, lookups.obstacle_cell.data() + i);
     const auto is_high = hn::RebindMask(di, hn::Gt(height, limits.high));
     const IntVector mark =
         hn::IfThenElse(hn::RebindMask(di, is_obstacle),
@@ -412,7 +444,7 @@ class LabelPoints {
     // Neighbours often set the same mark.
     const auto is_new =
         hn::And(hn::RebindMask(di, is_obstacle), hn::Ne(mark, move_up(mark, hn::Set(di, no_mark))));
-    counts.marked += compress_store(mark, is_new, marked_.data() + counts.marked);
+    counts.marked += compress_store(mark, is_new, lists_.marked.data() + counts.marked);
   }
 
   /// Sets the first `count` listed marks.
@@ -420,8 +452,18 @@ class LabelPoints {
     const ObstacleCells& obstacles = scan_.obstacles;
     for (std::size_t i = 0; i < count; ++i) {
       // Other threads may set the same mark.
-      std::atomic_ref<std::uint8_t>(obstacles.marks[marked_[i]])
+      std::atomic_ref<std::uint8_t>(obstacles.marks[lists_.marked[i]])
           .store(obstacles.mark, std::memory_order_relaxed);
+    }
+  }
+
+  /// Adds the first `count` undecided points of the block to those of the slice.
+  HWY_INLINE void list_undecided(const Lookups& lookups, std::size_t begin, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto point = static_cast<std::size_t>(lists_.undecided[i]);
+      slice_.undecided[totals_.undecided++] = {
+          .point = static_cast<std::uint32_t>(begin + point),
+          .cell = static_cast<std::uint32_t>(lookups.obstacle_cell[point])};
     }
   }
 
@@ -429,29 +471,35 @@ class LabelPoints {
 
   const MeasuredScan& scan_;
   const MeasuredSlice& slice_;
-  Counts counts_;
-  std::array<std::int32_t, lookup_size + lanes> marked_;  ///< marks to set
+  Counts totals_;
+  BlockLists lists_;
 };
 
 /// Returns the number of undecided points.
-std::size_t measure_points(const MeasuredScan& scan, const MeasuredSlice& slice,
-                           LabelTotals& totals) {
+template <bool reaches_edge>
+HWY_INLINE std::size_t measure_all(const MeasuredScan& scan, const MeasuredSlice& slice,
+                                   LabelTotals& totals) {
   Lookups lookups;
-  LabelPoints results(scan, slice);
+  LabelPoints<reaches_edge> results(scan, slice);
   for (std::size_t begin = slice.begin; begin < slice.end; begin += lookup_size) {
     const std::size_t end = std::min(begin + lookup_size, slice.end);
-    lookups.squares = 0;
-    FindSquares find(scan, begin, lookups);
+    FindSquares<reaches_edge> find(scan, begin, lookups);
     read_cloud(scan.cloud, begin, end, find);
-    look_up(scan.tables, lookups);
+    look_up(scan.tables, find.found(), lookups);
     results.label(lookups, begin - slice.begin, end - begin);
   }
-  const Counts& counts = results.counts();
+  const Counts& counts = results.totals();
   totals[static_cast<std::size_t>(Label::ground)] += counts.ground;
   totals[static_cast<std::size_t>(Label::noise)] += counts.noise;
   totals[static_cast<std::size_t>(Label::out_of_range)] += counts.out_of_range;
   totals[static_cast<std::size_t>(Label::invalid)] += counts.invalid;
   return counts.undecided;
+}
+
+std::size_t measure_points(const MeasuredScan& scan, const MeasuredSlice& slice,
+                           LabelTotals& totals) {
+  return scan.tables.reaches_edge ? measure_all<true>(scan, slice, totals)
+                                  : measure_all<false>(scan, slice, totals);
 }
 
 }  // namespace
@@ -468,9 +516,6 @@ std::size_t obstacle_width(const SquareCells& cells) {
   return static_cast<std::size_t>(4 * cells.extent());
 }
 
-/// Distance of the chunks in the lists of undecided points.
-constexpr std::size_t chunk_stride = plane_fits::chunk_size + 16;
-
 }  // namespace
 
 PointHeights::PointHeights(const SurfaceConfig& config, const SquareCells& cells)
@@ -483,8 +528,7 @@ PointHeights::PointHeights(const SurfaceConfig& config, const SquareCells& cells
 
 void PointHeights::reserve(std::size_t points) {
   const std::size_t chunks = plane_fits::chunk_count(points);
-  undecided_points_.reserve(chunks * chunk_stride);
-  undecided_cells_.reserve(chunks * chunk_stride);
+  undecided_.reserve(points);
   undecided_counts_.reserve(chunks);
 }
 
@@ -504,8 +548,10 @@ void PointHeights::set_surface(std::span<const Grid> grids) noexcept {
     tables_.per_cell[i] = 1 / grid.cell;
     tables_.middles[i] = static_cast<float>(width - 1) / 2;
     tables_.last[i] = static_cast<float>(width - 1);
+    tables_.widths[i] = width;
     tables_.strides[i] = 1 | width << 16;
-    tables_.firsts[i] = static_cast<std::int32_t>(grid.heights - tables_.heights);
+    const auto first = static_cast<std::int32_t>(grid.heights - tables_.heights);
+    tables_.firsts[i] = first | static_cast<std::int32_t>(i) << grid_shift;
     if (!inner) {
       const float last_centre = grid.extent() - grid.cell / 2;
       tables_.reaches_edge = cells_->max_squared_range() > last_centre * last_centre;
@@ -534,8 +580,7 @@ void PointHeights::measure(CloudView cloud, const std::uint8_t* unusual, std::si
       .end = std::min(begin + plane_fits::chunk_size, cloud.size()),
       .heights = results.heights.data() + begin,
       .labels = reinterpret_cast<std::uint8_t*>(results.labels.data()) + begin,
-      .undecided_points = undecided_points_.data() + chunk * chunk_stride,
-      .undecided_cells = undecided_cells_.data() + chunk * chunk_stride};
+      .undecided = undecided_.data() + begin};
   undecided_counts_.data()[chunk] =
       static_cast<std::uint32_t>(HWY_DYNAMIC_DISPATCH(measure_points)(scan, slice, totals));
 }
@@ -548,15 +593,14 @@ void PointHeights::label(std::size_t chunk, const Results& results, LabelTotals&
   const std::size_t begin = chunk * plane_fits::chunk_size;
   const float* const heights = results.heights.data() + begin;
   Label* const labels = results.labels.data() + begin;
-  const std::uint32_t* const points = undecided_points_.data() + chunk * chunk_stride;
-  const std::uint32_t* const cells = undecided_cells_.data() + chunk * chunk_stride;
+  const std::span undecided(undecided_.data() + begin, undecided_counts_.data()[chunk]);
   std::size_t ground_count = 0;
-  for (std::size_t i = 0; i < undecided_counts_.data()[chunk]; ++i) {
-    const std::uint8_t* const marks = obstacles_.data() + 2 * std::size_t{cells[i]};
+  for (const UndecidedPoint& one : undecided) {
+    const std::uint8_t* const marks = obstacles_.data() + 2 * std::size_t{one.cell};
     const auto index = static_cast<std::size_t>(marks[0] == mark_) +
                        2 * static_cast<std::size_t>(marks[1] == mark_);
-    const bool is_ground = heights[points[i]] < margins[index];
-    labels[points[i]] = is_ground ? Label::ground : Label::nonground;
+    const bool is_ground = heights[one.point] < margins[index];
+    labels[one.point] = is_ground ? Label::ground : Label::nonground;
     ground_count += static_cast<std::size_t>(is_ground);
   }
   totals[static_cast<std::size_t>(Label::ground)] += ground_count;

@@ -17,6 +17,15 @@
 
 namespace flagstone::surface {
 
+/// Index of a height and of its grid in one integer: index | grid << grid_shift.
+inline constexpr int grid_shift = 28;
+
+/// A point whose label depends on the obstacles in its cell.
+struct UndecidedPoint {
+  std::uint32_t point;  ///< index in its chunk
+  std::uint32_t cell;
+};
+
 /// The grids of a surface as tables with one entry per grid. A position belongs to the last grid
 /// that covers it.
 struct GridTables {
@@ -24,8 +33,9 @@ struct GridTables {
   std::array<float, 8> per_cell;        ///< 1 / cell, 1/metre
   std::array<float, 8> middles;         ///< index of the sensor position, between two cells
   std::array<float, 8> last;            ///< index of the last cell of a row
+  std::array<std::int32_t, 8> widths;   ///< cells of a row
   std::array<std::int32_t, 8> strides;  ///< 1 | cells of a row << 16
-  std::array<std::int32_t, 8> firsts;   ///< index of the first height
+  std::array<std::int32_t, 8> firsts;   ///< index of the first height | grid << grid_shift
   std::size_t count;
   const float* heights;  ///< one row and two more must be readable
   bool reaches_edge;     ///< whether points can lie beyond the outermost centres
@@ -68,10 +78,8 @@ class PointHeights {
   GridTables tables_{};
   Buffer<std::uint8_t> obstacles_;  ///< marks, two bytes per 0.5 m cell; see ObstacleCells
   std::size_t obstacle_bytes_ = 0;
-  std::uint8_t mark_ = 0;  ///< of the current scan
-  /// Points whose label depends on their obstacle cell, and these cells, chunk by chunk.
-  Buffer<std::uint32_t> undecided_points_;
-  Buffer<std::uint32_t> undecided_cells_;
+  std::uint8_t mark_ = 0;                   ///< of the current scan
+  Buffer<UndecidedPoint> undecided_;        ///< per chunk, from its first point on
   Buffer<std::uint32_t> undecided_counts_;  ///< per chunk
 };
 

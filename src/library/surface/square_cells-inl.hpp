@@ -26,114 +26,134 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// Number of rings of blocks between the sensor and a column (or row) of blocks.
-HWY_INLINE IntVector ring_of(IntVector column, IntVector half) {
-  const IntTag di;
-  const IntVector from_middle = hn::Sub(column, half);
-  return hn::Max(from_middle, hn::Sub(hn::Set(di, -1), from_middle));
-}
-
-/// Distances from the edge of the cells in units of packed points: x in the lower 16 bits, y in the
-/// upper 16 bits. For points within the extent.
-HWY_INLINE IntVector from_edge(FloatVector x, FloatVector y, const SquareCells& cells) {
-  const FloatTag d;
-  const FloatVector per_metre = hn::Set(d, xy_per_metre);
-  const FloatVector edge = hn::Set(d, xy_per_metre * cells.extent());
-  const auto units = [&](FloatVector v)
-                         HWY_ATTR { return whole_part(hn::Add(hn::Mul(v, per_metre), edge)); };
-  return hn::Or(units(x), hn::ShiftLeft<16>(units(y)));
-}
-
-/// The cell of points from their distances from the edge. x and y are computed at once, each in 16
-/// bits.
-HWY_INLINE IntVector cell_of(IntVector edges, const SquareCells& cells) {
-  const IntTag di;
-  // Blocks of 8 m are 2^10 units wide.
-  const IntVector block = hn::And(hn::ShiftRight<10>(edges), hn::Set(di, 0x3F003F));
-  const IntVector half = hn::Set(di, cells.half_blocks());
-  const IntVector column = hn::And(block, hn::Set(di, 0x3F));
-  const IntVector row = hn::ShiftRight<16>(block);
-  const IntVector ring =
-      hn::Min(hn::Max(ring_of(column, half), ring_of(row, half)), hn::Set(di, 7));
-
-  // The position in the block in cells of 0.25 m, five bits each for x and y, interleaved.
-  IntVector bits = hn::And(hn::ShiftRight<5>(edges), hn::Set(di, 0x1F001F));
-  bits = hn::And(hn::Or(bits, hn::ShiftLeft<4>(bits)), hn::Set(di, 0x10F010F));
-  bits = hn::And(hn::Or(bits, hn::ShiftLeft<2>(bits)), hn::Set(di, 0x1330133));
-  bits = hn::And(hn::Or(bits, hn::ShiftLeft<1>(bits)), hn::Set(di, 0x1550155));
-  const IntVector z_order = hn::And(hn::Or(bits, hn::ShiftRight<15>(bits)), hn::Set(di, 0x3FF));
-
-  const IntVector first = hn::Add(lookup_8(cells.class_bases(), ring),
-                                  sum_of_products(block, lookup_8(cells.class_strides(), ring)));
-  return hn::Add(first, hn::Shr(z_order, lookup_8(cells.class_shifts(), ring)));
-}
-
-/// Points in four bytes; see PackedPoint.
-HWY_INLINE IntVector packed(IntVector edges, FloatVector z, const SquareCells& cells) {
-  const FloatTag d;
-  const IntTag di;
-  constexpr float limit = 32768;
-  const FloatVector units = hn::Add(hn::Mul(z, hn::Set(d, z_per_metre)),
-                                    hn::Set(d, limit + 0.5f - cells.packed_zero() * z_per_metre));
-  const IntVector height =
-      whole_part(hn::Min(hn::Max(units, hn::Zero(d)), hn::Set(d, 2 * limit - 1)));
-  const IntVector in_cell = hn::And(edges, hn::Set(di, 0xFF00FF));
-  const IntVector xy = hn::And(hn::Or(in_cell, hn::ShiftRight<8>(in_cell)), hn::Set(di, 0xFFFF));
-  // Subtracts the limit from the upper 16 bits.
-  return hn::Xor(hn::Or(hn::ShiftLeft<16>(height), xy),
-                 hn::Set(di, std::numeric_limits<std::int32_t>::min()));
-}
-
-/// Whether points are valid and in range.
-HWY_INLINE hn::Mask<FloatTag> is_good(FloatVector x, FloatVector y, FloatVector z,
-                                      const SquareCells& cells) {
-  const FloatTag d;
-  const FloatVector squared_range =
-      hn::Add(hn::Mul(x, x), hn::Mul(y, y));  // infinite if the square overflows
-  const auto in_range = hn::And(hn::Lt(squared_range, hn::Set(d, cells.max_squared_range())),
-                                hn::Le(hn::Abs(z), hn::Set(d, max_coordinate)));
-  return hn::And(in_range, is_return(x, y, z));
-}
-
-/// Whether points are below the noise limit of the cells. For points in range.
-HWY_INLINE hn::Mask<FloatTag> is_below_cells(FloatVector squared_range, FloatVector z,
-                                             const SquareCells& cells) {
-  const FloatTag d;
-  const FloatVector depth = hn::Sub(hn::Set(d, cells.noise_height()), z);
-  const FloatVector slope = hn::Set(d, cells.noise_slope());
-  // depth > slope * range, without a square root
-  return hn::And(hn::Gt(depth, hn::Zero(d)),
-                 hn::Gt(hn::Mul(depth, depth), hn::Mul(hn::Mul(slope, slope), squared_range)));
-}
-
 struct Located {
   IntVector cell;    ///< or none()
   IntVector packed;  ///< unspecified for none()
   bool all_have_cells;
 };
 
-/// The cells of points, and the points in packed form. Accepts any value, including NaN, infinity
-/// and denormals.
-HWY_INLINE Located locate(FloatVector x, FloatVector y, FloatVector z, const SquareCells& cells) {
-  const IntTag di;
-  const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
-  const auto used = hn::AndNot(is_below_cells(squared_range, z, cells), is_good(x, y, z, cells));
-  Located found;
-  found.all_have_cells = hn::AllTrue(FloatTag(), used);
-  if (HWY_UNLIKELY(!found.all_have_cells)) {
-    x = hn::IfThenElseZero(used, x);
-    y = hn::IfThenElseZero(used, y);
-    z = hn::IfThenElseZero(used, z);
+/// Finds the cells of points. Has its own copy of the tables, so that they stay in registers while
+/// results are stored.
+class CellLocator {
+ public:
+  HWY_INLINE explicit CellLocator(const SquareCells& cells)
+      : half_blocks_(cells.half_blocks()),
+        none_(static_cast<std::int32_t>(cells.none())),
+        edge_(xy_per_metre * cells.extent()),
+        max_squared_range_(cells.max_squared_range()),
+        noise_height_(cells.noise_height()),
+        squared_noise_slope_(cells.noise_slope() * cells.noise_slope()),
+        rounding_(packed_limit + 0.5f - cells.packed_zero() * z_per_metre),
+        bases_(cells.class_bases()),
+        strides_(cells.class_strides()),
+        shifts_(cells.class_shifts()) {}
+
+  /// The cells of points, and the points in packed form. Accepts any value, including NaN, infinity
+  /// and denormals.
+  HWY_INLINE Located locate(FloatVector x, FloatVector y, FloatVector z) const {
+    const IntTag di;
+    const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
+    const auto used = hn::AndNot(is_below_cells(squared_range, z), is_good(squared_range, x, y, z));
+    Located found;
+    found.all_have_cells = hn::AllTrue(FloatTag(), used);
+    if (HWY_UNLIKELY(!found.all_have_cells)) {
+      x = hn::IfThenElseZero(used, x);
+      y = hn::IfThenElseZero(used, y);
+      z = hn::IfThenElseZero(used, z);
+    }
+    const IntVector edges = from_edge(x, y);
+    found.cell = cell_of(edges);
+    found.packed = packed(edges, z);
+    if (HWY_UNLIKELY(!found.all_have_cells)) {
+      found.cell = hn::IfThenElse(hn::RebindMask(di, used), found.cell, hn::Set(di, none_));
+    }
+    return found;
   }
-  const IntVector edges = from_edge(x, y, cells);
-  found.cell = cell_of(edges, cells);
-  found.packed = packed(edges, z, cells);
-  if (HWY_UNLIKELY(!found.all_have_cells)) {
-    const IntVector none = hn::Set(di, static_cast<std::int32_t>(cells.none()));
-    found.cell = hn::IfThenElse(hn::RebindMask(di, used), found.cell, none);
+
+  /// Whether points are valid and in range. The squared range is infinite if it overflows.
+  HWY_INLINE hn::Mask<FloatTag> is_good(FloatVector squared_range, FloatVector x, FloatVector y,
+                                        FloatVector z) const {
+    const FloatTag d;
+    const auto in_range = hn::And(hn::Lt(squared_range, hn::Set(d, max_squared_range_)),
+                                  hn::Le(hn::Abs(z), hn::Set(d, max_coordinate)));
+    return hn::And(in_range, is_return(x, y, z));
   }
-  return found;
-}
+
+  /// Whether points are below the noise limit of the cells. For points in range.
+  HWY_INLINE hn::Mask<FloatTag> is_below_cells(FloatVector squared_range, FloatVector z) const {
+    const FloatTag d;
+    const FloatVector depth = hn::Sub(hn::Set(d, noise_height_), z);
+    // depth > slope * range, without a square root
+    return hn::And(
+        hn::Gt(depth, hn::Zero(d)),
+        hn::Gt(hn::Mul(depth, depth), hn::Mul(hn::Set(d, squared_noise_slope_), squared_range)));
+  }
+
+ private:
+  static constexpr float packed_limit = 32768;
+
+  /// Distances from the edge of the cells in units of packed points: x in the lower 16 bits, y in
+  /// the upper 16 bits. For points within the extent.
+  HWY_INLINE IntVector from_edge(FloatVector x, FloatVector y) const {
+    const FloatTag d;
+    const FloatVector per_metre = hn::Set(d, xy_per_metre);
+    const auto units = [&](FloatVector v) HWY_ATTR {
+      return whole_part(hn::Add(hn::Mul(v, per_metre), hn::Set(d, edge_)));
+    };
+    return hn::Or(units(x), hn::ShiftLeft<16>(units(y)));
+  }
+
+  /// Number of rings of blocks between the sensor and a column (or row) of blocks.
+  HWY_INLINE IntVector ring_of(IntVector column) const {
+    const IntTag di;
+    const IntVector from_middle = hn::Sub(column, hn::Set(di, half_blocks_));
+    return hn::Max(from_middle, hn::Sub(hn::Set(di, -1), from_middle));
+  }
+
+  /// The cell of points from their distances from the edge. x and y are computed at once, each in
+  /// 16 bits.
+  HWY_INLINE IntVector cell_of(IntVector edges) const {
+    const IntTag di;
+    // Blocks of 8 m are 2^10 units wide.
+    const IntVector block = hn::And(hn::ShiftRight<10>(edges), hn::Set(di, 0x3F003F));
+    const IntVector column = hn::And(block, hn::Set(di, 0x3F));
+    const IntVector row = hn::ShiftRight<16>(block);
+    const IntVector ring = hn::Min(hn::Max(ring_of(column), ring_of(row)), hn::Set(di, 7));
+
+    // The position in the block in cells of 0.25 m, five bits each for x and y, interleaved.
+    IntVector bits = hn::And(hn::ShiftRight<5>(edges), hn::Set(di, 0x1F001F));
+    bits = hn::And(hn::Or(bits, hn::ShiftLeft<4>(bits)), hn::Set(di, 0x10F010F));
+    bits = hn::And(hn::Or(bits, hn::ShiftLeft<2>(bits)), hn::Set(di, 0x1330133));
+    bits = hn::And(hn::Or(bits, hn::ShiftLeft<1>(bits)), hn::Set(di, 0x1550155));
+    const IntVector z_order = hn::And(hn::Or(bits, hn::ShiftRight<15>(bits)), hn::Set(di, 0x3FF));
+
+    const IntVector first = hn::Add(bases_[ring], sum_of_products(block, strides_[ring]));
+    return hn::Add(first, hn::Shr(z_order, shifts_[ring]));
+  }
+
+  /// Points in four bytes; see PackedPoint.
+  HWY_INLINE IntVector packed(IntVector edges, FloatVector z) const {
+    const FloatTag d;
+    const IntTag di;
+    const FloatVector units = hn::Add(hn::Mul(z, hn::Set(d, z_per_metre)), hn::Set(d, rounding_));
+    const IntVector height =
+        whole_part(hn::Min(hn::Max(units, hn::Zero(d)), hn::Set(d, 2 * packed_limit - 1)));
+    const IntVector in_cell = hn::And(edges, hn::Set(di, 0xFF00FF));
+    const IntVector xy = hn::And(hn::Or(in_cell, hn::ShiftRight<8>(in_cell)), hn::Set(di, 0xFFFF));
+    // Subtracts the limit from the upper 16 bits.
+    return hn::Xor(hn::Or(hn::ShiftLeft<16>(height), xy),
+                   hn::Set(di, std::numeric_limits<std::int32_t>::min()));
+  }
+
+  std::int32_t half_blocks_;
+  std::int32_t none_;
+  float edge_;
+  float max_squared_range_;
+  float noise_height_;
+  float squared_noise_slope_;
+  float rounding_;  ///< of a packed z
+  Table8<IntTag> bases_, strides_, shifts_;
+};
 
 }  // namespace
 }  // namespace flagstone::surface::HWY_NAMESPACE

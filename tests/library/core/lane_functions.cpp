@@ -46,7 +46,7 @@ void look_up_in_two(const float* table, const std::int32_t* indices, float* to) 
 
 void look_up_in_eight(const float* table, const std::int32_t* indices, float* to) {
   const IntTag di;
-  const simd::Table8 eight(table);
+  const simd::Table8<FloatTag> eight(table);
   for (std::size_t i = 0; i < simd::lanes; i += hn::Lanes(di)) {
     hn::StoreU(eight[hn::LoadU(di, indices + i)], FloatTag(), to + i);
   }

@@ -26,7 +26,7 @@ std::size_t length() { return hn::Lanes(FloatTag()); }
 struct ListLocated {
   HWY_INLINE void operator()(std::size_t i, FloatVector x, FloatVector y, FloatVector z) const {
     const IntTag di;
-    const auto point = locate(x, y, z, cells);
+    const auto point = locator.locate(x, y, z);
     HWY_ALIGN std::array<std::int32_t, lanes> cell;
     HWY_ALIGN std::array<std::int32_t, lanes> packed;
     hn::Store(point.cell, di, cell.data());
@@ -36,13 +36,13 @@ struct ListLocated {
                          .packed = static_cast<std::uint32_t>(packed[lane])};
     }
   }
-  const surface::SquareCells& cells;
+  CellLocator locator;
   std::vector<Located>& found;
 };
 
 void locate_all(const CloudView& cloud, const surface::SquareCells& cells,
                 std::vector<Located>& found) {
-  if (cloud.size() > 0) read_cloud(cloud, 0, cloud.size(), ListLocated{cells, found});
+  if (cloud.size() > 0) read_cloud(cloud, 0, cloud.size(), ListLocated{CellLocator(cells), found});
 }
 
 std::size_t sample(const surface::PackedPoint* points, std::size_t count, SizeOfSample size,

@@ -17,7 +17,7 @@ namespace flagstone::tests {
 /// Number of points per vector.
 std::size_t vector_length();
 
-/// A point as locate() sees it.
+/// A point as CellLocator sees it.
 struct Located {
   std::uint32_t cell;           ///< or none()
   surface::PackedPoint packed;  ///< unspecified for none()

@@ -56,49 +56,39 @@ HWY_INLINE FloatVector lookup_16(const float* HWY_RESTRICT table, IntVector inde
 #endif
 }
 
-/// Looks up element `index` (0 to 7 in each lane) in a table of 8 elements with any alignment.
-HWY_INLINE FloatVector lookup_8(const float* HWY_RESTRICT table, IntVector index) {
-#if HWY_TARGET <= HWY_AVX3
-  // Loads half a vector: the memory after the table may not be readable.
-  const FloatVector numbers{_mm512_castps256_ps512(_mm256_loadu_ps(table))};
-  return hn::TableLookupLanes(numbers, hn::IndicesFromVec(FloatTag(), index));
-#elif HWY_TARGET == HWY_AVX2
-  const FloatTag d;
-  return hn::TableLookupLanes(hn::LoadU(d, table), hn::IndicesFromVec(d, index));
-#else
-  return lookup_16(table, index);
-#endif
-}
-
-/// Looks up element `index` (0 to 7 in each lane) in a table of 8 integers with any alignment.
-HWY_INLINE IntVector lookup_8(const std::int32_t* HWY_RESTRICT table, IntVector index) {
-  return hn::BitCast(IntTag(), lookup_8(reinterpret_cast<const float*>(table), index));
-}
-
-/// A table of 8 numbers, kept in a register if it fits.
+/// A table of 8 numbers with any alignment, kept in a register if it fits.
+template <class D>
 class Table8 {
  public:
+  using T = hn::TFromD<D>;
+
 #if HWY_TARGET <= HWY_AVX2
-  HWY_INLINE explicit Table8(const float* table)
+  HWY_INLINE explicit Table8(const T* table) : numbers_(load(table)) {}
+
+  /// Looks up element `index`, 0 to 7 in each lane.
+  HWY_INLINE hn::Vec<D> operator[](IntVector index) const {
+    return hn::TableLookupLanes(numbers_, hn::IndicesFromVec(D(), index));
+  }
+
+ private:
+  static HWY_INLINE hn::Vec<D> load(const T* table) {
 #if HWY_TARGET <= HWY_AVX3
-      : numbers_{_mm512_castps256_ps512(_mm256_loadu_ps(table))} {}
+    // Loads half a vector: the memory after the table may not be readable.
+    return hn::ZeroExtendVector(D(), hn::LoadU(hn::Half<D>(), table));
 #else
-      : numbers_{_mm256_loadu_ps(table)} {
-  }
+    return hn::LoadU(D(), table);
 #endif
-        HWY_INLINE FloatVector
-        operator[](IntVector index) const {
-    return hn::TableLookupLanes(numbers_, hn::IndicesFromVec(FloatTag(), index));
+  }
+
+  hn::Vec<D> numbers_;
+#else
+  HWY_INLINE explicit Table8(const T* table) : numbers_(table) {}
+  HWY_INLINE hn::Vec<D> operator[](IntVector index) const {
+    return hn::GatherIndex(D(), numbers_, index);
   }
 
  private:
-  FloatVector numbers_;
-#else
-  HWY_INLINE explicit Table8(const float* table) : numbers_(table) {}
-  HWY_INLINE FloatVector operator[](IntVector index) const { return lookup_8(numbers_, index); }
-
- private:
-  const float* numbers_;
+  const T* numbers_;
 #endif
 };
 

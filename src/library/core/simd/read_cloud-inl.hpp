@@ -29,7 +29,7 @@ namespace {
 
 /// Prefetch distance in floats. The time per block is so long that the hardware prefetcher of the
 /// CPU is too late for scans that are not in the cache.
-inline constexpr std::size_t cloud_prefetch_distance = 512;
+inline constexpr std::size_t cloud_prefetch_distance = 1024;
 
 /// Prefetches a later block. Addresses after the end of the cloud do no harm.
 template <std::size_t floats>
