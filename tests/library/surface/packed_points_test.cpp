@@ -142,13 +142,13 @@ TEST_P(PackedPointsOn, PositionsOnTheLatticeAreExact) {
   }
 }
 
-TEST_P(PackedPointsOn, HeightsAreLimitedTo64MetresAboveAndBelowTheExpectedGround) {
+TEST_P(PackedPointsOn, HeightsAreLimitedTo64MetresAboveAndBelowThePackedZero) {
   SurfaceConfig config;
   config.noise_depth = 1000;
   const SquareCells cells(config);
 
   const auto height_of = [&](float above) {
-    return Unpacked(tests::located({{10, 10, above - config.sensor_height}}, cells)[0].packed).z;
+    return Unpacked(tests::located({{10, 10, cells.packed_zero() + above}}, cells)[0].packed).z;
   };
 
   EXPECT_EQ(height_of(0), 0);

@@ -219,13 +219,19 @@ TEST(SurfaceMethod, AnErrorOf30CentimetresInSensorHeightChangesAtMostOneLabelIn1
       const Outcome wrong = segmented(cloud, config);
 
       EXPECT_LE(fraction_of_different(right.labels, wrong.labels), 1e-3) << error;
+      double different = 0;
       for (std::size_t i = 0; i < cloud.size(); ++i) {
+        if (std::isnan(right.heights[i])) continue;
+        const float difference = std::abs(right.heights[i] - wrong.heights[i]);
         // Nothing is measured below the sensor, so the ground height there follows from the sensor
         // height.
-        const bool is_near = std::hypot(cloud[i].x, cloud[i].y) < 4;
-        if (std::isnan(right.heights[i])) continue;
-        ASSERT_NEAR(right.heights[i], wrong.heights[i], is_near ? 0.06f : 0.02f) << error;
+        if (std::hypot(cloud[i].x, cloud[i].y) < 4) {
+          ASSERT_LE(difference, 0.07f) << error;
+        } else if (difference > 0.02f) {
+          ++different;
+        }
       }
+      EXPECT_LE(different, 0.02 * static_cast<double>(cloud.size())) << error;
     }
   }
 }
