@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -13,21 +14,6 @@
 // The above includes this file once for each instruction set.
 #include "library/core/simd/lanes-inl.hpp"
 
-#ifndef FLAGSTONE_SURFACE_GRID_ONCE
-#define FLAGSTONE_SURFACE_GRID_ONCE
-namespace flagstone::surface {
-
-/// A grid in memory, cell (row, column) at `values[row * stride + column]`.
-struct FilledGrid {
-  float* values;
-  float* weights;
-  std::size_t width;
-  std::size_t stride;
-};
-
-}  // namespace flagstone::surface
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace flagstone::surface::HWY_NAMESPACE {
 namespace {
@@ -35,89 +21,35 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace flagstone::HWY_NAMESPACE;  // NOLINT(google-build-using-namespace): its other half
 
-/// For the rest of a row that does not fill a vector.
+/// For the rest of a row that does not fill a vector of sixteen lanes.
 using ShortTag = hn::CappedTag<float, 4>;
-
-// Loops without vectors are vectorised by the compiler for each instruction set.
+using OneTag = hn::CappedTag<float, 1>;
 
 /// Number of cells over which corrections fade at an inner edge.
 inline constexpr std::size_t fading = 3;
 
-void upsample_values(const float* coarse, std::size_t coarse_width, float* fine,
-                     std::size_t fine_width) {
-  const std::size_t margin =
-      (coarse_width - fine_width / 2) / 2;  // coarse cells outside the fine grid, per side
-  const std::size_t last = coarse_width - 1;
-  const auto beside = [&](std::size_t fine_index) {  // the second-nearest coarse cell
-    const std::size_t here = margin + fine_index / 2;
-    if (fine_index % 2 == 0) return here > 0 ? here - 1 : 0;
-    return std::min(here + 1, last);
-  };
-  for (std::size_t row = 0; row < fine_width; ++row) {
-    const float* HWY_RESTRICT near = coarse + (margin + row / 2) * coarse_width;
-    const float* HWY_RESTRICT far = coarse + beside(row) * coarse_width;
-    float* HWY_RESTRICT values = fine + row * fine_width;
-    const auto set = [&](std::size_t column, std::size_t here, std::size_t next) {
-      values[column] = 0.75f * (0.75f * near[here] + 0.25f * far[here]) +
-                       0.25f * (0.75f * near[next] + 0.25f * far[next]);
-    };
-    set(0, margin, beside(0));
-    for (std::size_t pair = 0; pair + 1 < fine_width / 2; ++pair) {
-      const std::size_t here = margin + pair;
-      set(2 * pair + 1, here, here + 1);
-      set(2 * pair + 2, here + 1, here);
-    }
-    set(fine_width - 1, margin + fine_width / 2 - 1, beside(fine_width - 1));
-  }
-}
+/// Weighted means of two by two cells of two rows of a finer grid. The second row counts
+/// `lower_there` times, 0 or 1.
+struct PulledRow {
+  const float *upper_values, *lower_values, *upper_weights, *lower_weights;
+  float lower_there;
+  float *values, *weights;  ///< of the coarser grid
+};
 
-void correct_values(const float* HWY_RESTRICT corrections, const float* HWY_RESTRICT confidences,
-                    bool inner, const Grid& grid) {
-  for (std::size_t row = 0; row < grid.width; ++row) {
-    const std::size_t from_edge = std::min(row, grid.width - 1 - row);
-    const float row_share =
-        inner && from_edge < fading ? static_cast<float>(from_edge) / fading : 1.0f;
-    const float* HWY_RESTRICT from = corrections + row * grid.width;
-    const float* HWY_RESTRICT known = confidences + row * grid.width;
-    float* HWY_RESTRICT heights = grid.heights + row * grid.width;
-    float* HWY_RESTRICT confidence = grid.confidences + row * grid.width;
-    const auto faded = [&](std::size_t column) {
-      const std::size_t edge = std::min(column, grid.width - 1 - column);
-      const float share = inner && edge < fading ? static_cast<float>(edge) / fading : 1.0f;
-      heights[column] += std::min(share, row_share) * from[column];
-    };
-    const std::size_t side = std::min(fading, grid.width / 2);
-    for (std::size_t column = 0; column < side; ++column) faded(column);
-    for (std::size_t column = side; column < grid.width - side; ++column) {
-      heights[column] += row_share * from[column];
-    }
-    for (std::size_t column = grid.width - side; column < grid.width; ++column) faded(column);
-    for (std::size_t column = 0; column < grid.width; ++column) {
-      confidence[column] = std::max(confidence[column], known[column]);
-    }
-  }
-}
-
-/// Weighted means of two by two cells in two rows, for as many columns as fill whole vectors of D.
-/// Returns the number of columns.
+/// Computes `pairs` means from number `first` on, as many as fill whole vectors of D. Returns their
+/// end.
 template <class D>
-HWY_INLINE std::size_t pull_columns(D d, const FilledGrid& fine, std::size_t upper,
-                                    std::size_t lower, float lower_there, float full,
-                                    std::size_t first, std::size_t pairs, float* values,
-                                    float* weights) {
+HWY_INLINE std::size_t pull_pairs(D d, const PulledRow& row, float full, std::size_t first,
+                                  std::size_t pairs) {
   const auto most = hn::Set(d, full);
-  const auto there = hn::Set(d, lower_there);
-  const float* const v0 = fine.values + upper * fine.stride;
-  const float* const v1 = fine.values + lower * fine.stride;
-  const float* const w0 = fine.weights + upper * fine.stride;
-  const float* const w1 = fine.weights + lower * fine.stride;
+  const auto there = hn::Set(d, row.lower_there);
   std::size_t column = first;
   for (; column + hn::Lanes(d) <= pairs; column += hn::Lanes(d)) {
     hn::Vec<D> value_a, value_b, value_c, value_d, a, b, c, e;
-    hn::LoadInterleaved2(d, v0 + 2 * column, value_a, value_b);
-    hn::LoadInterleaved2(d, v1 + 2 * column, value_c, value_d);
-    hn::LoadInterleaved2(d, w0 + 2 * column, a, b);
-    hn::LoadInterleaved2(d, w1 + 2 * column, c, e);
+    hn::LoadInterleaved2(d, row.upper_values + 2 * column, value_a, value_b);
+    hn::LoadInterleaved2(d, row.lower_values + 2 * column, value_c, value_d);
+    hn::LoadInterleaved2(d, row.upper_weights + 2 * column, a, b);
+    hn::LoadInterleaved2(d, row.lower_weights + 2 * column, c, e);
     a = hn::Min(a, most);
     b = hn::Min(b, most);
     c = hn::Mul(hn::Min(c, most), there);
@@ -127,139 +59,192 @@ HWY_INLINE std::size_t pull_columns(D d, const FilledGrid& fine, std::size_t upp
                              hn::Add(hn::Mul(c, value_c), hn::Mul(e, value_d)));
     const auto has_weight = hn::Gt(weight, hn::Zero(d));
     const auto divisor = hn::IfThenElse(has_weight, weight, hn::Set(d, 1.0f));
-    hn::StoreU(hn::IfThenElseZero(has_weight, hn::Div(sum, divisor)), d, values + column);
-    hn::StoreU(weight, d, weights + column);
+    hn::StoreU(hn::IfThenElseZero(has_weight, hn::Div(sum, divisor)), d, row.values + column);
+    hn::StoreU(weight, d, row.weights + column);
   }
   return column;
 }
 
-/// Weighted means of two by two cells. If the width is odd, the last row and column have no
-/// partner.
+/// Weighted means of two by two cells. If the width is odd, the last row has no partner, and that
+/// of the last column has no weight.
 void pull(const FilledGrid& fine, const FilledGrid& coarse, float full) {
   for (std::size_t row = 0; row < coarse.width; ++row) {
-    const std::size_t upper = 2 * row;
-    const std::size_t lower = std::min(upper + 1, fine.width - 1);
-    const float lower_there = upper + 1 < fine.width ? 1.0f : 0.0f;
-    const float* HWY_RESTRICT v0 = fine.values + upper * fine.stride;
-    const float* HWY_RESTRICT v1 = fine.values + lower * fine.stride;
-    const float* HWY_RESTRICT w0 = fine.weights + upper * fine.stride;
-    const float* HWY_RESTRICT w1 = fine.weights + lower * fine.stride;
-    float* HWY_RESTRICT values = coarse.values + row * coarse.stride;
-    float* HWY_RESTRICT weights = coarse.weights + row * coarse.stride;
-    const auto pull_cell = [&](std::size_t column, std::size_t left, std::size_t right,
-                               float right_there) {
-      const float a = std::min(w0[left], full);
-      const float b = std::min(w0[right], full) * right_there;
-      const float c = std::min(w1[left], full) * lower_there;
-      const float d = std::min(w1[right], full) * right_there * lower_there;
-      const float weight = (a + b) + (c + d);
-      const float sum = (a * v0[left] + b * v0[right]) + (c * v1[left] + d * v1[right]);
-      values[column] = weight > 0 ? sum / weight : 0.0f;
-      weights[column] = weight;
-    };
-    const std::size_t pairs = fine.width / 2;
-    std::size_t column =
-        pull_columns(FloatTag(), fine, upper, lower, lower_there, full, 0, pairs, values, weights);
-    column = pull_columns(ShortTag(), fine, upper, lower, lower_there, full, column, pairs, values,
-                          weights);
-    for (; column < pairs; ++column) pull_cell(column, 2 * column, 2 * column + 1, 1.0f);
-    if (pairs < coarse.width) pull_cell(pairs, 2 * pairs, 2 * pairs, 0.0f);
+    const std::size_t upper = 2 * row * fine.stride;
+    const std::size_t lower = std::min(2 * row + 1, fine.width - 1) * fine.stride;
+    const PulledRow rows{.upper_values = fine.values + upper,
+                         .lower_values = fine.values + lower,
+                         .upper_weights = fine.weights + upper,
+                         .lower_weights = fine.weights + lower,
+                         .lower_there = 2 * row + 1 < fine.width ? 1.0f : 0.0f,
+                         .values = coarse.values + row * coarse.stride,
+                         .weights = coarse.weights + row * coarse.stride};
+    const std::size_t pairs = fine.stride / 2;
+    std::size_t column = pull_pairs(FloatTag(), rows, full, 0, pairs);
+    column = pull_pairs(ShortTag(), rows, full, column, pairs);
+    pull_pairs(OneTag(), rows, full, column, pairs);
+    if (coarse.width % 2 != 0) rows.values[coarse.width] = rows.weights[coarse.width] = 0;
   }
 }
 
-/// Copies the outermost cells of a grid to the frame around it.
-void frame(const FilledGrid& grid) {
-  for (float* cells : {grid.values, grid.weights}) {
-    const auto stride = static_cast<std::ptrdiff_t>(grid.stride);
-    const auto width = static_cast<std::ptrdiff_t>(grid.width);
-    for (std::ptrdiff_t row = 0; row < width; ++row) {
-      float* const line = cells + row * stride;
-      line[-1] = line[0];
-      line[width] = line[width - 1];
-    }
-    std::copy_n(cells - 1, width + 2, cells - 1 - stride);
-    std::copy_n(cells - 1 + (width - 1) * stride, width + 2, cells - 1 + width * stride);
-  }
-}
-
-/// A row of a coarser grid and its neighbour, interpolated at the centres of a row of the finer
-/// grid. Elements -1 and `width` are the frame.
-struct FramedRow {
-  std::array<float, most_width / 2 + 2 * lanes + 2> values, confidences;
+/// Values and weights of a row of a coarser grid, interpolated at the centres of a row of a finer
+/// grid. Element 0 belongs to the cell before the first one.
+struct CoarseRow {
+  std::array<float, most_width / 2 + lanes + 2> values{}, weights{};
 };
 
-void interpolate_row(const FilledGrid& coarse, std::ptrdiff_t near, std::ptrdiff_t far,
-                     FramedRow& row) {
-  const auto stride = static_cast<std::ptrdiff_t>(coarse.stride);
-  const float* HWY_RESTRICT v_near = coarse.values + near * stride - 1;
-  const float* HWY_RESTRICT v_far = coarse.values + far * stride - 1;
-  const float* HWY_RESTRICT c_near = coarse.weights + near * stride - 1;
-  const float* HWY_RESTRICT c_far = coarse.weights + far * stride - 1;
-  for (std::size_t i = 0; i < coarse.width + 2; ++i) {
-    row.values[i] = 0.75f * v_near[i] + 0.25f * v_far[i];
-    row.confidences[i] = 0.75f * c_near[i] + 0.25f * c_far[i];
+/// Interpolates between two rows: three quarters of `near`, one quarter of `far`.
+template <class D>
+HWY_INLINE void interpolate_rows(D d, const float* near, const float* far, std::size_t count,
+                                 float* to) {
+  if constexpr (hn::MaxLanes(D()) > 1) {
+    if (count < hn::Lanes(d)) {
+      return interpolate_rows(hn::CappedTag<float, hn::MaxLanes(D()) / 2>(), near, far, count, to);
+    }
+  }
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const std::size_t at = std::min(i, count - hn::Lanes(d));  // the last two vectors can overlap
+    hn::StoreU(hn::Add(hn::Mul(hn::Set(d, 0.75f), hn::LoadU(d, near + at)),
+                       hn::Mul(hn::Set(d, 0.25f), hn::LoadU(d, far + at))),
+               d, to + at);
   }
 }
 
-/// Fills pairs of cells of a row, for as many pairs as fill whole vectors of D. Returns the number
-/// of pairs.
+/// Interleaves two vectors: `low` becomes a0, b0, a1, b1, ..., and `high` contains the second
+/// halves.
 template <class D>
-HWY_INLINE std::size_t push_pairs(D d, const FramedRow& row, float per_weight, std::size_t first,
-                                  std::size_t pairs, float* values, float* weights) {
-  const auto one = hn::Set(d, 1.0f);
-  const auto near_share = hn::Set(d, 0.75f);
-  const auto far_share = hn::Set(d, 0.25f);
+HWY_INLINE void interleave(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D>& low, hn::Vec<D>& high) {
+  if constexpr (hn::MaxLanes(D()) == 1) {
+    low = a;
+    high = b;
+#if HWY_TARGET <= HWY_AVX3
+  } else if constexpr (hn::MaxLanes(D()) == lanes) {
+    HWY_ALIGN static constexpr std::int32_t of_low[] = {0, 16, 1, 17, 2, 18, 3, 19,
+                                                        4, 20, 5, 21, 6, 22, 7, 23};
+    HWY_ALIGN static constexpr std::int32_t of_high[] = {8,  24, 9,  25, 10, 26, 11, 27,
+                                                         12, 28, 13, 29, 14, 30, 15, 31};
+    low = hn::Vec<D>{_mm512_permutex2var_ps(a.raw, _mm512_load_si512(of_low), b.raw)};
+    high = hn::Vec<D>{_mm512_permutex2var_ps(a.raw, _mm512_load_si512(of_high), b.raw)};
+#endif
+#if HWY_TARGET != HWY_SCALAR
+  } else {
+    const hn::Vec<D> lower = hn::InterleaveLower(d, a, b);  // of each block of 128 bits
+    const hn::Vec<D> upper = hn::InterleaveUpper(d, a, b);
+    if constexpr (hn::MaxLanes(D()) * sizeof(float) == 16) {
+      low = lower;
+      high = upper;
+    } else {
+      low = hn::ConcatLowerLower(d, upper, lower);
+      high = hn::ConcatUpperUpper(d, upper, lower);
+    }
+#endif
+  }
+}
+
+/// Interpolates pairs of cells of a finer row, for as many pairs as fill whole vectors of D, and
+/// passes them to `use(d, column, values, weights)`. Returns the number of pairs.
+template <class D, class Use>
+HWY_INLINE std::size_t interpolate_pairs(D d, const CoarseRow& row, std::size_t first,
+                                         std::size_t pairs, const Use& use) {
   std::size_t pair = first;
   for (; pair + hn::Lanes(d) <= pairs; pair += hn::Lanes(d)) {
-    const auto push_cells = [&](std::size_t beside, hn::Vec<D>& value,
-                                hn::Vec<D>& weight) HWY_ATTR {
-      const auto blended = [&](const auto& coarse) HWY_ATTR {
-        return hn::Add(hn::Mul(near_share, hn::LoadU(d, coarse.data() + pair + 1)),
-                       hn::Mul(far_share, hn::LoadU(d, coarse.data() + beside)));
+    const auto blend = [&](const auto& coarse, hn::Vec<D>& low, hn::Vec<D>& high) HWY_ATTR {
+      const auto quarter = [&](std::size_t i) HWY_ATTR {
+        return hn::Mul(hn::Set(d, 0.25f), hn::LoadU(d, coarse.data() + i));
       };
-      const auto known = hn::Min(one, hn::Mul(weight, hn::Set(d, per_weight)));
-      const auto rest = hn::Sub(one, known);
-      value = hn::Add(hn::Mul(known, value), hn::Mul(rest, blended(row.values)));
-      weight = hn::Add(known, hn::Mul(rest, hn::Mul(hn::Set(d, 0.5f), blended(row.confidences))));
+      const hn::Vec<D> here = hn::Mul(hn::Set(d, 0.75f), hn::LoadU(d, coarse.data() + pair + 1));
+      interleave(d, hn::Add(here, quarter(pair)), hn::Add(here, quarter(pair + 2)), low, high);
     };
-    hn::Vec<D> left, right, left_weight, right_weight;
-    hn::LoadInterleaved2(d, values + 2 * pair, left, right);
-    hn::LoadInterleaved2(d, weights + 2 * pair, left_weight, right_weight);
-    push_cells(pair, left, left_weight);
-    push_cells(pair + 2, right, right_weight);
-    hn::StoreInterleaved2(left, right, d, values + 2 * pair);
-    hn::StoreInterleaved2(left_weight, right_weight, d, weights + 2 * pair);
+    hn::Vec<D> low_values, high_values, low_weights, high_weights;
+    blend(row.values, low_values, high_values);
+    blend(row.weights, low_weights, high_weights);
+    use(d, 2 * pair, low_values, low_weights);
+    use(d, 2 * pair + hn::Lanes(d), high_values, high_weights);
   }
   return pair;
 }
 
-/// Fills the finer grid from the coarser one, which has a frame and contains confidences. Bilinear
-/// between centres: three quarters of the enclosing coarse cell, one quarter of the next.
-void push(const FilledGrid& coarse, const FilledGrid& fine, float full) {
-  const float per_weight = 1 / full;
-  FramedRow framed;
-  for (std::size_t row = 0; row < fine.width; ++row) {
-    const auto near = static_cast<std::ptrdiff_t>(row / 2);
-    interpolate_row(coarse, near, row % 2 == 0 ? near - 1 : near + 1, framed);
-    float* HWY_RESTRICT values = fine.values + row * fine.stride;
-    float* HWY_RESTRICT weights = fine.weights + row * fine.stride;
-    const auto push_cell = [&](std::size_t column, std::size_t here, std::size_t beside) {
-      const float value = 0.75f * framed.values[here] + 0.25f * framed.values[beside];
-      const float confidence =
-          0.75f * framed.confidences[here] + 0.25f * framed.confidences[beside];
-      const float known = std::min(1.0f, weights[column] * per_weight);
-      values[column] = known * values[column] + (1 - known) * value;
-      weights[column] = known + (1 - known) * (0.5f * confidence);
-    };
-    const std::size_t pairs = fine.width / 2;
-    std::size_t pair = push_pairs(FloatTag(), framed, per_weight, 0, pairs, values, weights);
-    pair = push_pairs(ShortTag(), framed, per_weight, pair, pairs, values, weights);
-    for (; pair < pairs; ++pair) {
-      push_cell(2 * pair, pair + 1, pair);
-      push_cell(2 * pair + 1, pair + 1, pair + 2);
+/// Interpolates a coarser grid at the cells of a finer one with half the cell size and the same
+/// centre. Bilinear between centres: three quarters of the enclosing coarse cell, one quarter of
+/// the next. Calls `use(d, row, column, values, weights)` for each vector of cells of rows that
+/// have `stride` cells in memory.
+template <class Use>
+HWY_INLINE void interpolate(const FilledGrid& coarse, std::size_t width, std::size_t stride,
+                            const Use& use) {
+  const std::size_t pairs = (width + 1) / 2;
+  const std::size_t margin = (coarse.width - pairs) / 2;  // coarse cells outside, per side
+  const std::size_t last = coarse.width - 1;
+  // Cells beyond the edge have the height of the outermost cells.
+  const std::size_t frame = margin > 0 ? 0 : 1;
+  const std::size_t first = margin > 0 ? margin - 1 : 0;
+  const std::size_t count = pairs + 2 - 2 * frame;
+  std::array<CoarseRow, 2> rows;
+  for (std::size_t row = 0; row <= width; ++row) {
+    if (row < width) {
+      const std::size_t here = margin + row / 2;
+      const std::size_t beside =
+          row % 2 == 0 ? std::max<std::size_t>(here, 1) - 1 : std::min(here + 1, last);
+      const std::size_t near = here * coarse.stride + first;
+      const std::size_t far = beside * coarse.stride + first;
+      const auto set = [&](const float* cells, auto& to) HWY_ATTR {
+        interpolate_rows(FloatTag(), cells + near, cells + far, count, to.data() + frame);
+        if (frame == 0) return;
+        to[0] = to[1];
+        to[pairs + 1] = to[pairs];
+      };
+      set(coarse.values, rows[row % 2].values);
+      set(coarse.weights, rows[row % 2].weights);
     }
-    if (fine.width % 2 != 0) push_cell(2 * pairs, pairs + 1, pairs);
+    if (row == 0) continue;
+    // One row later, because numbers cannot be loaded at once after they were stored.
+    const CoarseRow& before = rows[(row - 1) % 2];
+    const auto use_in_row = [&](auto d, std::size_t column, auto values, auto weights)
+                                HWY_ATTR { use(d, row - 1, column, values, weights); };
+    std::size_t pair = interpolate_pairs(FloatTag(), before, 0, stride / 2, use_in_row);
+    pair = interpolate_pairs(ShortTag(), before, pair, stride / 2, use_in_row);
+    interpolate_pairs(OneTag(), before, pair, stride / 2, use_in_row);
   }
+}
+
+void upsample_grid(const Grid& coarse, Grid fine) {
+  const FilledGrid from{.values = coarse.heights,
+                        .weights = coarse.confidences,
+                        .width = coarse.width,
+                        .stride = coarse.width};
+  interpolate(from, fine.width, fine.width,
+              [=](auto d, std::size_t row, std::size_t column, auto heights, auto confidences)
+                  HWY_ATTR {
+                    const std::size_t cell = row * fine.width + column;
+                    hn::StoreU(heights, d, fine.heights + cell);
+                    hn::StoreU(confidences, d, fine.confidences + cell);
+                  });
+}
+
+/// Fills cells of the finer grid from the coarser one, which contains confidences, and passes them
+/// to `use(d, row, column, values, confidences)`.
+template <class Use>
+HWY_INLINE void push(const FilledGrid& coarse, FilledGrid fine, float full, const Use& use) {
+  const float per_weight = 1 / full;
+  interpolate(
+      coarse, fine.width, fine.stride,
+      [=](auto d, std::size_t row, std::size_t column, auto values, auto confidences) HWY_ATTR {
+        const std::size_t cell = row * fine.stride + column;
+        const auto one = hn::Set(d, 1.0f);
+        const auto known =
+            hn::Min(one, hn::Mul(hn::LoadU(d, fine.weights + cell), hn::Set(d, per_weight)));
+        const auto rest = hn::Sub(one, known);
+        use(d, row, column,
+            hn::Add(hn::Mul(known, hn::LoadU(d, fine.values + cell)), hn::Mul(rest, values)),
+            hn::Add(known, hn::Mul(rest, hn::Mul(hn::Set(d, 0.5f), confidences))));
+      });
+}
+
+void push_in_place(const FilledGrid& coarse, FilledGrid fine, float full) {
+  push(coarse, fine, full,
+       [=](auto d, std::size_t row, std::size_t column, auto values, auto confidences) HWY_ATTR {
+         const std::size_t cell = row * fine.stride + column;
+         hn::StoreU(values, d, fine.values + cell);
+         hn::StoreU(confidences, d, fine.weights + cell);
+       });
 }
 
 /// Computes the confidence of the coarsest grid, which is one cell.
@@ -267,13 +252,38 @@ void settle(const FilledGrid& grid, float full) {
   grid.weights[0] = std::min(1.0f, grid.weights[0] / full);
 }
 
-void fill_grids(const FilledGrid* grids, std::size_t count, float full) {
+/// Fills the grids from the coarsest to grids[1].
+void fill_coarse_grids(const FilledGrid* grids, std::size_t count, float full) {
   for (std::size_t i = 1; i < count; ++i) pull(grids[i - 1], grids[i], full);
   settle(grids[count - 1], full);
-  for (std::size_t i = count - 1; i > 0; --i) {
-    frame(grids[i]);
-    push(grids[i], grids[i - 1], full);
+  for (std::size_t i = count - 1; i > 1; --i) push_in_place(grids[i], grids[i - 1], full);
+}
+
+void fill_grids(const FilledGrid* grids, std::size_t count, float full) {
+  fill_coarse_grids(grids, count, full);
+  push_in_place(grids[1], grids[0], full);
+}
+
+void correct_grid(const FilledGrid* grids, std::size_t count, float full, bool inner, Grid grid) {
+  fill_coarse_grids(grids, count, full);
+  HWY_ALIGN std::array<float, most_width + lanes> shares;  // by distance from the edge
+  std::ranges::fill(shares, 1.0f);
+  for (std::size_t i = 0; inner && i < std::min(fading, grid.width / 2); ++i) {
+    shares[i] = shares[grid.width - 1 - i] = static_cast<float>(i) / fading;
   }
+  const FilledGrid from = grids[0];
+  push(grids[1], from, full,
+       [=, &shares](auto d, std::size_t row, std::size_t column, auto corrections,
+                    auto confidences) HWY_ATTR {
+         const std::size_t cell = row * grid.width + column;
+         const auto share = hn::Min(hn::LoadU(d, shares.data() + column), hn::Set(d, shares[row]));
+         float* const heights = grid.heights + cell;
+         float* const known = grid.confidences + cell;
+         hn::StoreU(hn::Add(hn::LoadU(d, heights), hn::Mul(share, corrections)), d, heights);
+         hn::StoreU(hn::Max(hn::LoadU(d, known), confidences), d, known);
+         hn::StoreU(hn::Zero(d), d, from.values + cell);
+         hn::StoreU(hn::Zero(d), d, from.weights + cell);
+       });
 }
 
 /// Odds of a height within 10 cm of the ground, by the confidence c from pull-push and the slope in
@@ -348,26 +358,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace flagstone::surface {
 namespace {
-HWY_EXPORT(upsample_values);
-HWY_EXPORT(correct_values);
+HWY_EXPORT(upsample_grid);
 HWY_EXPORT(fill_grids);
+HWY_EXPORT(correct_grid);
 HWY_EXPORT(finish_grid);
 
-constexpr std::size_t most_grids = 16;
+/// Cells in memory per row of a grid of PullPush: whole vectors of pairs of cells.
+std::size_t stride_of(std::size_t width) { return (width + 31) / 32 * 32; }
 
 std::size_t half_of(std::size_t width) { return (width + 1) / 2; }
 
 }  // namespace
 
 void upsample(const Grid& coarse, const Grid& fine) noexcept {
-  HWY_DYNAMIC_DISPATCH(upsample_values)(coarse.heights, coarse.width, fine.heights, fine.width);
-  HWY_DYNAMIC_DISPATCH(upsample_values)
-  (coarse.confidences, coarse.width, fine.confidences, fine.width);
-}
-
-void correct(const float* corrections, const float* confidences, bool inner,
-             const Grid& grid) noexcept {
-  HWY_DYNAMIC_DISPATCH(correct_values)(corrections, confidences, inner, grid);
+  HWY_DYNAMIC_DISPATCH(upsample_grid)(coarse, fine);
 }
 
 void finish(const Grid& grid, float least, float* heights, float* confidences) noexcept {
@@ -378,28 +382,42 @@ PullPush::PullPush(std::size_t width) {
   std::size_t cells = 0;
   while (width > 1) {
     width = half_of(width);
-    cells += (width + 2) * (width + 2);
+    cells += width * stride_of(width);
   }
   values_.reserve(cells);
   weights_.reserve(cells);
+  std::fill_n(values_.data(), cells, 0.0f);
+  std::fill_n(weights_.data(), cells, 0.0f);
 }
 
-void PullPush::fill(float* values, float* weights, std::size_t width, float full) noexcept {
-  std::array<FilledGrid, most_grids> grids{};
+std::size_t PullPush::list_grids(float* values, float* weights, std::size_t width,
+                                 Grids& grids) noexcept {
   grids[0] = {.values = values, .weights = weights, .width = width, .stride = width};
   std::size_t count = 1;
   std::size_t first = 0;
   while (grids[count - 1].width > 1) {
     const std::size_t half = half_of(grids[count - 1].width);
-    const std::size_t stride = half + 2;
-    grids[count] = {.values = values_.data() + first + stride + 1,
-                    .weights = weights_.data() + first + stride + 1,
+    grids[count] = {.values = values_.data() + first,
+                    .weights = weights_.data() + first,
                     .width = half,
-                    .stride = stride};
-    first += stride * stride;
+                    .stride = stride_of(half)};
+    first += half * grids[count].stride;
     ++count;
   }
+  return count;
+}
+
+void PullPush::fill(float* values, float* weights, std::size_t width, float full) noexcept {
+  Grids grids{};
+  const std::size_t count = list_grids(values, weights, width, grids);
   HWY_DYNAMIC_DISPATCH(fill_grids)(grids.data(), count, full);
+}
+
+void PullPush::correct(float* corrections, float* weights, float full, bool inner,
+                       const Grid& grid) noexcept {
+  Grids grids{};
+  const std::size_t count = list_grids(corrections, weights, grid.width, grids);
+  HWY_DYNAMIC_DISPATCH(correct_grid)(grids.data(), count, full, inner, grid);
 }
 
 }  // namespace flagstone::surface

@@ -59,6 +59,8 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
   offsets_.reserve(largest + slack);
   gates_.reserve(total);
   std::fill_n(heights_.data(), readable, 0.0f);
+  std::fill_n(corrections_.data(), largest, 0.0f);
+  std::fill_n(weights_.data(), largest, 0.0f);
   std::size_t first = 0;
   for (Grid& grid : grids_) {
     grid.heights = heights_.data() + first;
@@ -169,12 +171,9 @@ void ResidualPyramid::refine(const PackedPoints& points, const CoarseSamples& sa
   for (std::size_t level = 0; level < cells_.size(); ++level) {
     const Grid& grid = grids_[level];
     if (level > 0) upsample(grids_[level - 1], grid);
-    std::fill_n(corrections_.data(), grid.size(), 0.0f);
-    std::fill_n(weights_.data(), grid.size(), 0.0f);
     observe_level(level, level == 0 ? samples.data() : points.data(), pool);
-    pull_push.fill(corrections_.data(), weights_.data(), grid.width, full_weight);
     const bool inner = level > 0 && grid.extent() < grids_[level - 1].extent();
-    correct(corrections_.data(), weights_.data(), inner, grid);
+    pull_push.correct(corrections_.data(), weights_.data(), full_weight, inner, grid);
   }
 }
 

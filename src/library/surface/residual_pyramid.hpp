@@ -76,7 +76,7 @@ class ResidualPyramid {
   std::vector<LevelCells> cells_;  ///< by level
   Buffer<float> heights_;
   Buffer<float> confidences_;
-  Buffer<float> corrections_;
+  Buffer<float> corrections_;  ///< of the level in work, 0 between levels
   Buffer<float> weights_;
   Buffer<std::int32_t> slopes_;  ///< of the level in work; see CellPlanes
   Buffer<std::int32_t> offsets_;

@@ -87,23 +87,62 @@ TEST_P(GridSteps, InterpolationPreservesAPlane) {
   }
 }
 
+/// Adds corrections to a grid. A weight of 1 is full.
+void correct(std::vector<float>& corrections, std::vector<float>& weights, bool inner,
+             const Grid& grid) {
+  PullPush(grid.width).correct(corrections.data(), weights.data(), 1, inner, grid);
+}
+
 TEST_P(GridSteps, CorrectionsAreAdded) {
   OwnedGrid grid(1, 20, -1.5f);
-  const std::vector<float> corrections(400, 0.25f);
-  const std::vector<float> confidences(400, 0.5f);
+  std::vector<float> corrections(400, 0.25f);
+  std::vector<float> weights(400, 1.0f);
 
-  correct(corrections.data(), confidences.data(), false, grid.grid());
+  correct(corrections, weights, false, grid.grid());
 
   EXPECT_EQ(grid.heights(), std::vector<float>(400, -1.25f));
+}
+
+TEST_P(GridSteps, CorrectionsAreFilledFirst) {
+  for (const std::size_t width : {2U, 6U, 20U, 80U, 96U}) {
+    const std::size_t size = width * width;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> number(0, 1);
+    OwnedGrid grid(1, width);
+    std::vector<float> corrections(size, 0.0f);
+    std::vector<float> weights(size, 0.0f);
+    for (std::size_t i = 0; i < size; ++i) {
+      grid.heights()[i] = number(random) - 2;
+      grid.confidences()[i] = number(random);
+      if (i % 3 == 0) continue;
+      corrections[i] = number(random) - 0.5f;
+      weights[i] = 2 * number(random);
+    }
+    std::vector<float> filled = corrections;
+    std::vector<float> confidences = weights;
+    PullPush(width).fill(filled.data(), confidences.data(), width, 1);
+    std::vector<float> heights = grid.heights();
+    for (std::size_t i = 0; i < size; ++i) {
+      heights[i] += filled[i];
+      confidences[i] = std::max(confidences[i], grid.confidences()[i]);
+    }
+
+    correct(corrections, weights, false, grid.grid());
+
+    EXPECT_EQ(grid.heights(), heights);
+    EXPECT_EQ(grid.confidences(), confidences);
+    EXPECT_EQ(corrections, std::vector<float>(size, 0.0f));
+    EXPECT_EQ(weights, std::vector<float>(size, 0.0f));
+  }
 }
 
 TEST_P(GridSteps, CorrectionsFadeToZeroAtAnInnerEdge) {
   for (const std::size_t width : {2U, 4U, 6U, 20U}) {
     OwnedGrid grid(1, width);
-    const std::vector<float> corrections(width * width, 1.0f);
-    const std::vector<float> confidences(width * width, 1.0f);
+    std::vector<float> corrections(width * width, 1.0f);
+    std::vector<float> weights(width * width, 1.0f);
 
-    correct(corrections.data(), confidences.data(), true, grid.grid());
+    correct(corrections, weights, true, grid.grid());
 
     const std::size_t last = width - 1;
     for (std::size_t i = 0; i < width; ++i) {
@@ -121,17 +160,6 @@ TEST_P(GridSteps, CorrectionsFadeToZeroAtAnInnerEdge) {
       EXPECT_EQ(grid.at(10, 10), 1);
     }
   }
-}
-
-TEST_P(GridSteps, ConfidenceBecomesTheMaximum) {
-  OwnedGrid grid(1, 4, 0, 0.5f);
-  const std::vector<float> corrections(16, 0.0f);
-  std::vector<float> confidences(16, 0.25f);
-  confidences[5] = 0.75f;
-
-  correct(corrections.data(), confidences.data(), true, grid.grid());
-
-  for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(grid.confidences()[i], i == 5 ? 0.75f : 0.5f);
 }
 
 }  // namespace
