@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -71,6 +72,22 @@ inline constexpr std::int16_t reflection_gap = units(0.2);
 /// Minimum depth of a lower bound below the surface.
 inline constexpr std::int16_t least_lowering = units(0.03);
 
+/// A second look finds a height only if at least `least_share` of the points near the surface are
+/// at the surface, and the clutter ratio is at most `second_clutter_ratio`.
+inline constexpr float least_share = 0.5f;
+inline constexpr float second_clutter_ratio = 0.1f;
+
+/// The slope in a cell is the difference between the lowest points of its halves. Each half must
+/// have this many points.
+inline constexpr std::int16_t fewest_in_half = 2;
+
+/// How a cell is observed.
+enum class Look : std::uint8_t {
+  first,
+  tilted,  ///< second look, with SecondLook::tilted
+  wide     ///< second look, with SecondLook::wide
+};
+
 /// Statistics of the points of 32 cells, heights in units of a packed z.
 struct alignas(64) TileStatistics {
   using PerCell = std::array<std::int16_t, tile_cells>;
@@ -83,6 +100,24 @@ struct alignas(64) TileStatistics {
   PerCell above;       ///< number of points just above it
   PerCell below;       ///< number of points below it
 };
+
+/// Height with sides: the height of a point times 4, plus the halves of the cell that contain it.
+/// Heights of 16 m or more are saturated.
+inline constexpr int side_bits = 2;
+inline constexpr std::int16_t side_x = 1;
+inline constexpr std::int16_t side_y = 2;
+inline constexpr std::int16_t most_with_sides = no_height >> side_bits;
+
+/// Two cells: points, of which the first sixteen are measured, and planes. 16 elements of `points`
+/// must be readable.
+struct CellPair {
+  std::array<std::span<const PackedPoint>, 2> points;
+  std::array<std::int32_t, 2> slopes{};  ///< see CellPlanes
+  std::array<std::int32_t, 2> offsets{};
+};
+
+/// Value of `half_bit` to measure heights without sides.
+inline constexpr int no_sides = 0;
 
 }  // namespace flagstone::surface
 #endif
@@ -167,24 +202,25 @@ void find_planes_of(const Grid& grid, float packed_zero, const CellPlanes& plane
 
 #if HWY_TARGET == HWY_SCALAR
 
-/// Computes the heights of up to sixteen points of two cells. Cells are columns of the block.
-void measure_pair(const std::array<const PackedPoint*, 2>& points,
-                  const std::array<std::size_t, 2>& counts,
-                  const std::array<std::int32_t, 2>& slopes,
-                  const std::array<std::int32_t, 2>& offsets, std::size_t pair,
-                  HeightBlock& block) {
+/// Computes the heights of up to sixteen points of two cells, with sides unless `half_bit` is
+/// `no_sides`. Cells are columns of the block.
+void measure_pair(const CellPair& cells, int half_bit, std::size_t pair, HeightBlock& block) {
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t row = 0; row < block_rows; ++row) {
       std::int16_t& height = block[row * tile_cells + 2 * pair + side];
       height = no_height;
-      if (row >= counts[side]) continue;
-      const PackedPoint point = points[side][row];
+      if (row >= cells.points[side].size()) continue;
+      const PackedPoint point = cells.points[side][row];
       const std::int32_t x = static_cast<std::int32_t>(point & 0xFFU);
       const std::int32_t y = static_cast<std::int32_t>(point >> 8U & 0xFFU);
-      const std::int32_t slope_x = static_cast<std::int16_t>(slopes[side] & 0xFFFF);
-      const std::int32_t slope_y = slopes[side] >> 16;
-      const std::int32_t surface = (slope_x * x + slope_y * y + offsets[side]) >> plane_shift;
-      const std::int32_t above = (static_cast<std::int32_t>(point) >> 16) - surface;
+      const std::int32_t slope_x = static_cast<std::int16_t>(cells.slopes[side] & 0xFFFF);
+      const std::int32_t slope_y = cells.slopes[side] >> 16;
+      const std::int32_t surface = (slope_x * x + slope_y * y + cells.offsets[side]) >> plane_shift;
+      std::int32_t above = (static_cast<std::int32_t>(point) >> 16) - surface;
+      if (half_bit != no_sides) {
+        above =
+            above * (1 << side_bits) + (x >> half_bit & 1) * side_x + (y >> half_bit & 1) * side_y;
+      }
       height = static_cast<std::int16_t>(std::clamp<std::int32_t>(above, -32768, 32767));
     }
   }
@@ -194,35 +230,42 @@ void arrange(HeightBlock& /*block*/) {}
 
 #else
 
-/// Computes the heights of up to one vector of points; `no_height` for elements without a point.
-HWY_INLINE IntVector heights_of(const PackedPoint* points, std::size_t first, std::size_t count,
-                                std::int32_t slopes, std::int32_t offset) {
+/// Adds the sides of points to their heights.
+HWY_INLINE IntVector with_sides(IntVector heights, IntVector points, int half_bit) {
   const IntTag di;
-  const IntVector v = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(points + first));
+  const IntVector halves = hn::ShiftRightSame(points, half_bit);  // in bits 0 and 8
+  const IntVector sides = hn::Or(hn::And(halves, hn::Set(di, side_x)),
+                                 hn::And(hn::ShiftRight<7>(halves), hn::Set(di, side_y)));
+  return hn::Or(hn::ShiftLeft<side_bits>(heights), sides);
+}
+
+/// Computes the heights of up to one vector of points; `no_height` for elements without a point.
+HWY_INLINE IntVector heights_of(std::span<const PackedPoint> points, std::size_t first,
+                                std::int32_t slopes, std::int32_t offset, int half_bit) {
+  const IntTag di;
+  const IntVector v = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(points.data() + first));
   const IntVector x = hn::And(v, hn::Set(di, 0xFF));
   const IntVector y = hn::ShiftLeft<8>(hn::And(v, hn::Set(di, 0xFF00)));
   const IntVector along = sum_of_products(hn::Or(x, y), hn::Set(di, slopes));
   const IntVector surface = hn::ShiftRight<plane_shift>(hn::Add(along, hn::Set(di, offset)));
-  const IntVector above = hn::Sub(hn::ShiftRight<16>(v), surface);
-  const auto there = hn::Lt(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(count) -
+  IntVector above = hn::Sub(hn::ShiftRight<16>(v), surface);
+  if (half_bit != no_sides) above = with_sides(above, v, half_bit);
+  const auto there = hn::Lt(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(points.size()) -
                                                              static_cast<std::int32_t>(first)));
   return hn::IfThenElse(there, above, hn::Set(di, no_height));
 }
 
-/// Computes the heights of up to sixteen points of two cells. Each pair of cells is a row of the
-/// block until arrange() makes cells columns.
-HWY_INLINE void measure_pair(const std::array<const PackedPoint*, 2>& points,
-                             const std::array<std::size_t, 2>& counts,
-                             const std::array<std::int32_t, 2>& slopes,
-                             const std::array<std::int32_t, 2>& offsets, std::size_t pair,
+/// Computes the heights of up to sixteen points of two cells, with sides unless `half_bit` is
+/// `no_sides`. Each pair of cells is a row of the block until arrange() makes cells columns.
+HWY_INLINE void measure_pair(const CellPair& cells, int half_bit, std::size_t pair,
                              HeightBlock& block) {
   const IntTag di;
   auto* const to = reinterpret_cast<std::int32_t*>(block.data()) + pair * block_rows;
   for (std::size_t i = 0; i < block_rows; i += hn::Lanes(di)) {
-    const IntVector heights =
-        saturated_pairs(heights_of(points[0], i, counts[0], slopes[0], offsets[0]),
-                        heights_of(points[1], i, counts[1], slopes[1], offsets[1]));
-    hn::StoreU(heights, di, to + i);
+    const auto heights = [&](std::size_t side) HWY_ATTR {
+      return heights_of(cells.points[side], i, cells.slopes[side], cells.offsets[side], half_bit);
+    };
+    hn::StoreU(saturated_pairs(heights(0), heights(1)), di, to + i);
   }
 }
 
@@ -397,14 +440,87 @@ HWY_INLINE void sum_up(std::int16_t* HWY_RESTRICT heights, ShortVector gate, std
   note(below, tile.below);
 }
 
+// --- Slopes in cells
+// -------------------------------------------------------------------------------
+
+/// The lowest point of one half of each cell, in heights without their sides.
+struct HalfCell {
+  HWY_INLINE HalfCell() : lowest(all(most_with_sides)), count(hn::Zero(ShortTag())) {}
+  HWY_INLINE void add(ShortMask inside, ShortVector height) {
+    lowest = hn::Min(lowest, hn::IfThenElse(inside, height, all(most_with_sides)));
+    count = count_if(inside, count);
+  }
+  ShortVector lowest, count;
+};
+
+/// Slope from one half of a cell to the other, in the units of CellPlanes.
+HWY_INLINE ShortVector slope_between(const HalfCell& from, const HalfCell& to, int half_bit) {
+  const int shift = plane_shift - half_bit;
+  const ShortVector most = all(static_cast<std::int16_t>(static_cast<int>(most_slope) >> shift));
+  const ShortMask known = hn::Gt(hn::Min(from.count, to.count), all(fewest_in_half - 1));
+  const ShortVector rise = hn::IfThenElseZero(known, hn::Sub(to.lowest, from.lowest));
+  return hn::ShiftLeftSame(hn::Max(hn::Min(rise, most), hn::Neg(most)), shift);
+}
+
+/// Slopes of 32 cells.
+struct alignas(64) TileSlopes {
+  TileStatistics::PerCell x, y;
+};
+
+/// Finds the slopes in one vector of cells from `rows` heights with sides.
+template <std::size_t rows>
+HWY_INLINE void find_slopes(const std::int16_t* HWY_RESTRICT heights, ShortVector gate,
+                            int half_bit, std::size_t lane, TileSlopes& slopes) {
+  const ShortTag d;
+  const ShortVector bottom =
+      hn::Max(hn::Neg(hn::Add(gate, all(depth_below_gate))), all(-most_with_sides));
+  const ShortVector top = hn::Min(hn::Add(gate, all(height_above_gate)), all(most_with_sides));
+  HalfCell left, right, lower, upper;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const ShortVector v = hn::Load(d, heights + row * tile_cells);
+    const ShortVector height = hn::ShiftRight<side_bits>(v);
+    const ShortMask seen = hn::And(hn::Gt(height, bottom), hn::Lt(height, top));
+    const ShortMask in_x = hn::TestBit(v, all(side_x));
+    const ShortMask in_y = hn::TestBit(v, all(side_y));
+    left.add(hn::AndNot(in_x, seen), height);
+    right.add(hn::And(in_x, seen), height);
+    lower.add(hn::AndNot(in_y, seen), height);
+    upper.add(hn::And(in_y, seen), height);
+  }
+  hn::Store(slope_between(left, right, half_bit), d, slopes.x.data() + lane);
+  hn::Store(slope_between(lower, upper, half_bit), d, slopes.y.data() + lane);
+}
+
+/// Adds a slope to the plane of a cell that contains `point`. The height at the centre of the cell
+/// remains.
+void tilt(std::int32_t slope_x, std::int32_t slope_y, PackedPoint point, int half_bit,
+          std::int32_t& slopes, std::int32_t& offset) {
+  const auto sum = [](std::int32_t a, std::int32_t b) {
+    constexpr auto most = static_cast<std::int32_t>(most_slope);
+    return std::clamp(a + b, -most, most);
+  };
+  const auto centre = [&](std::uint32_t coordinate) {
+    const std::uint32_t half = 1U << static_cast<unsigned>(half_bit);
+    return static_cast<std::int32_t>((coordinate & (0x100U - 2 * half)) + half);
+  };
+  const std::int32_t old_x = static_cast<std::int16_t>(slopes & 0xFFFF);
+  const std::int32_t old_y = slopes >> 16;
+  const std::int32_t x = sum(old_x, slope_x);
+  const std::int32_t y = sum(old_y, slope_y);
+  slopes = (x & 0xFFFF) | y * 65536;
+  offset -= (x - old_x) * centre(point) + (y - old_y) * centre(point >> 8U);
+}
+
 // --- Observations
 // ----------------------------------------------------------------------------------
 
 /// Corrections and weights of 32 cells.
 struct TileObservations {
   std::array<float, tile_cells> corrections, weights;
+  std::uint32_t unclear = 0;  ///< a bit for each cell that needs a second look
 };
 
+template <Look look>
 void conclude(const Observations& o, const TileStatistics& tile,
               const std::array<std::int16_t, tile_cells>& gates, TileObservations& found) {
   const FloatTag d;
@@ -423,15 +539,31 @@ void conclude(const Observations& o, const TileStatistics& tile,
     const FloatVector bound = number(tile.bound);
     const auto has_mode =
         hn::And(at_least(gated, fewest_points), at_least(at_surface, fewest_points));
+    const float most_above = look == Look::first
+                                 ? o.max_clutter_ratio
+                                 : std::min(o.max_clutter_ratio, second_clutter_ratio);
     const auto has_obstacle =
-        hn::Gt(number(tile.above), hn::Mul(hn::Set(d, o.max_clutter_ratio), at_surface));
+        hn::Gt(number(tile.above), hn::Mul(hn::Set(d, most_above), at_surface));
     const auto few_below = hn::Le(number(tile.below), hn::Mul(hn::Set(d, most_below), at_surface));
-    const auto is_mode = hn::And(hn::AndNot(has_obstacle, has_mode), few_below);
-    const auto only_below =
-        hn::And(hn::Lt(gated, hn::Set(d, fewest_points)), hn::Lt(bound, hn::Neg(number(gates))));
-    const auto is_bound = hn::And(hn::And(hn::Or(only_below, hn::And(has_mode, has_obstacle)),
-                                          at_least(number(tile.seen), fewest_for_lower_bound)),
-                                  hn::Lt(bound, hn::Set(d, -least_lowering)));
+    auto is_mode = hn::And(hn::AndNot(has_obstacle, has_mode), few_below);
+    auto is_bound = hn::FirstN(d, 0);
+    if constexpr (look == Look::first) {
+      const FloatVector gate = number(gates);
+      const auto few_gated = hn::Lt(gated, hn::Set(d, fewest_points));
+      const auto beside_obstacle = hn::And(has_mode, has_obstacle);
+      const auto only_below = hn::And(few_gated, hn::Lt(bound, hn::Neg(gate)));
+      is_bound = hn::And(hn::And(hn::Or(only_below, beside_obstacle),
+                                 at_least(number(tile.seen), fewest_for_lower_bound)),
+                         hn::Lt(bound, hn::Set(d, -least_lowering)));
+      const FloatVector wide_gate = hn::Add(gate, hn::Set(d, static_cast<float>(o.widening)));
+      const auto in_wide_gate = hn::And(hn::Gt(bound, hn::Neg(gate)), hn::Le(bound, wide_gate));
+      const auto unclear =
+          o.second_look == SecondLook::tilted ? beside_obstacle : hn::And(few_gated, in_wide_gate);
+      found.unclear |= bits_of(d, unclear) << lane;
+    } else {
+      const FloatVector share = hn::Mul(hn::Set(d, least_share), number(tile.seen));
+      is_mode = hn::And(is_mode, hn::Ge(at_surface, share));
+    }
 
     const FloatVector mean =
         hn::Add(number(tile.mean), hn::Div(number(tile.sum), hn::Max(number(tile.count), one)));
@@ -444,75 +576,174 @@ void conclude(const Observations& o, const TileStatistics& tile,
   }
 }
 
-/// Writes the observations of a tile of cells into the grid.
-void write(const Observations& o, std::span<const OccupiedCell> cells,
-           const TileObservations& found) {
+/// Writes the observations of a tile of cells into the grid, and the unclear cells to `unclear`.
+/// Returns the number of unclear cells.
+std::size_t write(const Observations& o, std::span<const OccupiedCell> cells,
+                  const TileObservations& found, OccupiedCell* unclear) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (found.weights[i] <= 0) continue;
     o.corrections[cells[i].place] = found.corrections[i];
     o.weights[cells[i].place] = found.weights[i];
   }
+  std::size_t count = 0;
+  for (std::uint32_t bits = found.unclear; bits != 0; bits &= bits - 1) {
+    unclear[count++] = cells[static_cast<std::size_t>(std::countr_zero(bits))];
+  }
+  return count;
+}
+
+/// Points of a cell for up to rows_of(size) rows: all, or a sample in `sample`.
+template <CellSize size>
+HWY_INLINE std::span<const PackedPoint> rows_of_cell(const Observations& o,
+                                                     const OccupiedCell& cell,
+                                                     PackedPoint* sample) {
+  const PackedPoint* const points = o.points + cell.first;
+  if constexpr (size != CellSize::large) return {points, cell.count};
+  return {sample, take_sample(points, cell.count, sample_size, sample)};
+}
+
+/// Memory for a sample.
+using Sample = std::array<PackedPoint, medium_cell + 3 * lanes>;
+
+/// Measures two cells in all blocks.
+template <std::size_t block_count>
+HWY_INLINE void measure_cells(const Observations& o, const CellPair& cells, int half_bit,
+                              std::size_t pair, std::array<HeightBlock, block_count>& blocks) {
+  for (std::size_t block = 0; block < block_count; ++block) {
+    CellPair rest = cells;
+    for (std::span<const PackedPoint>& points : rest.points) {
+      const std::size_t first = block * block_rows;
+      points = points.size() > first ? points.subspan(first) : std::span(o.points, 0);
+    }
+    measure_pair(rest, half_bit, pair, blocks[block]);
+  }
+}
+
+template <std::size_t block_count>
+HWY_INLINE void sum_up_tile(std::array<HeightBlock, block_count>& blocks,
+                            const std::array<std::int16_t, tile_cells>& gates,
+                            TileStatistics& tile) {
+  const ShortTag d;
+  for (std::size_t lane = 0; lane < tile_cells; lane += hn::Lanes(d)) {
+    sum_up<block_count * block_rows>(blocks[0].data() + lane, hn::Load(d, gates.data() + lane),
+                                     lane, tile);
+  }
 }
 
 /// Observes up to 32 cells.
 template <CellSize size>
-HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell> cells) {
-  const ShortTag d;
-  constexpr std::size_t rows = rows_of(size);
-  constexpr std::size_t block_count = rows / block_rows;
-  HWY_ALIGN std::array<HeightBlock, block_count> blocks;
+HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell> cells,
+                             TileObservations& found) {
+  HWY_ALIGN std::array<HeightBlock, rows_of(size) / block_rows> blocks;
   HWY_ALIGN std::array<std::int16_t, tile_cells> gates{};
-  HWY_ALIGN std::array<std::array<PackedPoint, medium_cell + 3 * lanes>, 2> sampled;
+  HWY_ALIGN std::array<Sample, 2> samples;
   for (std::size_t pair = 0; pair < tile_cells / 2; ++pair) {
-    std::array<const PackedPoint*, 2> points = {sampled[0].data(), sampled[1].data()};
-    std::array<std::size_t, 2> counts{};
-    std::array<std::int32_t, 2> slopes{};
-    std::array<std::int32_t, 2> offsets{};
+    CellPair two;
     for (std::size_t side = 0; side < 2; ++side) {
       const std::size_t i = 2 * pair + side;
       if (i >= cells.size()) continue;
       const OccupiedCell& cell = cells[i];
       gates[i] = o.gates[cell.place];
-      slopes[side] = o.planes.slopes[cell.place];
-      offsets[side] = o.planes.offsets[cell.place];
-      points[side] = o.points + cell.first;
-      counts[side] = cell.count;
-      if constexpr (size != CellSize::large) continue;
-      counts[side] = take_sample(points[side], cell.count, sample_size, sampled[side].data());
-      points[side] = sampled[side].data();
+      two.slopes[side] = o.planes.slopes[cell.place];
+      two.offsets[side] = o.planes.offsets[cell.place];
+      two.points[side] = rows_of_cell<size>(o, cell, samples[side].data());
     }
-    for (std::size_t block = 0; block < block_count; ++block) {
-      const std::size_t first = block * block_rows;
-      const auto rest = [&](std::size_t side) {
-        return counts[side] > first ? counts[side] - first : 0;
-      };
-      measure_pair({points[0] + first, points[1] + first}, {rest(0), rest(1)}, slopes, offsets,
-                   pair, blocks[block]);
-    }
+    measure_cells(o, two, no_sides, pair, blocks);
   }
   for (HeightBlock& block : blocks) arrange(block);
-
   TileStatistics tile;
-  for (std::size_t lane = 0; lane < tile_cells; lane += hn::Lanes(d)) {
-    sum_up<rows>(blocks[0].data() + lane, hn::Load(d, gates.data() + lane), lane, tile);
-  }
-  TileObservations found;
-  conclude(o, tile, gates, found);
-  write(o, cells, found);
+  sum_up_tile(blocks, gates, tile);
+  conclude<Look::first>(o, tile, gates, found);
 }
 
 template <CellSize size>
-void observe_tiles(const Observations& o, std::span<const OccupiedCell> cells) {
+std::size_t observe_tiles(const Observations& o, std::span<const OccupiedCell> cells,
+                          OccupiedCell* unclear) {
+  std::size_t count = 0;
   for (std::size_t begin = 0; begin < cells.size(); begin += tile_cells) {
-    observe_tile<size>(o, cells.subspan(begin, std::min(tile_cells, cells.size() - begin)));
+    const auto tile = cells.subspan(begin, std::min(tile_cells, cells.size() - begin));
+    TileObservations found;
+    observe_tile<size>(o, tile, found);
+    count += write(o, tile, found, unclear + count);
+  }
+  return count;
+}
+
+/// Observes up to 32 cells of any size a second time.
+template <Look look>
+HWY_INLINE void observe_tile_again(const Observations& o, std::span<const OccupiedCell> cells,
+                                   TileObservations& found) {
+  const ShortTag d;
+  constexpr std::size_t rows = medium_cell;
+  HWY_ALIGN std::array<HeightBlock, rows / block_rows> blocks;
+  HWY_ALIGN std::array<std::int16_t, tile_cells> gates{};
+  HWY_ALIGN std::array<Sample, tile_cells> samples;
+  std::array<CellPair, tile_cells / 2> pairs;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const OccupiedCell& cell = cells[i];
+    gates[i] = o.gates[cell.place];
+    if constexpr (look == Look::wide) gates[i] = static_cast<std::int16_t>(gates[i] + o.widening);
+    CellPair& two = pairs[i / 2];
+    two.slopes[i % 2] = o.planes.slopes[cell.place];
+    two.offsets[i % 2] = o.planes.offsets[cell.place];
+    two.points[i % 2] = cell.count > rows
+                            ? rows_of_cell<CellSize::large>(o, cell, samples[i].data())
+                            : rows_of_cell<CellSize::medium>(o, cell, nullptr);
+  }
+  const auto measure = [&](int half_bit) HWY_ATTR {
+    for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
+      measure_cells(o, pairs[pair], half_bit, pair, blocks);
+    }
+    for (HeightBlock& block : blocks) arrange(block);
+  };
+  if constexpr (look == Look::tilted) {
+    measure(o.half_bit);
+    TileSlopes slopes;
+    for (std::size_t lane = 0; lane < tile_cells; lane += hn::Lanes(d)) {
+      find_slopes<rows>(blocks[0].data() + lane, hn::Load(d, gates.data() + lane), o.half_bit, lane,
+                        slopes);
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      CellPair& two = pairs[i / 2];
+      tilt(slopes.x[i], slopes.y[i], o.points[cells[i].first], o.half_bit, two.slopes[i % 2],
+           two.offsets[i % 2]);
+    }
+  }
+  measure(no_sides);
+  TileStatistics tile;
+  sum_up_tile(blocks, gates, tile);
+  conclude<look>(o, tile, gates, found);
+}
+
+template <Look look>
+void observe_tiles_again(const Observations& o, std::span<const OccupiedCell> cells,
+                         Candidate* candidates) {
+  for (std::size_t begin = 0; begin < cells.size(); begin += tile_cells) {
+    const auto tile = cells.subspan(begin, std::min(tile_cells, cells.size() - begin));
+    TileObservations found;
+    observe_tile_again<look>(o, tile, found);
+    for (std::size_t i = 0; i < tile.size(); ++i) {
+      candidates[begin + i] = {
+          .place = tile[i].place, .correction = found.corrections[i], .weight = found.weights[i]};
+    }
   }
 }
 
-void observe_cells(const Observations& o, std::span<const OccupiedCell> cells, CellSize size) {
+std::size_t observe_cells(const Observations& o, std::span<const OccupiedCell> cells, CellSize size,
+                          OccupiedCell* unclear) {
   switch (size) {
-    case CellSize::small: return observe_tiles<CellSize::small>(o, cells);
-    case CellSize::medium: return observe_tiles<CellSize::medium>(o, cells);
-    case CellSize::large: return observe_tiles<CellSize::large>(o, cells);
+    case CellSize::small: return observe_tiles<CellSize::small>(o, cells, unclear);
+    case CellSize::medium: return observe_tiles<CellSize::medium>(o, cells, unclear);
+    case CellSize::large: return observe_tiles<CellSize::large>(o, cells, unclear);
+  }
+  return 0;
+}
+
+void observe_cells_again(const Observations& o, std::span<const OccupiedCell> cells,
+                         Candidate* candidates) {
+  switch (o.second_look) {
+    case SecondLook::tilted: return observe_tiles_again<Look::tilted>(o, cells, candidates);
+    case SecondLook::wide: return observe_tiles_again<Look::wide>(o, cells, candidates);
   }
 }
 
@@ -525,15 +756,21 @@ namespace flagstone::surface {
 namespace {
 HWY_EXPORT(find_planes_of);
 HWY_EXPORT(observe_cells);
+HWY_EXPORT(observe_cells_again);
 }  // namespace
 
 void find_planes(const Grid& grid, float packed_zero, const CellPlanes& planes) noexcept {
   HWY_DYNAMIC_DISPATCH(find_planes_of)(grid, packed_zero, planes);
 }
 
-void observe(const Observations& observations, std::span<const OccupiedCell> cells,
-             CellSize size) noexcept {
-  HWY_DYNAMIC_DISPATCH(observe_cells)(observations, cells, size);
+std::size_t observe(const Observations& observations, std::span<const OccupiedCell> cells,
+                    CellSize size, OccupiedCell* unclear) noexcept {
+  return HWY_DYNAMIC_DISPATCH(observe_cells)(observations, cells, size, unclear);
+}
+
+void observe_again(const Observations& observations, std::span<const OccupiedCell> cells,
+                   Candidate* candidates) noexcept {
+  HWY_DYNAMIC_DISPATCH(observe_cells_again)(observations, cells, candidates);
 }
 
 }  // namespace flagstone::surface

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "flagstone/surface_config.hpp"
+#include "library/surface/candidates.hpp"
 #include "library/surface/grid.hpp"
 #include "library/surface/packed_points.hpp"
 
@@ -31,12 +32,22 @@ struct CellPlanes {
 /// the height of a packed z of 0, metres.
 void find_planes(const Grid& grid, float packed_zero, const CellPlanes& planes) noexcept;
 
+/// How cells are observed a second time in which the first observation finds no height.
+enum class SecondLook : std::uint8_t {
+  tilted,  ///< cells with an obstacle, with the slope of the lowest points of their halves: a bank
+           ///< rises like an obstacle
+  wide     ///< cells whose lowest points are above the gate, with a wider gate
+};
+
 /// Corrections of the surface from the points in the cells of a level. A positive correction raises
 /// the surface.
 struct Observations {
   const PackedPoint* points;  ///< of the scan, cell by cell; 16 more points must be readable
   CellPlanes planes;          ///< of the surface before the correction
   const std::int16_t* gates;  ///< by cell, in units of a packed z; see Refinement
+  SecondLook second_look;
+  int half_bit;           ///< a point is in the upper half of a cell if this bit of x or y is set
+  std::int16_t widening;  ///< added to gates for SecondLook::wide
   float max_clutter_ratio;
   float lower_bound_weight;
   float* corrections;  ///< by cell, row by row, metres; only written for observed cells
@@ -50,8 +61,14 @@ inline constexpr std::size_t cell_sizes = 3;
 inline constexpr std::uint32_t small_cell = 16;
 inline constexpr std::uint32_t medium_cell = 32;
 
-/// Observes cells of one size.
-void observe(const Observations& observations, std::span<const OccupiedCell> cells,
-             CellSize size) noexcept;
+/// Observes cells of one size. Copies the cells that need a second look to `unclear`, which can be
+/// the beginning of `cells`, and returns their number.
+std::size_t observe(const Observations& observations, std::span<const OccupiedCell> cells,
+                    CellSize size, OccupiedCell* unclear) noexcept;
+
+/// Observes cells a second time, and writes one candidate for each. The tests for obstacles are
+/// stricter than those of the first observation.
+void observe_again(const Observations& observations, std::span<const OccupiedCell> cells,
+                   Candidate* candidates) noexcept;
 
 }  // namespace flagstone::surface

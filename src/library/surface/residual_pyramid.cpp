@@ -32,6 +32,14 @@ constexpr std::size_t cells_of_group = 8;
 /// Number of cells per job.
 constexpr std::size_t cells_of_a_job = 256;
 
+std::size_t jobs_of(std::size_t cells) { return (cells + cells_of_a_job - 1) / cells_of_a_job; }
+
+/// Number of levels whose cells are large enough for a slope of their own.
+constexpr std::size_t tilted_levels = 2;
+
+/// A point is in the upper half of a cell of the coarsest level if this bit of x or y is set.
+constexpr int coarsest_half_bit = 7;
+
 float reach_of(std::size_t level, const SquareCells& cells) {
   return std::min(levels[level].reach, cells.extent());
 }
@@ -55,6 +63,9 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
   confidences_.reserve(total + slack);
   corrections_.reserve(largest);
   weights_.reserve(largest);
+  unclear_counts_.reserve(jobs_of(largest) + cell_sizes);
+  unclear_.reserve(largest);
+  candidates_.reserve(largest);
   slopes_.reserve(largest + slack);
   offsets_.reserve(largest + slack);
   gates_.reserve(total);
@@ -188,27 +199,65 @@ void ResidualPyramid::observe_level(std::size_t level, const PackedPoint* points
                                     ThreadPool& pool) noexcept {
   const CellPlanes planes{.slopes = slopes_.data(), .offsets = offsets_.data()};
   find_planes(grids_[level], packed_zero_, planes);
-  const Observations observations{.points = points,
-                                  .planes = planes,
-                                  .gates = cells_[level].gates,
-                                  .max_clutter_ratio = settings_.max_clutter_ratio,
-                                  .lower_bound_weight = settings_.lower_bound_weight,
-                                  .corrections = corrections_.data(),
-                                  .weights = weights_.data()};
-  const LevelCells& list = cells_[level];
-  const auto jobs_of = [](std::size_t count) {
-    return (count + cells_of_a_job - 1) / cells_of_a_job;
-  };
+  const float gate = gate_of(level);
+  const Observations observations{
+      .points = points,
+      .planes = planes,
+      .gates = cells_[level].gates,
+      .second_look = level < tilted_levels ? SecondLook::tilted : SecondLook::wide,
+      .half_bit = coarsest_half_bit - static_cast<int>(level),
+      .widening = static_cast<std::int16_t>((settings_.gate - gate) * z_per_metre),
+      .max_clutter_ratio = settings_.max_clutter_ratio,
+      .lower_bound_weight = settings_.lower_bound_weight,
+      .corrections = corrections_.data(),
+      .weights = weights_.data()};
+  LevelCells& list = cells_[level];
   std::array<std::size_t, cell_sizes> jobs;
   for (std::size_t size = 0; size < cell_sizes; ++size) jobs[size] = jobs_of(list.counts[size]);
-  // Large cells take longest, so they come first.
-  pool.run(jobs[0] + jobs[1] + jobs[2], [&](std::size_t, std::size_t job) {
+  const std::size_t job_count = jobs[0] + jobs[1] + jobs[2];
+  // The cells of a job. Large cells take longest, so they come first.
+  const auto cells_of = [&](std::size_t job, CellSize& cell_size) {
     std::size_t size = cell_sizes - 1;
     while (job >= jobs[size]) job -= jobs[size--];
     const std::size_t first = job * cells_of_a_job;
-    const std::size_t count = std::min(cells_of_a_job, list.counts[size] - first);
-    observe(observations, {list.cells[size].data() + first, count}, static_cast<CellSize>(size));
+    cell_size = static_cast<CellSize>(size);
+    return std::span(list.cells[size].data() + first,
+                     std::min(cells_of_a_job, list.counts[size] - first));
+  };
+  pool.run(job_count, [&](std::size_t, std::size_t job) {
+    CellSize size;
+    const std::span<OccupiedCell> cells = cells_of(job, size);
+    unclear_counts_.data()[job] =
+        static_cast<std::uint32_t>(observe(observations, cells, size, cells.data()));
   });
+
+  std::size_t count = 0;
+  for (std::size_t job = 0; job < job_count; ++job) {
+    CellSize size;
+    const std::size_t unclear = unclear_counts_.data()[job];
+    std::copy_n(cells_of(job, size).data(), unclear, unclear_.data() + count);
+    count += unclear;
+  }
+  look_again(observations, {unclear_.data(), count}, grids_[level].width, pool);
+}
+
+/// Observes cells a second time and adds the corrections.
+void ResidualPyramid::look_again(const Observations& observations,
+                                 std::span<const OccupiedCell> cells, std::size_t width,
+                                 ThreadPool& pool) noexcept {
+  const std::span<Candidate> candidates(candidates_.data(), cells.size());
+  pool.run(jobs_of(cells.size()), [&](std::size_t, std::size_t job) {
+    const std::size_t first = job * cells_of_a_job;
+    const std::size_t count = std::min(cells_of_a_job, cells.size() - first);
+    observe_again(observations, cells.subspan(first, count), candidates.data() + first);
+  });
+  const Corrections corrections{
+      .values = corrections_.data(), .weights = weights_.data(), .width = width};
+  if (observations.second_look == SecondLook::tilted) {
+    accept(candidates, corrections);
+  } else {
+    accept_confirmed(candidates, corrections);
+  }
 }
 
 std::size_t ResidualPyramid::most_cells_along() const noexcept {

@@ -68,6 +68,8 @@ class ResidualPyramid {
                      std::size_t each) noexcept;
   [[nodiscard]] float gate_of(std::size_t level) const noexcept;
   void observe_level(std::size_t level, const PackedPoint* points, ThreadPool& pool) noexcept;
+  void look_again(const Observations& observations, std::span<const OccupiedCell> cells,
+                  std::size_t width, ThreadPool& pool) noexcept;
 
   Refinement settings_;
   float packed_zero_;  ///< see SquareCells
@@ -80,6 +82,9 @@ class ResidualPyramid {
   Buffer<float> weights_;
   Buffer<std::int32_t> slopes_;  ///< of the level in work; see CellPlanes
   Buffer<std::int32_t> offsets_;
+  Buffer<std::uint32_t> unclear_counts_;  ///< by job: number of cells that need a second look
+  Buffer<OccupiedCell> unclear_;
+  Buffer<Candidate> candidates_;
   Buffer<std::int16_t> gates_;  ///< of all grids
 };
 

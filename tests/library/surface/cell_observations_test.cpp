@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -27,6 +28,7 @@ constexpr float gate = 0.4f;
 constexpr float gate_per_metre = 0.004f;
 constexpr float max_clutter_ratio = 0.5f;
 constexpr float lower_bound_weight = 0.1f;
+constexpr float wide_gate = 0.8f;
 
 /// Half a unit of a packed z, metres.
 constexpr double half_unit = 0.5 / z_per_metre;
@@ -119,8 +121,22 @@ class CellObservations : public testing::TestWithParam<std::string> {
     add_cell(row, column, whole);
   }
 
+  /// Adds a cell with points on a plane through its centre on the surface. `slopes` in m/m.
+  void add_plane(std::uint32_t row, std::uint32_t column, std::array<float, 2> slopes,
+                 std::size_t count) {
+    add_cell(row, column, std::vector<int>(count, 0));
+    for (std::size_t i = points_.size() - count; i < points_.size(); ++i) {
+      const auto from_centre = [&](unsigned shift) {
+        return static_cast<float>(points_[i] >> shift & 127U) / 128 - 0.5f;
+      };
+      const float height = slopes[0] * from_centre(0) + slopes[1] * from_centre(8);
+      points_[i] += static_cast<std::uint32_t>(units(height)) << 16U;
+    }
+  }
+
   /// Observes the cells, each with its size.
   void observe_all() {
+    unclear_.clear();
     for (const CellSize size : {CellSize::small, CellSize::medium, CellSize::large}) {
       std::vector<OccupiedCell> of_size = cells_;
       std::erase_if(of_size, [&](const OccupiedCell& cell) { return size_of(cell) != size; });
@@ -130,6 +146,27 @@ class CellObservations : public testing::TestWithParam<std::string> {
 
   /// Observes cells as cells of this size.
   void observe_as(CellSize size, const std::vector<OccupiedCell>& cells) {
+    with_observations([&](const Observations& observations) {
+      std::vector<OccupiedCell> unclear(cells.size());
+      unclear.resize(observe(observations, cells, size, unclear.data()));
+      unclear_.insert(unclear_.end(), unclear.begin(), unclear.end());
+    });
+  }
+
+  /// Observes all cells, then the unclear ones a second time. Returns the candidates.
+  std::vector<Candidate> looked_again(SecondLook look) {
+    second_look_ = look;
+    observe_all();
+    std::vector<Candidate> candidates(unclear_.size());
+    with_observations([&](const Observations& observations) {
+      observe_again(observations, unclear_, candidates.data());
+    });
+    return candidates;
+  }
+
+  /// Calls `work` with the points and the grid.
+  template <class Work>
+  void with_observations(const Work& work) {
     std::vector<std::int32_t> slopes(64 + 16);
     std::vector<std::int32_t> offsets(64 + 16);
     const CellPlanes planes{.slopes = slopes.data(), .offsets = offsets.data()};
@@ -141,14 +178,16 @@ class CellObservations : public testing::TestWithParam<std::string> {
     }
     std::vector<PackedPoint> readable = points_;
     readable.resize(points_.size() + 16);
-    observe({.points = readable.data(),
-             .planes = planes,
-             .gates = gates.data(),
-             .max_clutter_ratio = max_clutter_ratio,
-             .lower_bound_weight = lower_bound_weight,
-             .corrections = corrections_.data(),
-             .weights = weights_.data()},
-            cells, size);
+    work(Observations{.points = readable.data(),
+                      .planes = planes,
+                      .gates = gates.data(),
+                      .second_look = second_look_,
+                      .half_bit = 6,
+                      .widening = static_cast<std::int16_t>(units(wide_gate - gate)),
+                      .max_clutter_ratio = max_clutter_ratio,
+                      .lower_bound_weight = lower_bound_weight,
+                      .corrections = corrections_.data(),
+                      .weights = weights_.data()});
   }
 
   static CellSize size_of(const OccupiedCell& cell) {
@@ -200,6 +239,8 @@ class CellObservations : public testing::TestWithParam<std::string> {
   OwnedGrid grid_{1, 8};
   std::vector<PackedPoint> points_;
   std::vector<OccupiedCell> cells_;
+  SecondLook second_look_ = SecondLook::wide;
+  std::vector<OccupiedCell> unclear_;
   std::vector<float> corrections_ = std::vector<float>(64, 0.0f);
   std::vector<float> weights_ = std::vector<float>(64, 0.0f);
 
@@ -395,6 +436,137 @@ TEST_P(CellObservations, TwoReflectionsBelowAWallAreNotItsBase) {
   wall.insert(wall.end(), {-1.2f, -0.7f});
 
   EXPECT_NEAR(observed(wall).correction, -0.1, half_unit);
+}
+
+TEST_P(CellObservations, ABankIsAnObstacleAtFirstButNotAlongItsSlope) {
+  add_plane(4, 4, {0.8f, -0.3f}, 24);
+
+  const std::vector<Candidate> found = looked_again(SecondLook::tilted);
+
+  EXPECT_NE(observation(4 * 8 + 4).weight, 1);
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_EQ(found[0].place, 4 * 8 + 4);
+  EXPECT_EQ(found[0].weight, 1);
+  EXPECT_NEAR(found[0].correction, 0, 0.06);
+}
+
+TEST_P(CellObservations, AWallIsAnObstacleAlongAnySlope) {
+  add_cell(4, 4, rising(-0.2f, 0.05f, 24));
+
+  const std::vector<Candidate> found = looked_again(SecondLook::tilted);
+
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_EQ(found[0].weight, 0);
+}
+
+TEST_P(CellObservations, AFewPointsAboveGroundAreAnObstacleForTheSecondLookOnly) {
+  std::vector<float> tuft(20, 0.0f);
+  tuft.insert(tuft.end(), 9, 0.4f);
+  EXPECT_EQ(observed(tuft).weight, 1);
+  clear();
+
+  // The same, 60 cm higher: above the gate.
+  for (float& height : tuft) height += 0.6f;
+  add_cell(4, 4, tuft);
+  const std::vector<Candidate> found = looked_again(SecondLook::wide);
+
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_EQ(found[0].weight, 0);
+}
+
+TEST_P(CellObservations, GroundAboveTheGateIsFoundInAWiderGate) {
+  add_cell(4, 4, std::vector<float>(12, 0.6f));
+
+  const std::vector<Candidate> found = looked_again(SecondLook::wide);
+
+  EXPECT_EQ(observation(4 * 8 + 4).weight, 0);
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_EQ(found[0].weight, 1);
+  EXPECT_NEAR(found[0].correction, 0.6, half_unit);
+}
+
+TEST_P(CellObservations, GroundWithMostPointsAboveItIsNotFoundInAWiderGate) {
+  std::vector<float> below_a_roof(8, 0.6f);
+  below_a_roof.insert(below_a_roof.end(), 9, 1.75f);
+  add_cell(4, 4, below_a_roof);
+  below_a_roof.pop_back();
+  add_cell(4, 5, below_a_roof);
+
+  const std::vector<Candidate> found = looked_again(SecondLook::wide);
+
+  ASSERT_EQ(found.size(), 2);
+  EXPECT_EQ(std::ranges::count(found, 0.0f, &Candidate::weight), 1);
+}
+
+TEST_P(CellObservations, OnlyCellsThatASecondLookCanHelpAreUnclear) {
+  add_cell(1, 1, std::vector<float>(20, 0.1f));   // ground
+  add_cell(1, 2, rising(-0.2f, 0.05f, 24));       // an obstacle
+  add_cell(1, 3, std::vector<float>(20, 0.6f));   // above the gate
+  add_cell(1, 4, std::vector<float>(40, 1.2f));   // above the wider gate
+  add_cell(1, 5, std::vector<float>(20, -0.8f));  // below the gate
+  const auto unclear_columns = [&](SecondLook look) {
+    std::vector<std::uint32_t> columns;
+    for (const Candidate& candidate : looked_again(look)) columns.push_back(candidate.place % 8);
+    return columns;
+  };
+
+  EXPECT_THAT(unclear_columns(SecondLook::tilted), testing::ElementsAre(2));
+  EXPECT_THAT(unclear_columns(SecondLook::wide), testing::ElementsAre(3));
+}
+
+TEST_P(CellObservations, UnclearCellsCanReplaceTheCells) {
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    add_cell(i / 8, i % 8, std::vector<float>(12, i % 3 == 0 ? 0.6f : 0.0f));
+  }
+  observe_all();
+
+  std::vector<OccupiedCell> cells = cells_;
+  with_observations([&](const Observations& observations) {
+    cells.resize(observe(observations, cells, CellSize::small, cells.data()));
+  });
+
+  EXPECT_EQ(cells.size(), 22);
+  const auto places = [](const std::vector<OccupiedCell>& of) {
+    std::vector<std::uint32_t> all;
+    for (const OccupiedCell& cell : of) all.push_back(cell.place);
+    return all;
+  };
+  EXPECT_EQ(places(cells), places(unclear_));
+}
+
+TEST_P(CellObservations, SecondLooksAreTheSameForAnyOrderAndEveryInstructionSet) {
+  for (const SecondLook look : {SecondLook::tilted, SecondLook::wide}) {
+    clear();
+    std::uniform_real_distribution<float> slope(-4.5f, 4.5f);
+    for (std::uint32_t i = 0; i < 64; ++i) {
+      const std::size_t count = 3 + random_() % (i % 2 == 0 ? 16 : 80);
+      if (i % 3 == 0) {
+        add_plane(i / 8, i % 8, {slope(random_), slope(random_)}, count);
+      } else {
+        std::vector<int> heights(count);
+        for (int& height : heights) height = static_cast<int>(random_() % (i * 50U + 1U)) - 100;
+        add_cell(i / 8, i % 8, heights);
+      }
+    }
+    const std::vector<Candidate> expected = looked_again(look);
+    EXPECT_GT(expected.size(), 3);
+    const auto expect_the_same = [&] {
+      const std::vector<Candidate> found = looked_again(look);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].place, expected[i].place);
+        EXPECT_EQ(found[i].weight, expected[i].weight);
+        EXPECT_EQ(found[i].correction, expected[i].correction);
+      }
+    };
+    for (const OccupiedCell& cell : cells_) {
+      const auto first = points_.begin() + cell.first;
+      std::shuffle(first, first + cell.count, random_);
+    }
+    expect_the_same();
+    const tests::ForcedTarget plain(simd_targets().front());
+    expect_the_same();
+  }
 }
 
 TEST_P(CellObservations, SmallCellsGiveTheSameResultAsMediumCells) {
