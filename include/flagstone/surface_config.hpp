@@ -63,8 +63,8 @@ struct PointRule {
   /// Points lower than this above the surface are ground; metres, 0 to 10.
   float margin = 0.24f;
 
-  /// Used instead of `margin` near obstacles: in cells of 0.5 m with a point between 1.25 times
-  /// `obstacle_height` and 2.5 m above the surface. If the highest point is only above 0.75 times
+  /// Used instead of `margin` near obstacles: in squares between four cell centres of the surface,
+  /// with a point between 1.25 times `obstacle_height` and 2.5 m above it. If the highest point is only above 0.75 times
   /// `obstacle_height`, the mean of both margins is used. Metres, 0 to 10. A smaller value rejects
   /// more of the base of walls, but also loses ground next to them.
   float obstacle_margin = 0.06f;

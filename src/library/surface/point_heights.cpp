@@ -22,15 +22,16 @@ namespace flagstone::surface {
 /// Points higher than this above the surface are overhanging objects, not obstacles, metres.
 inline constexpr float overhang = 2.5f;
 
-/// Marks of obstacles in cells of 0.5 m. Each cell has two bytes: the first is `mark` if it
-/// contains a point above `low`, the second if it contains a point above `high`.
-struct ObstacleCells {
+/// Marks of squares with obstacles. Each square has two bytes: the first is `mark` if it contains a
+/// point above `low`, the second if it contains a point above `high`.
+struct ObstacleMarks {
   std::uint8_t* marks;
-  std::uint8_t mark;   ///< of this scan
-  std::int32_t width;  ///< cells along a side
-  float edge;          ///< cells from the sensor to the edge
-  float low, high;     ///< metres above the surface
+  std::uint8_t mark;  ///< of this scan
+  float low, high;    ///< metres above the surface
 };
+
+/// The index in a Square::place.
+inline constexpr std::int32_t place_mask = (1 << grid_shift) - 1;
 
 /// Data for all points of a scan.
 struct MeasuredScan {
@@ -38,7 +39,7 @@ struct MeasuredScan {
   const std::uint8_t* unusual;  ///< see PackedPoints::unusual
   const GridTables& tables;
   const SquareCells& cells;
-  const ObstacleCells& obstacles;
+  const ObstacleMarks& obstacles;
   const PointRule& rule;
 };
 
@@ -141,39 +142,20 @@ class SquareFinder {
   Table8<IntTag> strides_, firsts_;
 };
 
-/// Finds the 0.5 m cells of points within the extent.
-class ObstacleFinder {
- public:
-  HWY_INLINE explicit ObstacleFinder(const ObstacleCells& obstacles)
-      : edge_(obstacles.edge), strides_(1 | obstacles.width << 16) {}
-
-  HWY_INLINE IntVector at(FloatVector x, FloatVector y) const {
-    const FloatTag d;
-    const FloatVector edge = hn::Set(d, edge_);
-    const IntVector column = whole_part(hn::Add(hn::Add(x, x), edge));
-    const IntVector row = whole_part(hn::Add(hn::Add(y, y), edge));
-    return sum_of_products(hn::Or(column, hn::ShiftLeft<16>(row)), hn::Set(IntTag(), strides_));
-  }
-
- private:
-  float edge_;
-  std::int32_t strides_;
-};
-
 /// Intermediate results of up to `lookup_size` points.
 struct alignas(64) Lookups {
   template <class T>
   using PerPoint = std::array<T, lookup_size>;
 
   PerPoint<float> share_x, share_y;
-  PerPoint<float> z;  ///< NaN for points that are invalid or out of range
-  PerPoint<std::int32_t> obstacle_cell;
-  PerPoint<std::int32_t> code;  ///< label of points without a height, and of noise below all cells
+  PerPoint<float> z;             ///< NaN for points that are invalid or out of range
+  PerPoint<std::int32_t> place;  ///< of the square; see Square::place
+  PerPoint<std::int32_t> code;   ///< label of points without a height, and of noise below all cells
   std::array<std::uint8_t, lookup_size> has_code;  ///< per vector: whether any point has a code
 
   /// Per vector: where the square of the surface differs from that of the point before.
   std::array<std::uint16_t, lookup_size> starts;
-  /// The squares, one per start; see Square::place.
+  /// The places of the squares, one per start.
   std::array<std::int32_t, lookup_size + lanes> places;
   /// Pairs of heights of each square.
   std::array<float, 2 * (lookup_size + lanes)> near_pairs, far_pairs;
@@ -196,7 +178,6 @@ class FindSquares {
         lookups_(lookups),
         locator_(scan.cells),
         squares_(scan.tables),
-        obstacles_(scan.obstacles),
         previous_(hn::Set(IntTag(), -1)) {}
 
   HWY_INLINE void operator()(std::size_t i, FloatVector x, FloatVector y, FloatVector z) {
@@ -218,9 +199,9 @@ class FindSquares {
       z = hn::IfThenElse(good, z, hn::Set(d, std::numeric_limits<float>::quiet_NaN()));
     }
     hn::Store(z, d, lookups_.z.data() + i);
-    hn::Store(obstacles_.at(x, y), di, lookups_.obstacle_cell.data() + i);
 
     const Square square = squares_.at(x, y);
+    hn::Store(square.place, di, lookups_.place.data() + i);
     hn::Store(square.share_x, d, lookups_.share_x.data() + i);
     hn::Store(square.share_y, d, lookups_.share_y.data() + i);
     const auto starts = hn::Ne(square.place, move_up(square.place, previous_));
@@ -237,7 +218,6 @@ class FindSquares {
   Lookups& lookups_;
   CellLocator locator_;
   SquareFinder<reaches_edge> squares_;
-  ObstacleFinder obstacles_;
   IntVector previous_;  ///< squares of the previous vector, -1 before the first
   std::size_t found_ = 0;
 };
@@ -245,10 +225,9 @@ class FindSquares {
 /// Reads the heights of the first `count` squares. Neighbours in the cloud often share a square, so
 /// this takes less time than reading them for every point.
 HWY_INLINE void look_up(const GridTables& tables, std::size_t count, Lookups& lookups) {
-  constexpr std::uint32_t index_mask = (1U << grid_shift) - 1;
   for (std::size_t i = 0; i < count; ++i) {
     const auto place = static_cast<std::uint32_t>(lookups.places[i]);
-    const float* const near = tables.heights + (place & index_mask);
+    const float* const near = tables.heights + (place & place_mask);
     const float* const far = near + tables.widths[place >> grid_shift];
     std::memcpy(lookups.near_pairs.data() + 2 * i, near, 2 * sizeof(float));
     std::memcpy(lookups.far_pairs.data() + 2 * i, far, 2 * sizeof(float));
@@ -280,7 +259,7 @@ HWY_INLINE FloatVector surface_at(const Lookups& lookups, std::size_t i, std::si
 
 /// Limits of heights above the surface, metres.
 struct Limits {
-  HWY_INLINE Limits(const PointRule& rule, const ObstacleCells& obstacles)
+  HWY_INLINE Limits(const PointRule& rule, const ObstacleMarks& obstacles)
       : least_margin(hn::Set(FloatTag(), std::min(rule.margin, rule.obstacle_margin))),
         most_margin(hn::Set(FloatTag(), std::max(rule.margin, rule.obstacle_margin))),
         noise(hn::Set(FloatTag(), -rule.noise_depth)),
@@ -436,11 +415,12 @@ class LabelPoints {
     const auto is_obstacle =
         hn::And(hn::Gt(height, limits.low), hn::Lt(height, limits.overhanging));
     if (hn::AllFalse(d, is_obstacle)) return;
-    const IntVector cell = hn::Load(di, lookups.obstacle_cell.data() + i);
+    const IntVector square =
+        hn::And(hn::Load(di, lookups.place.data() + i), hn::Set(di, place_mask));
     const auto is_high = hn::RebindMask(di, hn::Gt(height, limits.high));
     const IntVector mark =
         hn::IfThenElse(hn::RebindMask(di, is_obstacle),
-                       increment_if(is_high, hn::ShiftLeft<1>(cell)), hn::Set(di, no_mark));
+                       increment_if(is_high, hn::ShiftLeft<1>(square)), hn::Set(di, no_mark));
     // Neighbours often set the same mark.
     const auto is_new =
         hn::And(hn::RebindMask(di, is_obstacle), hn::Ne(mark, move_up(mark, hn::Set(di, no_mark))));
@@ -449,7 +429,7 @@ class LabelPoints {
 
   /// Sets the first `count` listed marks.
   HWY_INLINE void set_marks(std::size_t count) {
-    const ObstacleCells& obstacles = scan_.obstacles;
+    const ObstacleMarks& obstacles = scan_.obstacles;
     for (std::size_t i = 0; i < count; ++i) {
       // Other threads may set the same mark.
       std::atomic_ref<std::uint8_t>(obstacles.marks[lists_.marked[i]])
@@ -463,7 +443,7 @@ class LabelPoints {
       const auto point = static_cast<std::size_t>(lists_.undecided[i]);
       slice_.undecided[totals_.undecided++] = {
           .point = static_cast<std::uint32_t>(begin + point),
-          .cell = static_cast<std::uint32_t>(lookups.obstacle_cell[point])};
+          .square = static_cast<std::uint32_t>(lookups.place[point]) & place_mask};
     }
   }
 
@@ -511,19 +491,14 @@ namespace flagstone::surface {
 namespace {
 HWY_EXPORT(measure_points);
 
-/// Number of 0.5 m cells along one side.
-std::size_t obstacle_width(const SquareCells& cells) {
-  return static_cast<std::size_t>(4 * cells.extent());
-}
-
 }  // namespace
 
-PointHeights::PointHeights(const SurfaceConfig& config, const SquareCells& cells)
+PointHeights::PointHeights(const SurfaceConfig& config, const SquareCells& cells,
+                           std::span<const Grid> grids)
     : cells_(&cells), rule_(config.point) {
-  const std::size_t width = obstacle_width(cells);
-  obstacle_bytes_ = 2 * width * width;
-  obstacles_.reserve(obstacle_bytes_);
-  std::fill_n(obstacles_.data(), obstacle_bytes_, std::uint8_t{0});
+  for (const Grid& grid : grids) mark_count_ += 2 * grid.size();
+  marks_.reserve(mark_count_);
+  std::fill_n(marks_.data(), mark_count_, std::uint8_t{0});
 }
 
 void PointHeights::reserve(std::size_t points) {
@@ -533,9 +508,9 @@ void PointHeights::reserve(std::size_t points) {
 }
 
 void PointHeights::set_surface(std::span<const Grid> grids) noexcept {
-  // A different mark in each scan, so that the cells need not be cleared.
+  // A different mark in each scan, so that the marks need not be cleared.
   if (++mark_ == 0) {
-    std::fill_n(obstacles_.data(), obstacle_bytes_, std::uint8_t{0});
+    std::fill_n(marks_.data(), mark_count_, std::uint8_t{0});
     mark_ = 1;
   }
   tables_.count = grids.size();
@@ -562,10 +537,8 @@ void PointHeights::set_surface(std::span<const Grid> grids) noexcept {
 void PointHeights::measure(CloudView cloud, const std::uint8_t* unusual, std::size_t chunk,
                            const Results& results, LabelTotals& totals) noexcept {
   // The two limits are a quarter below and a quarter above the height of an obstacle.
-  const ObstacleCells obstacles{.marks = obstacles_.data(),
+  const ObstacleMarks obstacles{.marks = marks_.data(),
                                 .mark = mark_,
-                                .width = static_cast<std::int32_t>(obstacle_width(*cells_)),
-                                .edge = 2 * cells_->extent(),
                                 .low = 0.75f * rule_.obstacle_height,
                                 .high = 1.25f * rule_.obstacle_height};
   const MeasuredScan scan{.cloud = cloud,
@@ -586,7 +559,7 @@ void PointHeights::measure(CloudView cloud, const std::uint8_t* unusual, std::si
 }
 
 void PointHeights::label(std::size_t chunk, const Results& results, LabelTotals& totals) noexcept {
-  // By the two marks of the cell: low, high.
+  // By the two marks of the square: low, high.
   const float middle = (rule_.margin + rule_.obstacle_margin) / 2;
   const std::array<float, 4> margins = {rule_.margin, middle, rule_.obstacle_margin,
                                         rule_.obstacle_margin};
@@ -596,7 +569,7 @@ void PointHeights::label(std::size_t chunk, const Results& results, LabelTotals&
   const std::span undecided(undecided_.data() + begin, undecided_counts_.data()[chunk]);
   std::size_t ground_count = 0;
   for (const UndecidedPoint& one : undecided) {
-    const std::uint8_t* const marks = obstacles_.data() + 2 * std::size_t{one.cell};
+    const std::uint8_t* const marks = marks_.data() + 2 * std::size_t{one.square};
     const auto index = static_cast<std::size_t>(marks[0] == mark_) +
                        2 * static_cast<std::size_t>(marks[1] == mark_);
     const bool is_ground = heights[one.point] < margins[index];

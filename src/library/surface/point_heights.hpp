@@ -20,10 +20,10 @@ namespace flagstone::surface {
 /// Index of a height and of its grid in one integer: index | grid << grid_shift.
 inline constexpr int grid_shift = 28;
 
-/// A point whose label depends on the obstacles in its cell.
+/// A point whose label depends on the obstacles in its square.
 struct UndecidedPoint {
   std::uint32_t point;  ///< index in its chunk
-  std::uint32_t cell;
+  std::uint32_t square;
 };
 
 /// The grids of a surface as tables with one entry per grid. A position belongs to the last grid
@@ -44,8 +44,8 @@ struct GridTables {
 /// Computes the heights of points above the surface, and their labels.
 class PointHeights {
  public:
-  /// May throw std::bad_alloc.
-  PointHeights(const SurfaceConfig& config, const SquareCells& cells);
+  /// `grids`: the grids that set_surface() will get. May throw std::bad_alloc.
+  PointHeights(const SurfaceConfig& config, const SquareCells& cells, std::span<const Grid> grids);
 
   /// Reserves memory for scans of up to `points` points. May throw std::bad_alloc.
   void reserve(std::size_t points);
@@ -59,10 +59,10 @@ class PointHeights {
     std::span<Label> labels;
   };
 
-  /// Computes the heights of the points of a chunk, metres, and marks the cells that contain
-  /// obstacles. Labels all points whose label does not depend on these marks. A height is NaN if
-  /// the point is invalid or out of range, or if the surface is unknown there. Several threads may
-  /// process different chunks at the same time.
+  /// Computes the heights of the points of a chunk, metres, and marks the squares of the surface
+  /// that contain obstacles. Labels all points whose label does not depend on these marks. A height
+  /// is NaN if the point is invalid or out of range, or if the surface is unknown there. Several
+  /// threads may process different chunks at the same time.
   ///
   /// `unusual` shows which points have no cell; see PackedPoints::unusual.
   void measure(CloudView cloud, const std::uint8_t* unusual, std::size_t chunk,
@@ -76,8 +76,8 @@ class PointHeights {
   const SquareCells* cells_;
   PointRule rule_;
   GridTables tables_{};
-  Buffer<std::uint8_t> obstacles_;  ///< marks, two bytes per 0.5 m cell; see ObstacleCells
-  std::size_t obstacle_bytes_ = 0;
+  Buffer<std::uint8_t> marks_;  ///< two per square of the surface; see ObstacleMarks
+  std::size_t mark_count_ = 0;
   std::uint8_t mark_ = 0;                   ///< of the current scan
   Buffer<UndecidedPoint> undecided_;        ///< per chunk, from its first point on
   Buffer<std::uint32_t> undecided_counts_;  ///< per chunk

@@ -178,7 +178,7 @@ Surface::Pipeline::Pipeline(const SurfaceConfig& given, unsigned threads)
       pyramid(config, cells),
       coarse(pyramid.grids().front(), config.sensor_height),
       pull_push(pyramid.most_cells_along()),
-      point_heights(config, cells),
+      point_heights(config, cells, pyramid.grids()),
       lower_ground(cells),
       samples(cells),
       pool(checked_threads("surface", threads)),
