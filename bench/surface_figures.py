@@ -82,6 +82,18 @@ class Stages:
             found[inside] = bilinear(self.grids[level][0], extent, cell, x[inside], y[inside])
         return found
 
+    def squares(self, x, y):
+        """The squares between four cell centres that contain positions: level, column and row."""
+        found = np.zeros((3, len(x)), int)
+        for level in range(len(self.grids)):
+            extent, cell = self.half_width(level), self.cell(level)
+            centres = extent - cell / 2
+            inside = (np.abs(x) <= centres) & (np.abs(y) <= centres)
+            found[0, inside] = level
+            for axis, value in enumerate((x, y), start=1):
+                found[axis, inside] = np.floor((value[inside] + extent) / cell - 0.5)
+        return found.tolist()
+
 
 def bilinear(grid, extent, cell, x, y):
     last = len(grid) - 1
@@ -224,13 +236,9 @@ def profile_of(axes, stages, where, across, limits, half_slice):
     truth_extent, truth_cell = stages.about["truth"]["extent"], stages.about["truth"]["cell"]
     truth = bilinear(stages.truth, truth_extent, truth_cell, np.full_like(y, where), y)
 
-    obstacles = obstacle_cells(stages)
-    margin = np.array(
-        [
-            stages.about["obstacle_margin" if (np.floor(2 * where), np.floor(2 * v)) in obstacles else "margin"]
-            for v in y
-        ]
-    )
+    obstacles = obstacle_squares(stages)
+    squares = zip(*stages.squares(np.full_like(y, where), y))
+    margin = np.array([stages.about["obstacle_margin" if square in obstacles else "margin"] for square in squares])
     axes.fill_between(
         y, refined, refined + margin, color=GROUND, alpha=0.3, linewidth=0, label="labelled ground: up to the margin"
     )
@@ -262,11 +270,11 @@ def profile_of(axes, stages, where, across, limits, half_slice):
     axes.set_axisbelow(True)
 
 
-def obstacle_cells(stages):
-    """The 0.5 m cells that contain an obstacle by the rule for points."""
+def obstacle_squares(stages):
+    """The squares of the surface that contain an obstacle by the rule for points."""
     height = stages.points[:, HEIGHT]
     obstacles = stages.points[(height > stages.about["obstacle_height"]) & (height < 2.5)]
-    return set(zip(np.floor(2 * obstacles[:, X]), np.floor(2 * obstacles[:, Y])))
+    return set(zip(*stages.squares(obstacles[:, X], obstacles[:, Y])))
 
 
 def draw_profile(cars, street):

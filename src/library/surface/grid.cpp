@@ -112,7 +112,8 @@ HWY_INLINE void interpolate_rows(D d, const float* near, const float* far, std::
 /// Interleaves two vectors: `low` becomes a0, b0, a1, b1, ..., and `high` contains the second
 /// halves.
 template <class D>
-HWY_INLINE void interleave(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D>& low, hn::Vec<D>& high) {
+HWY_INLINE void interleave([[maybe_unused]] D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D>& low,
+                           hn::Vec<D>& high) {
   if constexpr (hn::MaxLanes(D()) == 1) {
     low = a;
     high = b;
