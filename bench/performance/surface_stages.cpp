@@ -16,7 +16,6 @@
 #include <filesystem>
 #include <flagstone/segmentation.hpp>
 #include <flagstone/surface.hpp>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -35,6 +34,7 @@
 #include "library/plane_fits/scan_runs.hpp"
 #include "library/surface/cell_observations.hpp"
 #include "library/surface/grid.hpp"
+#include "library/surface/occupied_cells.hpp"
 #include "library/surface/packed_points.hpp"
 #include "library/surface/square_cells.hpp"
 
@@ -42,7 +42,7 @@ namespace flagstone::performance {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using surface::OccupiedCell;
+using surface::CellLists;
 
 /// Half width and cell size of the grid of the true ground, metres.
 constexpr double truth_extent = 24;
@@ -148,28 +148,28 @@ class SortedPoints {
   [[nodiscard]] const surface::PackedPoint* data() const { return points_.data(); }
 
   /// The cells of a grid with at least three points.
-  [[nodiscard]] std::vector<OccupiedCell> cells_of(const surface::Grid& grid) const {
-    std::vector<OccupiedCell> found;
+  [[nodiscard]] CellLists cells_of(const surface::Grid& grid) const {
     const auto along = static_cast<std::uint32_t>(surface::block_size / grid.cell);  // per block
-    const int blocks = static_cast<int>(grid.width / along);
-    const int first_block = cells_.half_blocks() - blocks / 2;
-    for (int row = 0; row < blocks; ++row) {
-      for (int column = 0; column < blocks; ++column) {
-        const surface::CellRange block = cells_.block(first_block + column, first_block + row);
-        const std::uint32_t each = (block.last - block.first) / (along * along);
-        for (std::uint32_t i = 0; i < along * along; ++i) {
-          const std::uint32_t* const begins = points_.begins() + block.first + i * each;
-          const std::uint32_t count = begins[each] - begins[0];
-          if (count < 3) continue;
-          const surface::InBlock in_block = surface::in_z_order[i];
-          const std::size_t place =
-              (static_cast<std::size_t>(row) * along + in_block.row) * grid.width +
-              static_cast<std::size_t>(column) * along + in_block.column;
-          found.push_back(
-              {.first = begins[0], .count = count, .place = static_cast<std::uint32_t>(place)});
-        }
+    const auto width = static_cast<std::uint32_t>(grid.width);
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t i = 0; i < along * along; ++i) {
+      places.push_back(surface::in_z_order[i].row * width + surface::in_z_order[i].column);
+    }
+    const std::uint32_t blocks = width / along;
+    const int first_block = cells_.half_blocks() - static_cast<int>(blocks) / 2;
+    std::vector<surface::LevelBlock> level_blocks;
+    for (std::uint32_t row = 0; row < blocks; ++row) {
+      for (std::uint32_t column = 0; column < blocks; ++column) {
+        const surface::CellRange block = cells_.block(first_block + static_cast<int>(column),
+                                                      first_block + static_cast<int>(row));
+        level_blocks.push_back({.first_cell = block.first,
+                                .step = (block.last - block.first) / (along * along),
+                                .first_place = (row * width + column) * along});
       }
     }
+    CellLists found;
+    found.reserve(grid.size());
+    found.list(level_blocks, places, points_.begins());
     return found;
   }
 
@@ -193,11 +193,6 @@ std::vector<std::int16_t> gates_of(const surface::Grid& grid, const Refinement& 
   return gates;
 }
 
-surface::CellSize size_of(const OccupiedCell& cell) {
-  if (cell.count <= surface::small_cell) return surface::CellSize::small;
-  return cell.count <= surface::medium_cell ? surface::CellSize::medium : surface::CellSize::large;
-}
-
 /// The surface at the start of a level: the result of the previous levels on the grid of this
 /// level.
 OwnGrid surface_before(const Segmentation& before, int level) {
@@ -215,7 +210,7 @@ void write_observations(const OutputDirectory& output, const SortedPoints& point
                         const Segmentation& before, const SurfaceConfig& config, int level) {
   const OwnGrid below = surface_before(before, level);
   const surface::Grid& grid = below.grid;
-  const std::vector<OccupiedCell> cells = points.cells_of(grid);
+  const CellLists lists = points.cells_of(grid);
   std::vector<float> corrections(grid.size());
   std::vector<float> weights(grid.size());
   const Refinement& settings = config.refinement;
@@ -227,20 +222,23 @@ void write_observations(const OutputDirectory& output, const SortedPoints& point
   const surface::Observations observations{.points = points.data(),
                                            .planes = planes,
                                            .gates = gates.data(),
+                                           // The figures show the first look only.
+                                           .second_look = surface::SecondLook::tilted,
+                                           .half_bit = 0,
+                                           .widening = 0,
                                            .max_clutter_ratio = settings.max_clutter_ratio,
                                            .lower_bound_weight = settings.lower_bound_weight,
                                            .corrections = corrections.data(),
                                            .weights = weights.data()};
+  std::vector<float> occupied(grid.size());
   for (const auto size :
        {surface::CellSize::small, surface::CellSize::medium, surface::CellSize::large}) {
-    std::vector<OccupiedCell> of_size;
-    std::ranges::copy_if(cells, std::back_inserter(of_size),
-                         [&](const OccupiedCell& cell) { return size_of(cell) == size; });
-    surface::observe(observations, of_size, size);
-  }
-  std::vector<float> occupied(grid.size());
-  for (const OccupiedCell& cell : cells) {
-    occupied[cell.place] = static_cast<float>(cell.count);
+    const surface::OccupiedCells cells = lists.cells(size);
+    std::vector<surface::OccupiedCell> unclear(cells.size);
+    surface::observe(observations, cells, size, unclear.data());
+    for (std::size_t i = 0; i < cells.size; ++i) {
+      occupied[cells.places[i]] = static_cast<float>(cells.counts[i]);
+    }
   }
   std::vector<float> all = std::move(corrections);
   all.insert(all.end(), weights.begin(), weights.end());

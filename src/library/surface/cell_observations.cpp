@@ -578,12 +578,12 @@ void conclude(const Observations& o, const TileStatistics& tile,
 
 /// Writes the observations of a tile of cells into the grid, and the unclear cells to `unclear`.
 /// Returns the number of unclear cells.
-std::size_t write(const Observations& o, std::span<const OccupiedCell> cells,
-                  const TileObservations& found, OccupiedCell* unclear) {
-  for (std::size_t i = 0; i < cells.size(); ++i) {
+std::size_t write(const Observations& o, const OccupiedCells& cells, const TileObservations& found,
+                  OccupiedCell* unclear) {
+  for (std::size_t i = 0; i < cells.size; ++i) {
     if (found.weights[i] <= 0) continue;
-    o.corrections[cells[i].place] = found.corrections[i];
-    o.weights[cells[i].place] = found.weights[i];
+    o.corrections[cells.places[i]] = found.corrections[i];
+    o.weights[cells.places[i]] = found.weights[i];
   }
   std::size_t count = 0;
   for (std::uint32_t bits = found.unclear; bits != 0; bits &= bits - 1) {
@@ -632,7 +632,7 @@ HWY_INLINE void sum_up_tile(std::array<HeightBlock, block_count>& blocks,
 
 /// Observes up to 32 cells.
 template <CellSize size>
-HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell> cells,
+HWY_INLINE void observe_tile(const Observations& o, const OccupiedCells& cells,
                              TileObservations& found) {
   HWY_ALIGN std::array<HeightBlock, rows_of(size) / block_rows> blocks;
   HWY_ALIGN std::array<std::int16_t, tile_cells> gates{};
@@ -641,8 +641,8 @@ HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell
     CellPair two;
     for (std::size_t side = 0; side < 2; ++side) {
       const std::size_t i = 2 * pair + side;
-      if (i >= cells.size()) continue;
-      const OccupiedCell& cell = cells[i];
+      if (i >= cells.size) continue;
+      const OccupiedCell cell = cells[i];
       gates[i] = o.gates[cell.place];
       two.slopes[side] = o.planes.slopes[cell.place];
       two.offsets[side] = o.planes.offsets[cell.place];
@@ -657,11 +657,11 @@ HWY_INLINE void observe_tile(const Observations& o, std::span<const OccupiedCell
 }
 
 template <CellSize size>
-std::size_t observe_tiles(const Observations& o, std::span<const OccupiedCell> cells,
+std::size_t observe_tiles(const Observations& o, const OccupiedCells& cells,
                           OccupiedCell* unclear) {
   std::size_t count = 0;
-  for (std::size_t begin = 0; begin < cells.size(); begin += tile_cells) {
-    const auto tile = cells.subspan(begin, std::min(tile_cells, cells.size() - begin));
+  for (std::size_t begin = 0; begin < cells.size; begin += tile_cells) {
+    const OccupiedCells tile = cells.part(begin, tile_cells);
     TileObservations found;
     observe_tile<size>(o, tile, found);
     count += write(o, tile, found, unclear + count);
@@ -729,7 +729,7 @@ void observe_tiles_again(const Observations& o, std::span<const OccupiedCell> ce
   }
 }
 
-std::size_t observe_cells(const Observations& o, std::span<const OccupiedCell> cells, CellSize size,
+std::size_t observe_cells(const Observations& o, const OccupiedCells& cells, CellSize size,
                           OccupiedCell* unclear) {
   switch (size) {
     case CellSize::small: return observe_tiles<CellSize::small>(o, cells, unclear);
@@ -763,8 +763,8 @@ void find_planes(const Grid& grid, float packed_zero, const CellPlanes& planes) 
   HWY_DYNAMIC_DISPATCH(find_planes_of)(grid, packed_zero, planes);
 }
 
-std::size_t observe(const Observations& observations, std::span<const OccupiedCell> cells,
-                    CellSize size, OccupiedCell* unclear) noexcept {
+std::size_t observe(const Observations& observations, const OccupiedCells& cells, CellSize size,
+                    OccupiedCell* unclear) noexcept {
   return HWY_DYNAMIC_DISPATCH(observe_cells)(observations, cells, size, unclear);
 }
 

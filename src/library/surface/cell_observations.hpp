@@ -9,16 +9,10 @@
 #include "flagstone/surface_config.hpp"
 #include "library/surface/candidates.hpp"
 #include "library/surface/grid.hpp"
+#include "library/surface/occupied_cells.hpp"
 #include "library/surface/packed_points.hpp"
 
 namespace flagstone::surface {
-
-/// A cell of a grid and its points.
-struct OccupiedCell {
-  std::uint32_t first;  ///< index of its first point
-  std::uint32_t count;
-  std::uint32_t place;  ///< row * width + column
-};
 
 /// The surface within each cell of a grid as a plane over the x and y of packed points:
 /// (slope_x * x + slope_y * y + offset) >> plane_shift, in the units of a packed z.
@@ -54,17 +48,10 @@ struct Observations {
   float* weights;      ///< by cell, 0 to 1; only written for observed cells
 };
 
-/// Cells by their number of points: up to 16, up to 32, more. Of a large cell, a sample is used
-/// that does not depend on the order of its points.
-enum class CellSize : std::uint8_t { small, medium, large };
-inline constexpr std::size_t cell_sizes = 3;
-inline constexpr std::uint32_t small_cell = 16;
-inline constexpr std::uint32_t medium_cell = 32;
-
-/// Observes cells of one size. Copies the cells that need a second look to `unclear`, which can be
-/// the beginning of `cells`, and returns their number.
-std::size_t observe(const Observations& observations, std::span<const OccupiedCell> cells,
-                    CellSize size, OccupiedCell* unclear) noexcept;
+/// Observes cells of one size. Copies the cells that need a second look to `unclear` and returns
+/// their number.
+std::size_t observe(const Observations& observations, const OccupiedCells& cells, CellSize size,
+                    OccupiedCell* unclear) noexcept;
 
 /// Observes cells a second time, and writes one candidate for each. The tests for obstacles are
 /// stricter than those of the first observation.

@@ -11,9 +11,6 @@
 namespace flagstone::surface {
 namespace {
 
-/// Cells with fewer points are not observed.
-constexpr std::size_t fewest_points_in_cell = 3;
-
 /// Cells with at least this weight keep their own correction.
 constexpr float full_weight = 0.5f;
 
@@ -25,9 +22,6 @@ constexpr float min_confidence = 1.0f / 16;
 
 /// Elements that vectors can read or write after the last one.
 constexpr std::size_t slack = 16;
-
-/// Neighbours along the Z-order curve that are skipped at once if they contain no points.
-constexpr std::size_t cells_of_group = 8;
 
 /// Number of cells per job.
 constexpr std::size_t cells_of_a_job = 256;
@@ -63,8 +57,9 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
   confidences_.reserve(total + slack);
   corrections_.reserve(largest);
   weights_.reserve(largest);
-  unclear_counts_.reserve(jobs_of(largest) + cell_sizes);
-  unclear_.reserve(largest);
+  const std::size_t most_jobs = jobs_of(largest) + cell_sizes;
+  unclear_counts_.reserve(most_jobs);
+  unclear_.reserve(most_jobs * cells_of_a_job);
   candidates_.reserve(largest);
   slopes_.reserve(largest + slack);
   offsets_.reserve(largest + slack);
@@ -82,10 +77,8 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
   const auto level_total = static_cast<std::size_t>(settings_.levels);
   cells_.resize(level_total);
   for (std::size_t level = 0; level < level_total; ++level) {
-    for (Buffer<OccupiedCell>& list : cells_[level].cells) list.reserve(grids_[level].size() + 1);
     const Grid& grid = grids_[level];
-    cells_[level].first_block =
-        static_cast<std::uint32_t>((cells.extent() - grid.extent()) / block_size);
+    cells_[level].lists.reserve(grid.size());
     const auto along = static_cast<std::size_t>(block_size / levels[level].cell);
     for (std::size_t index = 0; index < along * along; ++index) {
       const InBlock place = in_z_order[index];
@@ -104,84 +97,45 @@ ResidualPyramid::ResidualPyramid(const SurfaceConfig& config, const SquareCells&
       }
     }
   }
+  list_blocks(cells);
+}
+
+/// Lists the blocks of each level.
+void ResidualPyramid::list_blocks(const SquareCells& cells) {
   const int half = cells.half_blocks();
   for (int row = 0; row < 2 * half; ++row) {
     for (int column = 0; column < 2 * half; ++column) {
       const int ring = std::max({column - half, half - 1 - column, row - half, half - 1 - row});
-      std::size_t reached = 0;
-      while (reached < level_total &&
-             static_cast<float>(ring * block_size) < levels[reached].reach) {
-        ++reached;
+      const CellRange range = cells.block(column, row);
+      for (std::size_t level = 0; level < cells_.size(); ++level) {
+        if (static_cast<float>(ring * block_size) >= levels[level].reach) break;
+        const Grid& grid = grids_[level];
+        const int first_block = static_cast<int>((cells.extent() - grid.extent()) / block_size);
+        const int along = static_cast<int>(block_size / grid.cell);
+        const int place = (row - first_block) * along * static_cast<int>(grid.width) +
+                          (column - first_block) * along;
+        LevelBlock block{
+            .first_cell = range.first, .step = 1, .first_place = static_cast<std::uint32_t>(place)};
+        if (level == 0) {
+          block.first_cell =
+              static_cast<std::uint32_t>(row * 2 * half + column) * coarse_cells_of_block;
+        } else {
+          block.step =
+              (range.last - range.first) / static_cast<std::uint32_t>(cells_[level].places.size());
+        }
+        cells_[level].blocks.push_back(block);
       }
-      blocks_.push_back({.cells = cells.block(column, row),
-                         .column = static_cast<std::uint32_t>(column),
-                         .row = static_cast<std::uint32_t>(row),
-                         .levels = reached});
     }
-  }
-}
-
-/// Lists the cells of all levels, block by block.
-void ResidualPyramid::list_cells(const PackedPoints& points,
-                                 const CoarseSamples& samples) noexcept {
-  for (LevelCells& level : cells_) level.counts = {};
-  const std::uint32_t* coarse = samples.begins();
-  for (const Block& block : blocks_) {
-    const std::uint32_t* const coarse_begins = coarse;
-    coarse += coarse_cells_of_block;
-    if (coarse_begins[0] == coarse_begins[coarse_cells_of_block]) continue;
-    if (block.levels > 0) list_cells_of(block, 0, coarse_begins, 1);
-    if (block.levels < 2) continue;
-    const std::uint32_t* const begins = points.begins() + block.cells.first;
-    for (std::size_t level = 1; level < block.levels; ++level) {
-      list_cells_of(block, level, begins,
-                    (block.cells.last - block.cells.first) / cells_[level].places.size());
-    }
-  }
-}
-
-/// Cell i of the level begins at point `begins[i * each]`.
-void ResidualPyramid::list_cells_of(const Block& block, std::size_t level,
-                                    const std::uint32_t* begins, std::size_t each) noexcept {
-  LevelCells& list = cells_[level];
-  const auto along = static_cast<std::uint32_t>(block_size / levels[level].cell);
-  const std::uint32_t first_place =
-      (block.row - list.first_block) * along * static_cast<std::uint32_t>(grids_[level].width) +
-      (block.column - list.first_block) * along;
-  std::array<OccupiedCell*, cell_sizes> next;
-  for (std::size_t size = 0; size < cell_sizes; ++size) {
-    next[size] = list.cells[size].data() + list.counts[size];
-  }
-  auto& [small, medium, large] = next;
-  const std::uint32_t* place = list.places.data();
-  for (std::size_t rest = list.places.size(); rest > 0; rest -= cells_of_group) {
-    const std::uint32_t* const group = begins;
-    const std::uint32_t* const places = place;
-    begins += cells_of_group * each;
-    place += cells_of_group;
-    if (*group == *begins) continue;  // no points
-    for (std::size_t i = 0; i < cells_of_group; ++i) {
-      const std::uint32_t first = group[i * each];
-      const std::uint32_t count = group[(i + 1) * each] - first;
-      const OccupiedCell cell{.first = first, .count = count, .place = first_place + places[i]};
-      // Without branches, because the number of points in a cell is hard to predict.
-      *small = *medium = *large = cell;
-      small += static_cast<std::ptrdiff_t>(count >= fewest_points_in_cell && count <= small_cell);
-      medium += static_cast<std::ptrdiff_t>(count > small_cell && count <= medium_cell);
-      large += static_cast<std::ptrdiff_t>(count > medium_cell);
-    }
-  }
-  for (std::size_t size = 0; size < cell_sizes; ++size) {
-    list.counts[size] = static_cast<std::size_t>(next[size] - list.cells[size].data());
   }
 }
 
 void ResidualPyramid::refine(const PackedPoints& points, const CoarseSamples& samples,
                              PullPush& pull_push, ThreadPool& pool) noexcept {
-  list_cells(points, samples);
   for (std::size_t level = 0; level < cells_.size(); ++level) {
     const Grid& grid = grids_[level];
     if (level > 0) upsample(grids_[level - 1], grid);
+    LevelCells& cells = cells_[level];
+    cells.lists.list(cells.blocks, cells.places, level == 0 ? samples.begins() : points.begins());
     observe_level(level, level == 0 ? samples.data() : points.data(), pool);
     const bool inner = level > 0 && grid.extent() < grids_[level - 1].extent();
     pull_push.correct(corrections_.data(), weights_.data(), full_weight, inner, grid);
@@ -211,31 +165,27 @@ void ResidualPyramid::observe_level(std::size_t level, const PackedPoint* points
       .lower_bound_weight = settings_.lower_bound_weight,
       .corrections = corrections_.data(),
       .weights = weights_.data()};
-  LevelCells& list = cells_[level];
+  std::array<OccupiedCells, cell_sizes> lists;
   std::array<std::size_t, cell_sizes> jobs;
-  for (std::size_t size = 0; size < cell_sizes; ++size) jobs[size] = jobs_of(list.counts[size]);
+  for (std::size_t size = 0; size < cell_sizes; ++size) {
+    lists[size] = cells_[level].lists.cells(static_cast<CellSize>(size));
+    jobs[size] = jobs_of(lists[size].size);
+  }
   const std::size_t job_count = jobs[0] + jobs[1] + jobs[2];
-  // The cells of a job. Large cells take longest, so they come first.
-  const auto cells_of = [&](std::size_t job, CellSize& cell_size) {
-    std::size_t size = cell_sizes - 1;
-    while (job >= jobs[size]) job -= jobs[size--];
-    const std::size_t first = job * cells_of_a_job;
-    cell_size = static_cast<CellSize>(size);
-    return std::span(list.cells[size].data() + first,
-                     std::min(cells_of_a_job, list.counts[size] - first));
-  };
+  // Large cells take longest, so they come first.
   pool.run(job_count, [&](std::size_t, std::size_t job) {
-    CellSize size;
-    const std::span<OccupiedCell> cells = cells_of(job, size);
-    unclear_counts_.data()[job] =
-        static_cast<std::uint32_t>(observe(observations, cells, size, cells.data()));
+    std::size_t size = cell_sizes - 1;
+    std::size_t of_size = job;
+    while (of_size >= jobs[size]) of_size -= jobs[size--];
+    const OccupiedCells cells = lists[size].part(of_size * cells_of_a_job, cells_of_a_job);
+    unclear_counts_.data()[job] = static_cast<std::uint32_t>(observe(
+        observations, cells, static_cast<CellSize>(size), unclear_.data() + job * cells_of_a_job));
   });
 
   std::size_t count = 0;
   for (std::size_t job = 0; job < job_count; ++job) {
-    CellSize size;
     const std::size_t unclear = unclear_counts_.data()[job];
-    std::copy_n(cells_of(job, size).data(), unclear, unclear_.data() + count);
+    std::copy_n(unclear_.data() + job * cells_of_a_job, unclear, unclear_.data() + count);
     count += unclear;
   }
   look_again(observations, {unclear_.data(), count}, grids_[level].width, pool);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,6 +14,7 @@
 #include "library/surface/cell_observations.hpp"
 #include "library/surface/coarse_samples.hpp"
 #include "library/surface/grid.hpp"
+#include "library/surface/occupied_cells.hpp"
 #include "library/surface/packed_points.hpp"
 #include "library/surface/square_cells.hpp"
 
@@ -46,26 +46,16 @@ class ResidualPyramid {
               ThreadPool& pool) noexcept;
 
  private:
-  /// A block of 8 m.
-  struct Block {
-    CellRange cells;
-    std::uint32_t column, row;  ///< in blocks from the edge
-    std::size_t levels;         ///< number of levels that cover the block
-  };
-
-  /// The cells of a level with enough points, by CellSize.
+  /// The cells of a level.
   struct LevelCells {
-    std::array<Buffer<OccupiedCell>, cell_sizes> cells;
-    std::array<std::size_t, cell_sizes> counts{};
-    std::uint32_t first_block = 0;  ///< blocks from the edge to the first block of the level
+    std::vector<LevelBlock> blocks;
     /// By index along the Z-order curve: distance in the grid from the first cell of the block.
     std::vector<std::uint32_t> places;
     const std::int16_t* gates = nullptr;  ///< by cell of the grid
+    CellLists lists;
   };
 
-  void list_cells(const PackedPoints& points, const CoarseSamples& samples) noexcept;
-  void list_cells_of(const Block& block, std::size_t level, const std::uint32_t* begins,
-                     std::size_t each) noexcept;
+  void list_blocks(const SquareCells& cells);
   [[nodiscard]] float gate_of(std::size_t level) const noexcept;
   void observe_level(std::size_t level, const PackedPoint* points, ThreadPool& pool) noexcept;
   void look_again(const Observations& observations, std::span<const OccupiedCell> cells,
@@ -74,7 +64,6 @@ class ResidualPyramid {
   Refinement settings_;
   float packed_zero_;  ///< see SquareCells
   std::vector<Grid> grids_;
-  std::vector<Block> blocks_;
   std::vector<LevelCells> cells_;  ///< by level
   Buffer<float> heights_;
   Buffer<float> confidences_;
@@ -83,7 +72,7 @@ class ResidualPyramid {
   Buffer<std::int32_t> slopes_;  ///< of the level in work; see CellPlanes
   Buffer<std::int32_t> offsets_;
   Buffer<std::uint32_t> unclear_counts_;  ///< by job: number of cells that need a second look
-  Buffer<OccupiedCell> unclear_;
+  Buffer<OccupiedCell> unclear_;          ///< job by job, then without gaps
   Buffer<Candidate> candidates_;
   Buffer<std::int16_t> gates_;  ///< of all grids
 };

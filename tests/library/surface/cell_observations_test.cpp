@@ -148,7 +148,19 @@ class CellObservations : public testing::TestWithParam<std::string> {
   void observe_as(CellSize size, const std::vector<OccupiedCell>& cells) {
     with_observations([&](const Observations& observations) {
       std::vector<OccupiedCell> unclear(cells.size());
-      unclear.resize(observe(observations, cells, size, unclear.data()));
+      std::vector<std::uint32_t> firsts;
+      std::vector<std::uint32_t> counts;
+      std::vector<std::uint32_t> places;
+      for (const OccupiedCell& cell : cells) {
+        firsts.push_back(cell.first);
+        counts.push_back(cell.count);
+        places.push_back(cell.place);
+      }
+      const OccupiedCells columns{.firsts = firsts.data(),
+                                  .counts = counts.data(),
+                                  .places = places.data(),
+                                  .size = cells.size()};
+      unclear.resize(observe(observations, columns, size, unclear.data()));
       unclear_.insert(unclear_.end(), unclear.begin(), unclear.end());
     });
   }
@@ -512,26 +524,6 @@ TEST_P(CellObservations, OnlyCellsThatASecondLookCanHelpAreUnclear) {
 
   EXPECT_THAT(unclear_columns(SecondLook::tilted), testing::ElementsAre(2));
   EXPECT_THAT(unclear_columns(SecondLook::wide), testing::ElementsAre(3));
-}
-
-TEST_P(CellObservations, UnclearCellsCanReplaceTheCells) {
-  for (std::uint32_t i = 0; i < 64; ++i) {
-    add_cell(i / 8, i % 8, std::vector<float>(12, i % 3 == 0 ? 0.6f : 0.0f));
-  }
-  observe_all();
-
-  std::vector<OccupiedCell> cells = cells_;
-  with_observations([&](const Observations& observations) {
-    cells.resize(observe(observations, cells, CellSize::small, cells.data()));
-  });
-
-  EXPECT_EQ(cells.size(), 22);
-  const auto places = [](const std::vector<OccupiedCell>& of) {
-    std::vector<std::uint32_t> all;
-    for (const OccupiedCell& cell : of) all.push_back(cell.place);
-    return all;
-  };
-  EXPECT_EQ(places(cells), places(unclear_));
 }
 
 TEST_P(CellObservations, SecondLooksAreTheSameForAnyOrderAndEveryInstructionSet) {
