@@ -403,7 +403,7 @@ HWY_INLINE void sum_up(std::int16_t* HWY_RESTRICT heights, ShortVector gate, std
   // Without a point in the gate, any start will do.
   const ShortVector start = hn::IfThenElse(hn::Lt(gated, all(10)), of_few, of_gate.third);
   ShortVector mean = hn::Min(start, gate);
-  const auto move_window = [&] HWY_ATTR {
+  for (int move = 0; move < 2; ++move) {
     const Window inside(mean, gate);
     ShortVector sum = hn::Zero(d);
     ShortVector count = hn::Zero(d);
@@ -417,9 +417,7 @@ HWY_INLINE void sum_up(std::int16_t* HWY_RESTRICT heights, ShortVector gate, std
     note(sum, tile.sum);
     note(count, tile.count);
     mean = hn::Add(mean, quotient(sum, count));
-  };
-  move_window();
-  move_window();
+  }
 
   const Window inside(mean, gate);
   ShortVector at_surface = hn::Zero(d);

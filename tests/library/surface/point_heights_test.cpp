@@ -69,9 +69,9 @@ class PointHeightsOn : public testing::TestWithParam<std::string> {
   Measured measured(const std::vector<Point>& cloud, const GroundSurface& made,
                     const SurfaceConfig& config = {}) {
     const tests::SquareScan sorted(cloud, config);
-    PointHeights point_heights(config, sorted.cells);
-    point_heights.reserve(cloud.size());
     const JoinedGrids joined(made);
+    PointHeights point_heights(config, sorted.cells, joined.grids());
+    point_heights.reserve(cloud.size());
     Measured out;
     out.heights.resize(cloud.size());
     out.labels.resize(cloud.size());
@@ -150,25 +150,28 @@ TEST_P(PointHeightsOn, PointsBelowTheMarginAreGround) {
   EXPECT_EQ(label_of({10, 0, -2 - 0.3f}), Label::ground);
 }
 
-TEST_P(PointHeightsOn, TheMarginIsSmallerInCellsWithAnObstacle) {
+// 10 m from the sensor, the surface has cells of 0.5 m. Its squares lie between their centres, for
+// example from 10.25 to 10.75 m.
+
+TEST_P(PointHeightsOn, TheMarginIsSmallerInSquaresWithAnObstacle) {
   const PointRule rule;
   const float margin = rule.obstacle_margin;
-  const std::vector<Point> pole = {{10.1f, 0.1f, -2 + 1.25f * rule.obstacle_height + 0.01f}};
+  const std::vector<Point> pole = {{10.3f, 0.3f, -2 + 1.25f * rule.obstacle_height + 0.01f}};
 
-  EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin - 0.001f}, pole), Label::ground);
-  EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin + 0.001f}, pole), Label::nonground);
-  EXPECT_EQ(label_of({10.6f, 0.4f, -2 + margin + 0.001f}, pole), Label::ground) << "the next cell";
+  EXPECT_EQ(label_of({10.7f, 0.7f, -2 + margin - 0.001f}, pole), Label::ground);
+  EXPECT_EQ(label_of({10.7f, 0.7f, -2 + margin + 0.001f}, pole), Label::nonground);
+  EXPECT_EQ(label_of({10.8f, 0.7f, -2 + margin + 0.001f}, pole), Label::ground) << "next square";
 }
 
-TEST_P(PointHeightsOn, TheMeanMarginAppliesInCellsWithALowObstacle) {
+TEST_P(PointHeightsOn, TheMeanMarginAppliesInSquaresWithALowObstacle) {
   const PointRule rule;
   const float margin = (rule.margin + rule.obstacle_margin) / 2;
   for (const float height :
        {0.75f * rule.obstacle_height + 0.01f, 1.25f * rule.obstacle_height - 0.01f}) {
-    const std::vector<Point> stone = {{10.1f, 0.1f, -2 + height}};
+    const std::vector<Point> stone = {{10.3f, 0.3f, -2 + height}};
 
-    EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin - 0.001f}, stone), Label::ground);
-    EXPECT_EQ(label_of({10.4f, 0.4f, -2 + margin + 0.001f}, stone), Label::nonground);
+    EXPECT_EQ(label_of({10.7f, 0.7f, -2 + margin - 0.001f}, stone), Label::ground);
+    EXPECT_EQ(label_of({10.7f, 0.7f, -2 + margin + 0.001f}, stone), Label::nonground);
   }
 }
 
@@ -176,33 +179,40 @@ TEST_P(PointHeightsOn, ObstaclesAreHighEnoughAndNotOverhanging) {
   const PointRule rule;
   const Point low{10.4f, 0.4f, -2 + rule.margin - 0.01f};
 
-  EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 0.75f * rule.obstacle_height - 0.01f}}),
+  EXPECT_EQ(label_of(low, {{10.3f, 0.3f, -2 + 0.75f * rule.obstacle_height - 0.01f}}),
             Label::ground);
-  EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 2.49f}}), Label::nonground);
-  EXPECT_EQ(label_of(low, {{10.1f, 0.1f, -2 + 2.51f}}), Label::ground);
+  EXPECT_EQ(label_of(low, {{10.3f, 0.3f, -2 + 2.49f}}), Label::nonground);
+  EXPECT_EQ(label_of(low, {{10.3f, 0.3f, -2 + 2.51f}}), Label::ground);
 }
 
-TEST_P(PointHeightsOn, AnObstacleAffectsOnlyItsCell) {
-  for (const float x : {-99.9f, -40.0f, -0.25f, 0.0f, 0.3f, 24.0f, 99.4f}) {
+TEST_P(PointHeightsOn, AnObstacleAffectsOnlyItsSquare) {
+  const auto cell_at = [](float distance) {
+    return distance < 7.5f ? 0.25f : distance < 23.5f ? 0.5f : distance < 39.5f ? 1.0f : 2.0f;
+  };
+  for (const float x : {-98.9f, -41.1f, -0.25f, 0.0f, 0.3f, 24.1f, 98.9f}) {
     for (const float y : {-0.3f, 0.0f, 3.7f}) {
-      const float in_x = std::floor(x * 2) / 2 + 0.3f;
-      const float in_y = std::floor(y * 2) / 2 + 0.3f;
+      const float cell = cell_at(std::abs(x));
+      const auto in_square = [&](float coordinate) {
+        return (std::floor(coordinate / cell - 0.5f) + 0.9f) * cell;
+      };
+      const float in_x = in_square(x) + cell / 2;
+      const float in_y = in_square(y) + cell / 2;
       EXPECT_EQ(label_of({in_x, in_y, -1.9f}, {{x, y, -0.5f}}), Label::nonground) << x << " " << y;
-      EXPECT_EQ(label_of({in_x, in_y + 0.5f, -1.9f}, {{x, y, -0.5f}}), Label::ground);
-      EXPECT_EQ(label_of({in_x, in_y - 0.5f, -1.9f}, {{x, y, -0.5f}}), Label::ground);
+      EXPECT_EQ(label_of({in_x, in_y + cell, -1.9f}, {{x, y, -0.5f}}), Label::ground);
+      EXPECT_EQ(label_of({in_x, in_y - cell, -1.9f}, {{x, y, -0.5f}}), Label::ground);
     }
   }
 }
 
 TEST_P(PointHeightsOn, ObstaclesDoNotAffectTheNextScan) {
-  const std::vector<Point> pole = {{10.1f, 0.1f, -1}, {10.4f, 0.4f, -1.9f}};
-  const std::vector<Point> none = {{10.1f, 0.1f, -2}, {10.4f, 0.4f, -1.9f}};
+  const std::vector<Point> pole = {{10.3f, 0.3f, -1}, {10.4f, 0.4f, -1.9f}};
+  const std::vector<Point> none = {{10.3f, 0.3f, -2}, {10.4f, 0.4f, -1.9f}};
   const SurfaceConfig config;
   const tests::SquareScan with_pole(pole, config);
   const tests::SquareScan without(none, config);
-  PointHeights point_heights(config, with_pole.cells);
-  point_heights.reserve(2);
   const JoinedGrids joined(level_);
+  PointHeights point_heights(config, with_pole.cells, joined.grids());
+  point_heights.reserve(2);
   std::vector<float> heights(2);
   std::vector<Label> labels(2);
   const PointHeights::Results results{.heights = heights, .labels = labels};
@@ -244,8 +254,9 @@ TEST_P(PointHeightsOn, NothingIsGroundIfTheSurfaceIsUnknown) {
 
 TEST_P(PointHeightsOn, APointHasTheSameResultAtAnyIndexOfACloud) {
   std::vector<Point> cloud = tests::corrupted_cloud(3000, 5);
-  cloud.push_back({10.1f, 0.1f, -1});
-  cloud.push_back({10.4f, 0.4f, -1.9f});  // undecided until the cell is known to be an obstacle
+  cloud.push_back({10.3f, 0.3f, -1});
+  cloud.push_back(
+      {10.4f, 0.4f, -1.9f});  // undecided until the square is known to contain an obstacle
   const Measured whole = measured(cloud, level_);
   // Points are read in blocks of 16 and looked up in groups of 512.
   for (const std::size_t omitted : {1U, 5U, 15U, 16U, 17U, 500U, 512U, 1025U}) {
@@ -268,9 +279,9 @@ TEST_P(PointHeightsOn, ChunksCanBeMeasuredInAnyOrder) {
   const SurfaceConfig config;
   const Measured expected = measured(cloud, level_);
   const tests::SquareScan sorted(cloud, config);
-  PointHeights point_heights(config, sorted.cells);
-  point_heights.reserve(cloud.size());
   const JoinedGrids joined(level_);
+  PointHeights point_heights(config, sorted.cells, joined.grids());
+  point_heights.reserve(cloud.size());
   std::vector<float> heights(cloud.size());
   std::vector<Label> labels(cloud.size());
   const PointHeights::Results results{.heights = heights, .labels = labels};
