@@ -146,6 +146,18 @@ std::int32_t to_centre(std::size_t index, float cell) {
   return static_cast<std::int32_t>((2 * (index % per_packed_cell) + 1) * units_of_cell) - 1;
 }
 
+/// The nearest integers to numbers between -2^31 and 2^31. Faster than hn::NearestInt, which
+/// handles all numbers.
+HWY_INLINE IntVector nearest(FloatVector v) {
+#if HWY_TARGET <= HWY_AVX3
+  return IntVector{_mm512_cvtps_epi32(v.raw)};
+#elif HWY_TARGET == HWY_AVX2
+  return IntVector{_mm256_cvtps_epi32(v.raw)};
+#else
+  return hn::NearestInt(v);
+#endif
+}
+
 void find_planes_of(const Grid& grid, float packed_zero, const CellPlanes& planes) {
   const FloatTag d;
   const IntTag di;
@@ -154,7 +166,7 @@ void find_planes_of(const Grid& grid, float packed_zero, const CellPlanes& plane
   const auto slope = [&](FloatVector from, FloatVector to, FloatVector per_metre) HWY_ATTR {
     const FloatVector limit = hn::Set(d, most_slope);
     const FloatVector scaled = hn::Mul(hn::Sub(to, from), per_metre);
-    return hn::NearestInt(hn::Max(hn::Min(scaled, limit), hn::Neg(limit)));
+    return nearest(hn::Max(hn::Min(scaled, limit), hn::Neg(limit)));
   };
 
   // Centres of cells, which repeat with the packed cells, and factors of differences.
@@ -186,7 +198,7 @@ void find_planes_of(const Grid& grid, float packed_zero, const CellPlanes& plane
       const FloatVector height =
           hn::Mul(hn::Sub(hn::LoadU(d, framed.data() + i + 1), hn::Set(d, packed_zero)),
                   hn::Set(d, offset_unit));
-      const IntVector centre_height = hn::NearestInt(hn::Max(hn::Min(height, most), hn::Neg(most)));
+      const IntVector centre_height = nearest(hn::Max(hn::Min(height, most), hn::Neg(most)));
       const IntVector centre = hn::Or(hn::Load(di, centres.data() + i % lanes), row_centre);
       const IntVector to_corner = hn::ShiftRight<1>(sum_of_products(slopes, centre));
       // The excess of a row is overwritten by the next row.
@@ -579,7 +591,6 @@ void conclude(const Observations& o, const TileStatistics& tile,
 std::size_t write(const Observations& o, const OccupiedCells& cells, const TileObservations& found,
                   OccupiedCell* unclear) {
   for (std::size_t i = 0; i < cells.size; ++i) {
-    if (found.weights[i] <= 0) continue;
     o.corrections[cells.places[i]] = found.corrections[i];
     o.weights[cells.places[i]] = found.weights[i];
   }

@@ -44,8 +44,8 @@ struct Observations {
   std::int16_t widening;  ///< added to gates for SecondLook::wide
   float max_clutter_ratio;
   float lower_bound_weight;
-  float* corrections;  ///< by cell, row by row, metres; only written for observed cells
-  float* weights;      ///< by cell, 0 to 1; only written for observed cells
+  float* corrections;  ///< by cell, row by row, metres; only written for listed cells
+  float* weights;      ///< by cell, 0 to 1, 0 without an observation; only written for listed cells
 };
 
 /// Observes cells of one size. Copies the cells that need a second look to `unclear` and returns

@@ -326,6 +326,14 @@ void finish_grid(const Grid& grid, float least, float* heights, float* confidenc
     frame_row(here, framed);
     const float* const raw = grid.confidences + row * width;
     const auto finish_vector = [&](std::size_t i) HWY_ATTR {
+      const FloatVector c = hn::LoadU(d, raw + i);
+      const auto known = hn::Ge(c, hn::Set(d, least));
+      const auto write = [&](FloatVector height, FloatVector confidence) HWY_ATTR {
+        store(height, width - i, here + i);
+        store(height, width - i, heights + row * width + i);
+        store(confidence, width - i, confidences + row * width + i);
+      };
+      if (hn::AllFalse(d, known)) return write(unknown, hn::Zero(d));
       const FloatVector height = hn::LoadU(d, framed.data() + i + 1);
       const auto slope = [&](FloatVector from, FloatVector to)
                              HWY_ATTR { return hn::Mul(hn::Sub(to, from), per_metre); };
@@ -335,18 +343,13 @@ void finish_grid(const Grid& grid, float least, float* heights, float* confidenc
           slope(hn::LoadU(d, before.data() + i + 1), hn::LoadU(d, after + i));
       const FloatVector steepness =
           hn::Sqrt(hn::Add(hn::Mul(slope_x, slope_x), hn::Mul(slope_y, slope_y)));
-      const FloatVector c = hn::LoadU(d, raw + i);
       const FloatVector squared = hn::Mul(c, c);
       const FloatVector a =
           hn::Add(hn::Set(d, least_odds),
                   hn::Mul(hn::Set(d, odds), hn::Add(squared, hn::Mul(squared, squared))));
       const FloatVector against = hn::Add(hn::Set(d, level_slope), steepness);
-      const auto known = hn::Ge(c, hn::Set(d, least));
-      const FloatVector known_height = hn::IfThenElse(known, height, unknown);
-      store(known_height, width - i, here + i);
-      store(known_height, width - i, heights + row * width + i);
-      store(hn::IfThenElseZero(known, hn::Div(a, hn::Add(a, against))), width - i,
-            confidences + row * width + i);
+      write(hn::IfThenElse(known, height, unknown),
+            hn::IfThenElseZero(known, hn::Div(a, hn::Add(a, against))));
     };
     for (std::size_t i = 0; i < width; i += hn::Lanes(d)) finish_vector(i);
   }
