@@ -216,6 +216,7 @@ class CellObservations : public testing::TestWithParam<std::string> {
   }
 
   [[nodiscard]] Observation observation(std::size_t place) const {
+    if (weights_[place] <= 0) return {};
     return {.weight = weights_[place], .correction = corrections_[place]};
   }
 
