@@ -12,6 +12,7 @@
 #endif
 // clang-format on
 
+#include <algorithm>
 #include <limits>
 
 #include "library/core/point_validity.hpp"
@@ -41,7 +42,7 @@ class CellLocator {
         none_(static_cast<std::int32_t>(cells.none())),
         edge_(xy_per_metre * cells.extent()),
         max_squared_range_(cells.max_squared_range()),
-        noise_height_(cells.noise_height()),
+        noise_height_(std::max(cells.noise_height(), -max_coordinate)),
         squared_noise_slope_(cells.noise_slope() * cells.noise_slope()),
         rounding_(packed_limit + 0.5f - cells.packed_zero() * z_per_metre),
         bases_(cells.class_bases()),
@@ -51,12 +52,19 @@ class CellLocator {
   /// The cells of points, and the points in packed form. Accepts any value, including NaN, infinity
   /// and denormals.
   HWY_INLINE Located locate(FloatVector x, FloatVector y, FloatVector z) const {
+    const FloatTag d;
     const IntTag di;
     const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
-    const auto used = hn::AndNot(is_below_cells(squared_range, z), is_good(squared_range, x, y, z));
+    // Nearly all vectors have only points that are valid, in range and above all noise.
+    auto used = hn::And(hn::And(hn::Gt(squared_range, hn::Zero(d)),
+                                hn::Lt(squared_range, hn::Set(d, max_squared_range_))),
+                        hn::And(hn::Ge(z, hn::Set(d, noise_height_)),
+                                hn::Le(z, hn::Set(d, max_coordinate))));
     Located found;
-    found.all_have_cells = hn::AllTrue(FloatTag(), used);
+    found.all_have_cells = hn::AllTrue(d, used);
     if (HWY_UNLIKELY(!found.all_have_cells)) {
+      used = hn::AndNot(is_below_cells(squared_range, z), is_good(squared_range, x, y, z));
+      found.all_have_cells = hn::AllTrue(d, used);
       x = hn::IfThenElseZero(used, x);
       y = hn::IfThenElseZero(used, y);
       z = hn::IfThenElseZero(used, z);
