@@ -67,31 +67,18 @@ std::size_t pack_slice(const PackedSlice& slice, const SquareCells& cells) {
   return pack.close(slice.end - slice.begin);
 }
 
-/// Copies `count` points, N to 2 N, and writes no others: two copies of N points that overlap.
-template <std::size_t N>
-HWY_INLINE void copy_overlapping(const PackedPoint* from, std::size_t count, PackedPoint* to) {
-  std::array<PackedPoint, N> first, last;
-  std::memcpy(first.data(), from, sizeof first);
-  std::memcpy(last.data(), from + count - N, sizeof last);
-  std::memcpy(to, first.data(), sizeof first);
-  std::memcpy(to + count - N, last.data(), sizeof last);
-}
-
-/// Copies `count` points, 1 to 16, and writes no others.
+/// Copies `count` points, 1 to 16, without branches. Leaves the points after them unchanged, but
+/// can read sixteen and write them back.
 HWY_INLINE void copy_up_to_16(const PackedPoint* from, std::size_t count, PackedPoint* to) {
-#if HWY_TARGET <= HWY_AVX3
   const hn::CappedTag<std::uint32_t, 16> d;
+#if HWY_TARGET <= HWY_AVX3
   hn::BlendedStore(hn::LoadU(d, from), hn::FirstN(d, count), d, to);
 #else
   // Masked stores are slow here.
-  if (count >= 8) {
-    copy_overlapping<8>(from, count, to);
-  } else if (count >= 4) {
-    copy_overlapping<4>(from, count, to);
-  } else {
-    to[0] = from[0];
-    to[count / 2] = from[count / 2];
-    to[count - 1] = from[count - 1];
+  const auto end = hn::Set(d, static_cast<std::uint32_t>(count));
+  for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
+    const auto copied = hn::Lt(hn::Iota(d, static_cast<std::uint32_t>(i)), end);
+    hn::StoreU(hn::IfThenElse(copied, hn::LoadU(d, from + i), hn::LoadU(d, to + i)), d, to + i);
   }
 #endif
 }
