@@ -57,34 +57,39 @@ void add_plane(const Grid& grid, const PlaneOnGrid& plane) {
   }
 }
 
-/// Calls `work(cell, height of the trend at the cell)` for every cell.
-template <class Work>
-HWY_INLINE void along_trend(const Grid& grid, const Trend& trend, const Work& work) {
+/// The trend along a row of a grid.
+struct TrendRow {
+  HWY_INLINE TrendRow(const Grid& grid, const Trend& trend, std::size_t row)
+      : first_x(grid.center(0)),
+        cell(grid.cell),
+        height(trend.height + trend.slope_y * grid.center(row)),
+        slope(trend.slope_x) {}
+  [[nodiscard]] HWY_INLINE float at(std::size_t column) const {
+    return height + slope * (static_cast<float>(static_cast<int>(column)) * cell + first_x);
+  }
+  float first_x, cell, height, slope;
+};
+
+/// Replaces sums by means, relative to the trend; 0 for cells without weight.
+void divide(const Grid& grid, const Trend& trend) {
   for (std::size_t row = 0; row < grid.width; ++row) {
-    const float first_x = grid.center(0);
-    const float row_height = trend.height + trend.slope_y * grid.center(row);
-    const std::size_t first = row * grid.width;
+    const TrendRow along(grid, trend, row);
+    float* HWY_RESTRICT sums = grid.heights + row * grid.width;
+    const float* HWY_RESTRICT weights = grid.confidences + row * grid.width;
     for (std::size_t column = 0; column < grid.width; ++column) {
-      const float x = static_cast<float>(static_cast<int>(column)) * grid.cell + first_x;
-      work(first + column, row_height + trend.slope_x * x);
+      const float weight = weights[column];
+      const float mean = sums[column] / (weight > 0 ? weight : 1.0f) - along.at(column);
+      sums[column] = weight > 0 ? mean : 0.0f;
     }
   }
 }
 
-/// Replaces sums by means, relative to the trend; 0 for cells without weight.
-void divide(const Grid& grid, const Trend& trend) {
-  float* HWY_RESTRICT sums = grid.heights;
-  const float* HWY_RESTRICT weights = grid.confidences;
-  along_trend(grid, trend, [=](std::size_t cell, float height) {
-    const float weight = weights[cell];
-    const float mean = sums[cell] / (weight > 0 ? weight : 1.0f) - height;
-    sums[cell] = weight > 0 ? mean : 0.0f;
-  });
-}
-
 void add_trend(const Grid& grid, const Trend& trend) {
-  float* HWY_RESTRICT heights = grid.heights;
-  along_trend(grid, trend, [=](std::size_t cell, float height) { heights[cell] += height; });
+  for (std::size_t row = 0; row < grid.width; ++row) {
+    const TrendRow along(grid, trend, row);
+    float* HWY_RESTRICT heights = grid.heights + row * grid.width;
+    for (std::size_t column = 0; column < grid.width; ++column) heights[column] += along.at(column);
+  }
 }
 
 }  // namespace
