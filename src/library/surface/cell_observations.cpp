@@ -251,14 +251,22 @@ HWY_INLINE IntVector with_sides(IntVector heights, IntVector points, int half_bi
   return hn::Or(hn::ShiftLeft<side_bits>(heights), sides);
 }
 
+/// The pairs (x, y) of packed points.
+HWY_INLINE IntVector positions_of(IntVector points) {
+  const hn::Repartition<std::uint8_t, IntTag> db;
+  constexpr std::uint8_t zero = 0x80;
+  HWY_ALIGN static constexpr std::uint8_t bytes[] = {0, zero, 1, zero, 4,  zero, 5,  zero,
+                                                     8, zero, 9, zero, 12, zero, 13, zero};
+  return hn::BitCast(IntTag(),
+                     hn::TableLookupBytesOr0(hn::BitCast(db, points), hn::LoadDup128(db, bytes)));
+}
+
 /// Computes the heights of up to one vector of points; `no_height` for elements without a point.
 HWY_INLINE IntVector heights_of(std::span<const PackedPoint> points, std::size_t first,
                                 std::int32_t slopes, std::int32_t offset, int half_bit) {
   const IntTag di;
   const IntVector v = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(points.data() + first));
-  const IntVector x = hn::And(v, hn::Set(di, 0xFF));
-  const IntVector y = hn::ShiftLeft<8>(hn::And(v, hn::Set(di, 0xFF00)));
-  const IntVector along = sum_of_products(hn::Or(x, y), hn::Set(di, slopes));
+  const IntVector along = sum_of_products(positions_of(v), hn::Set(di, slopes));
   const IntVector surface = hn::ShiftRight<plane_shift>(hn::Add(along, hn::Set(di, offset)));
   IntVector above = hn::Sub(hn::ShiftRight<16>(v), surface);
   if (half_bit != no_sides) above = with_sides(above, v, half_bit);
