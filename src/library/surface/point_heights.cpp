@@ -157,8 +157,8 @@ struct alignas(64) Lookups {
   std::array<std::uint16_t, lookup_size> starts;
   /// The places of the squares, one per start.
   std::array<std::int32_t, lookup_size + lanes> places;
-  /// Pairs of heights of each square.
-  std::array<float, 2 * (lookup_size + lanes)> near_pairs, far_pairs;
+  /// The heights of the squares.
+  std::array<float, lookup_size + lanes> near_left, near_right, far_left, far_right;
 };
 
 /// The code of points that have none.
@@ -229,8 +229,10 @@ HWY_INLINE void look_up(const GridTables& tables, std::size_t count, Lookups& lo
     const auto place = static_cast<std::uint32_t>(lookups.places[i]);
     const float* const near = tables.heights + (place & place_mask);
     const float* const far = near + tables.widths[place >> grid_shift];
-    std::memcpy(lookups.near_pairs.data() + 2 * i, near, 2 * sizeof(float));
-    std::memcpy(lookups.far_pairs.data() + 2 * i, far, 2 * sizeof(float));
+    lookups.near_left[i] = near[0];
+    lookups.near_right[i] = near[1];
+    lookups.far_left[i] = far[0];
+    lookups.far_right[i] = far[1];
   }
 }
 
@@ -240,16 +242,13 @@ template <bool reaches_edge>
 HWY_INLINE FloatVector surface_at(const Lookups& lookups, std::size_t i, std::size_t first,
                                   std::uint32_t starts) {
   const FloatTag d;
-  const IntVector left = hn::ShiftLeft<1>(ranks_of(starts | 1U));
-  const IntVector right = hn::Or(left, hn::Set(IntTag(), 1));
-  const float* const near = lookups.near_pairs.data() + 2 * first;
-  const float* const far = lookups.far_pairs.data() + 2 * first;
+  const IntVector rank = ranks_of(starts | 1U);
   const FloatVector share_x = hn::Load(d, lookups.share_x.data() + i);
   const FloatVector share_y = hn::Load(d, lookups.share_y.data() + i);
-  const FloatVector near_left = lookup_in_two(near, left);
-  const FloatVector near_right = lookup_in_two(near, right);
-  const FloatVector far_left = lookup_in_two(far, left);
-  const FloatVector far_right = lookup_in_two(far, right);
+  const FloatVector near_left = lookup_in_one(lookups.near_left.data() + first, rank);
+  const FloatVector near_right = lookup_in_one(lookups.near_right.data() + first, rank);
+  const FloatVector far_left = lookup_in_one(lookups.far_left.data() + first, rank);
+  const FloatVector far_right = lookup_in_one(lookups.far_right.data() + first, rank);
   const FloatVector height =
       blend(blend(near_left, near_right, share_x), blend(far_left, far_right, share_x), share_y);
   if (!reaches_edge && HWY_LIKELY(hn::AllFalse(d, hn::IsNaN(height)))) return height;
@@ -313,11 +312,12 @@ class LabelPoints {
     };
     for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
       const FloatVector height = next_heights();
-      const IntVector label = label_vector(lookups, i, begin, height, limits, counts);
       hn::StoreU(height, d, heights + i);
-      hn::StoreU(hn::DemoteTo(d8, label), d8, labels + i);
+      label_vector(lookups, i, begin, height, limits, counts, labels + i);
     }
-    if (i < count) label_rest(lookups, i, begin, next_heights(), count - i, limits, counts);
+    if (i < count) {
+      label_rest(lookups, i, begin, next_heights(), count - i, limits, counts);
+    }
     set_marks(counts.marked);
     list_undecided(lookups, begin, counts.undecided);
     totals_.ground += counts.ground;
@@ -329,35 +329,52 @@ class LabelPoints {
   [[nodiscard]] const Counts& totals() const { return totals_; }
 
  private:
-  using ByteTag = hn::Rebind<std::uint8_t, FloatTag>;
-  static constexpr ByteTag d8{};
-
-  /// The labels of a vector. Points with an unknown height are `nonground`, unless they have a
-  /// code.
-  HWY_INLINE IntVector label_vector(const Lookups& lookups, std::size_t i, std::size_t begin,
-                                    FloatVector height, const Limits& limits, Counts& counts) {
+  /// Labels the points of a vector. Points with an unknown height are `nonground`, unless they have
+  /// a code.
+  HWY_INLINE void label_vector(const Lookups& lookups, std::size_t i, std::size_t begin,
+                               FloatVector height, const Limits& limits, Counts& counts,
+                               std::uint8_t* labels) {
     const FloatTag d;
     const IntTag di;
     mark(lookups, i, height, limits, counts);
 
+    static_assert(static_cast<int>(Label::nonground) == 0 && static_cast<int>(Label::ground) == 1);
     const auto below_least = hn::Lt(height, limits.least_margin);
+    store_bits(bits_of(d, below_least), labels);
+    counts.ground += hn::CountTrue(d, below_least);
     auto undecided =
         hn::And(hn::Ge(height, limits.least_margin), hn::Lt(height, limits.most_margin));
-    IntVector label = hn::IfThenElseZero(hn::RebindMask(di, below_least), code_of(Label::ground));
-    counts.ground += hn::CountTrue(d, below_least);
     const auto may_be_noise = hn::Le(height, limits.noise);
-    if (HWY_UNLIKELY(!hn::AllFalse(d, may_be_noise))) {
-      const FloatVector deepest = hn::Sub(
-          limits.noise, hn::Mul(hn::Set(d, scan_.rule.noise_depth_per_metre), ranges(begin + i)));
-      const auto noise = hn::Le(height, deepest);
-      label = hn::IfThenElse(hn::RebindMask(di, noise), code_of(Label::noise), label);
-      counts.ground -= hn::CountTrue(d, hn::And(noise, below_least));
-      counts.noise += hn::CountTrue(d, noise);
+    const bool has_code = lookups.has_code[i / hn::Lanes(d)] != 0;
+    if (HWY_UNLIKELY(has_code || !hn::AllFalse(d, may_be_noise))) {
+      relabel(lookups, i, begin, height, limits, counts, labels);
+      if (has_code) {
+        const IntVector code = hn::Load(di, lookups.code.data() + i);
+        undecided = hn::And(undecided, hn::RebindMask(d, hn::Eq(code, hn::Set(di, no_code))));
+      }
     }
-    if (HWY_UNLIKELY(lookups.has_code[i / hn::Lanes(d)] != 0)) {
+    const IntVector points = hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(i)));
+    counts.undecided += compress_store(points, hn::RebindMask(di, undecided),
+                                       lists_.undecided.data() + counts.undecided);
+  }
+
+  /// Replaces the labels of noise and of points with a code.
+  HWY_INLINE void relabel(const Lookups& lookups, std::size_t i, std::size_t begin,
+                          FloatVector height, const Limits& limits, Counts& counts,
+                          std::uint8_t* labels) {
+    const FloatTag d;
+    const IntTag di;
+    const auto below_least = hn::Lt(height, limits.least_margin);
+    IntVector label = hn::IfThenElseZero(hn::RebindMask(di, below_least), code_of(Label::ground));
+    const FloatVector deepest = hn::Sub(
+        limits.noise, hn::Mul(hn::Set(d, scan_.rule.noise_depth_per_metre), ranges(begin + i)));
+    const auto noise = hn::Le(height, deepest);
+    label = hn::IfThenElse(hn::RebindMask(di, noise), code_of(Label::noise), label);
+    counts.ground -= hn::CountTrue(d, hn::And(noise, below_least));
+    counts.noise += hn::CountTrue(d, noise);
+    if (lookups.has_code[i / hn::Lanes(d)] != 0) {
       const IntVector code = hn::Load(di, lookups.code.data() + i);
       const auto has_code = hn::Ne(code, hn::Set(di, no_code));
-      undecided = hn::AndNot(hn::RebindMask(d, has_code), undecided);
       const auto recount = [&](Label one, std::size_t& count) HWY_ATTR {
         const auto was = hn::And(has_code, hn::Eq(label, code_of(one)));
         const auto is = hn::And(has_code, hn::Eq(code, code_of(one)));
@@ -369,10 +386,8 @@ class LabelPoints {
       recount(Label::invalid, counts.invalid);
       label = hn::IfThenElse(has_code, code, label);
     }
-    const IntVector points = hn::Add(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(i)));
-    counts.undecided += compress_store(points, hn::RebindMask(di, undecided),
-                                       lists_.undecided.data() + counts.undecided);
-    return label;
+    const hn::Rebind<std::uint8_t, FloatTag> d8;
+    hn::StoreU(hn::DemoteTo(d8, label), d8, labels);
   }
 
   /// Distances of points from the sensor, from point `first` of the slice on.
@@ -400,9 +415,8 @@ class LabelPoints {
     std::int32_t* const codes = lookups.code.data() + i;
     hn::Store(hn::IfThenElse(hn::FirstN(di, rest), hn::Load(di, codes), hn::Set(di, no_code)), di,
               codes);
-    const IntVector label = label_vector(lookups, i, begin, height, limits, counts);
     hn::Store(height, d, heights.data());
-    hn::StoreU(hn::DemoteTo(d8, label), d8, labels.data());
+    label_vector(lookups, i, begin, height, limits, counts, labels.data());
     std::copy_n(heights.data(), rest, slice_.heights + begin + i);
     std::copy_n(labels.data(), rest, slice_.labels + begin + i);
   }

@@ -37,10 +37,10 @@ void saturate(const std::int32_t* first, const std::int32_t* second, std::int32_
 
 void rank(std::uint32_t bits, std::int32_t* to) { hn::StoreU(simd::ranks_of(bits), IntTag(), to); }
 
-void look_up_in_two(const float* table, const std::int32_t* indices, float* to) {
+void look_up_in_one(const float* table, const std::int32_t* indices, float* to) {
   const IntTag di;
   for (std::size_t i = 0; i < simd::lanes; i += hn::Lanes(di)) {
-    hn::StoreU(simd::lookup_in_two(table, hn::LoadU(di, indices + i)), FloatTag(), to + i);
+    hn::StoreU(simd::lookup_in_one(table, hn::LoadU(di, indices + i)), FloatTag(), to + i);
   }
 }
 
@@ -51,6 +51,8 @@ void look_up_in_eight(const float* table, const std::int32_t* indices, float* to
     hn::StoreU(eight[hn::LoadU(di, indices + i)], FloatTag(), to + i);
   }
 }
+
+void store(std::uint32_t bits, std::uint8_t* to) { simd::store_bits(bits, to); }
 
 std::uint32_t find_bits(const std::int32_t* numbers) {
   const IntTag di;
@@ -68,8 +70,9 @@ HWY_EXPORT(length);
 HWY_EXPORT(add_products);
 HWY_EXPORT(saturate);
 HWY_EXPORT(rank);
-HWY_EXPORT(look_up_in_two);
+HWY_EXPORT(look_up_in_one);
 HWY_EXPORT(look_up_in_eight);
+HWY_EXPORT(store);
 HWY_EXPORT(find_bits);
 }  // namespace
 
@@ -93,9 +96,9 @@ Lanes ranks_of(std::uint32_t bits) {
   return ranks;
 }
 
-FloatLanes lookup_in_two(const float* table, const Lanes& indices) {
+FloatLanes lookup_in_one(const float* table, const Lanes& indices) {
   FloatLanes found{};
-  HWY_DYNAMIC_DISPATCH(look_up_in_two)(table, indices.data(), found.data());
+  HWY_DYNAMIC_DISPATCH(look_up_in_one)(table, indices.data(), found.data());
   return found;
 }
 
@@ -103,6 +106,12 @@ FloatLanes lookup_in_eight(const float* table, const Lanes& indices) {
   FloatLanes found{};
   HWY_DYNAMIC_DISPATCH(look_up_in_eight)(table, indices.data(), found.data());
   return found;
+}
+
+std::vector<std::uint8_t> stored_bits(std::uint32_t bits) {
+  std::vector<std::uint8_t> bytes(vector_length(), 7);
+  HWY_DYNAMIC_DISPATCH(store)(bits, bytes.data());
+  return bytes;
 }
 
 std::uint32_t bits_of(const Lanes& lanes) { return HWY_DYNAMIC_DISPATCH(find_bits)(lanes.data()); }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "forced_target.hpp"
 #include "library/core/lane_functions.hpp"
@@ -119,14 +120,25 @@ TEST_P(LanesOn, BitsOfAMaskBeginWithTheLowestLane) {
   }
 }
 
-TEST_P(LanesOn, ATableOfTwoVectorsCanBeLookedUp) {
-  const std::size_t end = 2 * tests::vector_length();
+TEST_P(LanesOn, StoredBitsAreBytesOf0Or1) {
+  const std::size_t length = tests::vector_length();
+  for (std::uint32_t bits = 0; bits < 1U << length; ++bits) {
+    std::vector<std::uint8_t> expected;
+    for (std::size_t lane = 0; lane < length; ++lane) {
+      expected.push_back(static_cast<std::uint8_t>(bits >> lane & 1U));
+    }
+    ASSERT_EQ(tests::stored_bits(bits), expected);
+  }
+}
+
+TEST_P(LanesOn, ATableOfOneVectorCanBeLookedUp) {
+  const std::size_t end = tests::vector_length();
   std::array<float, 33> table{};
   for (std::size_t i = 0; i < table.size(); ++i) table[i] = 100 + static_cast<float>(i);
   for (int repeat = 0; repeat < 100; ++repeat) {
     const Lanes indices = any_indices(end);
 
-    const FloatLanes found = tests::lookup_in_two(table.data() + 1, indices);  // not aligned
+    const FloatLanes found = tests::lookup_in_one(table.data() + 1, indices);  // not aligned
 
     for (std::size_t i = 0; i < found.size(); ++i) {
       ASSERT_EQ(found[i], 101 + static_cast<float>(indices[i]));

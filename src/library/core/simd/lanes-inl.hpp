@@ -23,6 +23,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 HWY_BEFORE_NAMESPACE();
 namespace flagstone::HWY_NAMESPACE {
@@ -92,15 +93,13 @@ class Table8 {
 #endif
 };
 
-/// Looks up element `index` in a table of two vectors with any alignment.
-HWY_INLINE FloatVector lookup_in_two(const float* HWY_RESTRICT table, IntVector index) {
-#if HWY_TARGET <= HWY_AVX3
-  return FloatVector{
-      _mm512_permutex2var_ps(_mm512_loadu_ps(table), index.raw, _mm512_loadu_ps(table + 16))};
-#elif HWY_TARGET == HWY_AVX2
-  return lookup_16(table, index);
+/// Looks up element `index` in a table of one vector with any alignment.
+HWY_INLINE FloatVector lookup_in_one(const float* HWY_RESTRICT table, IntVector index) {
+  const FloatTag d;
+#if HWY_TARGET <= HWY_AVX2
+  return hn::TableLookupLanes(hn::LoadU(d, table), hn::IndicesFromVec(d, index));
 #else
-  return hn::GatherIndex(FloatTag(), table, index);
+  return hn::GatherIndex(d, table, index);
 #endif
 }
 
@@ -114,6 +113,21 @@ HWY_INLINE std::uint32_t bits_of(D d, hn::Mask<D> mask) {
   HWY_ALIGN std::array<std::uint8_t, 8> bytes{};
   hn::StoreMaskBits(d, mask, bytes.data());
   return bytes[0];
+#endif
+}
+
+/// Stores one byte for each lane of a vector: 1 if its bit is set, 0 otherwise.
+HWY_INLINE void store_bits(std::uint32_t bits, std::uint8_t* to) {
+#if HWY_TARGET <= HWY_AVX3
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(to),
+                   _mm_maskz_set1_epi8(static_cast<__mmask16>(bits), 1));
+#elif HWY_TARGET == HWY_AVX2
+  const std::uint64_t bytes = _pdep_u64(bits, 0x0101010101010101);
+  std::memcpy(to, &bytes, sizeof bytes);
+#else
+  for (std::size_t lane = 0; lane < hn::MaxLanes(FloatTag()); ++lane) {
+    to[lane] = static_cast<std::uint8_t>(bits >> lane & 1U);
+  }
 #endif
 }
 
