@@ -18,7 +18,7 @@ struct PatchAcceptance {
   /// Maximum clutter ratio: the number of points 19 to 89 cm above the plane, divided by the number
   /// within 12.5 cm of it; 0 to 1,000, or infinity for no limit. A wall or a bush has as many
   /// points just above its base as at its base; ground does not.
-  float max_clutter_ratio = 0.6f;
+  float max_clutter_ratio = 0.5f;
 
   /// Maximum height of ground above -h_s, or `max_slope` times the range if that is larger; metres,
   /// 0 to 1,000. Patches whose plane is above the sensor are never ground.
