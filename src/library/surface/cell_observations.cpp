@@ -133,7 +133,7 @@ using ShortTag = hn::CappedTag<std::int16_t, tile_cells>;
 using ShortVector = hn::Vec<ShortTag>;
 using ShortMask = hn::Mask<ShortTag>;
 
-inline constexpr SampleSize sample_size{.most = medium_cell, .wanted = 24};
+inline constexpr SampleSize sample_size{.most = medium_cell, .wanted = 26};
 
 // --- The planes of cells
 // ---------------------------------------------------------------------------

@@ -392,7 +392,7 @@ TEST_P(CellObservations, LargeCellsUseASampleOfTheirPoints) {
   observe_all();
   const Observation of_all = observation(4 * 8 + 4);
 
-  const std::vector<PackedPoint> sample = tests::sample_of(points_, {.most = 32, .wanted = 24});
+  const std::vector<PackedPoint> sample = tests::sample_of(points_, {.most = 32, .wanted = 26});
   points_ = sample;
   cells_[0].count = static_cast<std::uint32_t>(sample.size());
   observe_all();
