@@ -255,10 +255,10 @@ HWY_INLINE IntVector with_sides(IntVector heights, IntVector points, int half_bi
 HWY_INLINE IntVector positions_of(IntVector points) {
   const hn::Repartition<std::uint8_t, IntTag> db;
   constexpr std::uint8_t zero = 0x80;
-  HWY_ALIGN static constexpr std::uint8_t bytes[] = {0, zero, 1, zero, 4,  zero, 5,  zero,
-                                                     8, zero, 9, zero, 12, zero, 13, zero};
-  return hn::BitCast(IntTag(),
-                     hn::TableLookupBytesOr0(hn::BitCast(db, points), hn::LoadDup128(db, bytes)));
+  HWY_ALIGN static constexpr std::array<std::uint8_t, 16> bytes = {
+      0, zero, 1, zero, 4, zero, 5, zero, 8, zero, 9, zero, 12, zero, 13, zero};
+  return hn::BitCast(
+      IntTag(), hn::TableLookupBytesOr0(hn::BitCast(db, points), hn::LoadDup128(db, bytes.data())));
 }
 
 /// Computes the heights of up to one vector of points; `no_height` for elements without a point.
