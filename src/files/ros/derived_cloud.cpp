@@ -1,0 +1,316 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "files/ros/derived_cloud.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "files/io/cloud.hpp"
+#include "files/io/message.hpp"
+#include "files/io/rows.hpp"
+#include "files/ros/serialization.hpp"
+
+namespace flagstone::ros {
+namespace {
+
+using io::invalid;
+using io::quote;
+
+constexpr std::size_t max_message_part = std::numeric_limits<std::uint32_t>::max();
+
+// Points are copied in blocks that stay in the L1 cache while the added fields are written.
+constexpr std::size_t block = 256;
+
+/// 1 for each point of a block that is kept, otherwise 0.
+using Kept = std::array<std::uint8_t, block>;
+
+/// Copies of points. Only the first `size` bytes of each point are copied, and the rest of the
+/// `step` bytes in the result is set to 0.
+struct PointCopy {
+  const std::byte* from;
+  std::size_t stride;  // between points of the source
+  std::byte* to;
+  std::size_t step;  // between points of the result
+  std::size_t size;
+  std::size_t count;  // points of the source in this block
+};
+
+// Points of up to this many bytes are copied by code for exactly their size, without a call.
+constexpr std::size_t max_inlined = 64;
+
+/// Sets `size` bytes to 0; they are few, so that a call would take most of the time.
+inline void clear_bytes(std::byte* to, std::size_t size) noexcept {
+  if (size >= sizeof(std::uint64_t)) {
+    if (size > 2 * sizeof(std::uint64_t)) {
+      std::memset(to, 0, size);
+      return;
+    }
+    io::store(to, std::uint64_t{0});
+    io::store(to + size - sizeof(std::uint64_t), std::uint64_t{0});
+    return;
+  }
+  for (std::size_t i = 0; i < size; ++i) to[i] = std::byte{0};
+}
+
+/// Copies all points. With a `Size` of 0 the size is known at run time only.
+template <std::size_t Size>
+void copy_all(const PointCopy& copy) noexcept {
+  const std::size_t size = Size > 0 ? Size : copy.size;
+  const std::size_t gap = copy.step - size;
+  for (std::size_t i = 0; i < copy.count; ++i) {
+    std::byte* const to = copy.to + i * copy.step;
+    std::memcpy(to, copy.from + i * copy.stride, size);
+    clear_bytes(to + size, gap);
+  }
+}
+
+/// Copies the `kept` points without a branch per point: a point that is not kept is overwritten by
+/// the next one. Stops after `total` points, so that it does not write past them.
+template <std::size_t Size>
+void copy_kept(const PointCopy& copy, const Kept& kept, std::size_t total) noexcept {
+  const std::size_t size = Size > 0 ? Size : copy.size;
+  const std::size_t gap = copy.step - size;
+  std::byte* to = copy.to;
+  std::byte* const end = copy.to + total * copy.step;
+  for (std::size_t i = 0; to != end; ++i) {
+    std::memcpy(to, copy.from + i * copy.stride, size);
+    clear_bytes(to + size, gap);
+    to += kept[i] * copy.step;
+  }
+}
+
+template <std::size_t... Sizes>
+constexpr auto functions_by_size(std::index_sequence<Sizes...> /*sizes*/) {
+  struct Functions {
+    void (*all)(const PointCopy&) noexcept;
+    void (*kept)(const PointCopy&, const Kept&, std::size_t) noexcept;
+  };
+  return std::array{Functions{copy_all<Sizes>, copy_kept<Sizes>}...};
+}
+
+/// The functions for each size; those at 0 are for all larger sizes.
+constexpr auto copies = functions_by_size(std::make_index_sequence<max_inlined + 1>());
+
+const auto& copies_of(std::size_t size) noexcept { return copies[size <= max_inlined ? size : 0]; }
+
+/// Writes one number for each point, or for each kept point.
+template <class T>
+void write_numbers(const std::byte* from, std::size_t count, std::byte* to, std::size_t step,
+                   bool swap, const Kept* kept, std::size_t total) noexcept {
+  const auto number = [&](std::size_t i) {
+    const T value = io::load<T>(from + i * sizeof(T));
+    return swap ? reversed(value) : value;
+  };
+  if (kept == nullptr) {
+    for (std::size_t i = 0; i < count; ++i) io::store(to + i * step, number(i));
+    return;
+  }
+  std::byte* const end = to + total * step;
+  for (std::size_t i = 0; to != end; ++i) {
+    io::store(to, number(i));
+    to += (*kept)[i] * step;
+  }
+}
+
+bool overlap(const PointField& a, const PointField& b) noexcept {
+  return a.offset < b.offset + b.size() && b.offset < a.offset + a.size();
+}
+
+/// Whether the bytes of `field` belong to no other field. A field of an unknown type may have any
+/// size.
+bool is_alone(std::span<const PointField> fields, const PointField& field) noexcept {
+  return std::ranges::all_of(fields, [&](const PointField& other) {
+    return &other == &field || (other.size() > 0 && !overlap(other, field));
+  });
+}
+
+std::size_t next_multiple(std::size_t number, std::size_t of) noexcept {
+  return (number + of - 1) / of * of;
+}
+
+}  // namespace
+
+AddedField label_field(std::span<const Label> labels) noexcept {
+  return {io::label_name, PointFieldType::uint8, std::as_bytes(labels)};
+}
+
+AddedField height_field(std::span<const float> heights) noexcept {
+  return {io::height_name, PointFieldType::float32, std::as_bytes(heights)};
+}
+
+Selection::Selection(std::span<const std::uint8_t> mask) noexcept : values_(std::as_bytes(mask)) {
+  table_.fill(1);
+  table_[0] = 0;
+}
+
+Selection::Selection(std::span<const Label> labels, std::initializer_list<Label> kept) noexcept
+    : values_(std::as_bytes(labels)) {
+  for (const Label label : kept) table_[static_cast<std::size_t>(label)] = 1;
+}
+
+std::size_t Selection::count() const noexcept {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < values_.size(); ++i) count += keeps(i);
+  return count;
+}
+
+Status DerivedCloud::append(const PointCloud2View& source, std::span<const AddedField> added) {
+  return plan(source, added, nullptr);
+}
+
+Status DerivedCloud::select(const PointCloud2View& source, const Selection& selection,
+                            std::span<const AddedField> added) {
+  return plan(source, added, &selection);
+}
+
+Status DerivedCloud::plan(const PointCloud2View& source, std::span<const AddedField> added,
+                          const Selection* selection) {
+  Status status = io::within_memory([&] {
+    columns_.clear();
+    if (selection != nullptr && selection->size() != source.size()) {
+      return invalid("the selection has {} values for {} points (expected one per point)",
+                     selection->size(), source.size());
+    }
+    layout_ = source;  // reuses the memory of the fields
+    layout_.data = {};
+    layout_.padded_point_step = 0;
+    std::size_t alignment = 1;
+    for (const AddedField& field : added) {
+      if (std::ranges::count(added, field.name, &AddedField::name) > 1) {
+        return invalid("field {} is added twice", quote(field.name));
+      }
+      if (Status failed = add(field, source.size()); !failed.ok()) return failed;
+      alignment = std::max(alignment, size_of(field.type));
+    }
+    if (layout_.point_step != source.point_step) {
+      layout_.point_step = static_cast<std::uint32_t>(next_multiple(layout_.point_step, alignment));
+    }
+    source_ = &source;
+    selects_ = selection != nullptr;
+    if (selects_) {
+      selection_ = *selection;
+      layout_.height = 1;
+      layout_.width = static_cast<std::uint32_t>(selection->count());
+    }
+    const std::size_t row_step = std::size_t{layout_.width} * layout_.point_step;
+    if (layout_.fields.size() > max_point_fields || row_step > max_message_part ||
+        data_size() > max_message_part) {
+      return invalid(
+          "{} points of {} bytes with {} fields do not fit in a message (expected at most {} bytes "
+          "and {} fields)",
+          layout_.size(), layout_.point_step, layout_.fields.size(), max_message_part,
+          max_point_fields);
+    }
+    layout_.row_step = static_cast<std::uint32_t>(row_step);
+    return Status();
+  });
+  if (!status.ok()) {
+    layout_ = PointCloud2View();
+    columns_.clear();
+    selects_ = false;
+    source_ = &layout_;
+  }
+  return status;
+}
+
+Status DerivedCloud::add(const AddedField& added, std::size_t points) {
+  const std::size_t size = size_of(added.type);
+  if (size == 0) {
+    return invalid("field {} has datatype {} (expected 1 to 11)", quote(added.name),
+                   static_cast<unsigned>(added.type));
+  }
+  if (added.values.size() != points * size) {
+    return invalid("field {} has {} bytes for {} points (expected {} bytes per point)",
+                   quote(added.name), added.values.size(), points, size);
+  }
+  std::vector<PointField>& fields = layout_.fields;
+  const bool swap = layout_.is_bigendian != (std::endian::native == std::endian::big);
+  const auto old = std::ranges::find(fields, added.name, &PointField::name);
+  if (old != fields.end() && old->type == added.type && old->numbers() == 1 &&
+      is_alone(fields, *old)) {
+    columns_.push_back({added.values.data(), size, old->offset, swap});
+    return {};
+  }
+  std::erase_if(fields, [&](const PointField& field) { return field.name == added.name; });
+  const std::size_t offset = next_multiple(layout_.point_step, size);
+  if (offset + size > max_message_part) {
+    return invalid("field {} does not fit in a point of {} bytes", quote(added.name),
+                   layout_.point_step);
+  }
+  fields.push_back({added.name, static_cast<std::uint32_t>(offset), added.type, 1});
+  layout_.point_step = static_cast<std::uint32_t>(offset + size);
+  columns_.push_back({added.values.data(), size, offset, swap});
+  return {};
+}
+
+void DerivedCloud::write_run(std::size_t first, std::size_t count, const std::byte* from,
+                             std::byte*& to) const noexcept {
+  const std::size_t step = layout_.point_step;
+  const auto& copy_points = copies_of(source_->point_step);
+  for (std::size_t begin = 0; begin < count; begin += block) {
+    PointCopy copy{.from = from + begin * source_->point_stride(),
+                   .stride = source_->point_stride(),
+                   .to = to,
+                   .step = step,
+                   .size = source_->point_step,
+                   .count = std::min(block, count - begin)};
+    Kept kept{};
+    std::size_t total = copy.count;
+    if (selects_) {
+      total = 0;
+      for (std::size_t i = 0; i < copy.count; ++i) {
+        kept[i] = selection_.keeps(first + begin + i);
+        total += kept[i];
+      }
+      copy_points.kept(copy, kept, total);
+    } else {
+      copy_points.all(copy);
+    }
+    for (const Column& column : columns_) {
+      io::visit_type(column.size == 1   ? io::FieldType::uint8
+                     : column.size == 2 ? io::FieldType::uint16
+                     : column.size == 4 ? io::FieldType::uint32
+                                        : io::FieldType::uint64,
+                     [&]<class T>() {
+                       if constexpr (std::is_unsigned_v<T>) {
+                         write_numbers<T>(column.values + (first + begin) * sizeof(T), copy.count,
+                                          to + column.offset, step, column.swap,
+                                          selects_ ? &kept : nullptr, total);
+                       }
+                     });
+    }
+    to += total * step;
+  }
+}
+
+void DerivedCloud::write_data(std::span<std::byte> to) const noexcept {
+  if (source_ == nullptr || layout_.size() == 0) return;
+  const PointCloud2View& source = *source_;
+  std::byte* next = to.data();
+  if (source.rows_are_contiguous()) {
+    write_run(0, source.size(), source.data.data(), next);
+    return;
+  }
+  for (std::size_t row = 0; row < source.height; ++row) {
+    write_run(row * source.width, source.width, source.data.data() + row * source.row_stride(),
+              next);
+  }
+}
+
+void DerivedCloud::write_message(std::span<std::byte> to) const noexcept {
+  write_data(serialize_around(layout_, data_size(), to));
+}
+
+Status DerivedCloud::write_message(std::vector<std::byte>& out) const {
+  return io::within_memory([&] {
+    out.resize(message_size());
+    write_message(std::span<std::byte>(out));
+    return Status();
+  });
+}
+
+}  // namespace flagstone::ros
