@@ -5,7 +5,7 @@
 # for example CMAKE_FLAGS=-DBUILD_SHARED_LIBS=ON.
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
-MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence latency soak-test surface-figures
+MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence bench-codec latency soak-test surface-figures
 
 .PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
         bench-compare $(MEASUREMENTS) surface-study worlds-study invariance-study contact-sheet clean
@@ -62,6 +62,7 @@ bench-scaling: PROGRAM = scaling ## time and memory by points, beams, bins and t
 bench-steps: PROGRAM = sharpness ## errors of the surface at kerbs, ditches and drops
 bench-edges: PROGRAM = edges ## labels at kerbs, ditches and drops, and of ghost points
 bench-confidence: PROGRAM = confidence ## confidence of the surface and its errors in all simulated scenes
+bench-codec: PROGRAM = codec ## time to read, label and divide PointCloud2 messages
 latency: PROGRAM = latency ## time of 10,000 different scans, including adversarial ones
 soak-test: PROGRAM = soak ## memory of one segmenter over 100,000 different scans
 surface-figures: PROGRAM = surface_stages ## draw the images of docs/explanation/surface.md

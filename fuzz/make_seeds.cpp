@@ -17,6 +17,7 @@
 #include "files/io/npy.hpp"
 #include "files/io/pcd.hpp"
 #include "files/io/ply.hpp"
+#include "files/ros/messages.hpp"
 
 namespace {
 
@@ -150,6 +151,36 @@ void add_labels(SeedFolder& seeds) {
                     npy_file("{'descr': '>i4', 'fortran_order': False, 'shape': (10,), }", 40)}));
 }
 
+/// Messages in every encoding. The first byte selects the encoding and the type of the message.
+void add_messages(SeedFolder& seeds) {
+  using namespace flagstone::ros;
+  using enum PointFieldType;
+  for (const MessageFormat& format : all_formats) {
+    const bool is_ros1 = format.encoding == Encoding::ros1;
+    const std::string suffix = is_ros1 ? "_ros1" : format.big_endian ? "_big" : "_little";
+    const auto choice = static_cast<std::byte>(is_ros1 ? 1 : 0);
+    CloudMessage message = small_message(format);
+    seeds.add("point_cloud2", "small" + suffix, joined({Bytes{choice}, message.bytes()}));
+    message.height = 2;
+    message.width = 1;
+    message.row_step = 24;
+    message.data.resize(48);
+    message.is_bigendian = true;
+    message.fields = {{"z", 0, int16, 1},   {"y", 2, float64, 1},    {"x", 10, uint8, 1},
+                      {"rgb", 0, uint8, 3}, {"label", 17, uint8, 0}, {"height", 14, uint16, 1}};
+    seeds.add("point_cloud2", "rows" + suffix, joined({Bytes{choice}, message.bytes()}));
+    message.point_step = 24;
+    message.fields = {{"x", 0, int64, 1},
+                      {"y", 8, uint64, 1},
+                      {"z", 16, int32, 1},
+                      {"label", 20, boolean, 1},
+                      {"later", 21, static_cast<PointFieldType>(12), 1}};
+    seeds.add("point_cloud2", "types" + suffix, joined({Bytes{choice}, message.bytes()}));
+    seeds.add("point_cloud2", "livox" + suffix,
+              joined({Bytes{choice | std::byte{2}}, livox_message(format, 3)}));
+  }
+}
+
 /// A few hundred ground points, as input for the fuzzer of segmenters, for the settings of each
 /// method.
 void add_segment(SeedFolder& seeds) {
@@ -224,6 +255,7 @@ int main(int argc, char** argv) {
   add_npy(seeds, varied);
   add_raw(seeds);
   add_labels(seeds);
+  add_messages(seeds);
   add_segment(seeds);
   add_texts(seeds);
   return seeds.failed() ? 1 : 0;

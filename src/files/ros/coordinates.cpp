@@ -23,7 +23,8 @@ Status missing(const PointCloud2View& cloud, std::string_view name) {
   constexpr std::size_t most_named = 8;
   std::string names;
   for (std::size_t i = 0; i < std::min(cloud.fields.size(), most_named); ++i) {
-    names += (i > 0 ? " " : "") + io::quote(cloud.fields[i].name);
+    if (i > 0) names += ' ';
+    names += io::quote(cloud.fields[i].name);
   }
   if (cloud.fields.size() > most_named) names += " ...";
   return Status(StatusCode::bad_file,

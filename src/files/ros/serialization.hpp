@@ -21,11 +21,11 @@ inline constexpr std::size_t encapsulation_size = 4;
 /// `value` with its bytes reversed.
 template <std::unsigned_integral T>
 constexpr T reversed(T value) noexcept {
-  T result = 0;
+  std::uint64_t result = 0;
   for (std::size_t i = 0; i < sizeof(T); ++i) {
-    result = static_cast<T>((result << 8U) | ((value >> (8U * i)) & 0xffU));
+    result = (result << 8U) | ((std::uint64_t{value} >> (8U * i)) & 0xffU);
   }
-  return result;
+  return static_cast<T>(result);
 }
 
 /// Reads the members of a message in order. Each function returns bad_file with a byte offset if

@@ -18,8 +18,8 @@
 namespace flagstone::ros {
 namespace {
 
-const std::vector<std::string> names{"x",     "y",      "z",    "intensity", "ring",
-                                     "label", "height", "time", "_",         ""};
+const std::vector<std::string> field_names{"x",     "y",      "z",    "intensity", "ring",
+                                           "label", "height", "time", "_",         ""};
 
 Bytes random_bytes(std::size_t size) {
   const auto values =
@@ -44,7 +44,7 @@ CloudMessage random_message() {
   message.data = random_bytes(std::size_t{message.height} * message.row_step);
   const std::uint32_t fields = random_number(13);
   for (std::uint32_t i = 0; i < fields; ++i) {
-    PointField field{*rc::gen::elementOf(names), 0,
+    PointField field{field_names[random_number(static_cast<std::uint32_t>(field_names.size()))], 0,
                      static_cast<PointFieldType>(1 + random_number(12)), random_number(4)};
     if (field.size() > message.point_step) continue;
     field.offset = random_number(message.point_step - static_cast<std::uint32_t>(field.size()) + 1);
