@@ -29,7 +29,7 @@ const std::byte* address_of(const PointCloud2View& cloud, std::size_t i) {
          i % cloud.width * cloud.point_stride();
 }
 
-/// Every coordinate can be read, or the message says why not.
+/// Every coordinate can be read, or the status contains the reason.
 void check_coordinates(const PointCloud2View& cloud) {
   std::vector<float> copy;
   CloudView points;
@@ -47,7 +47,7 @@ void check_coordinates(const PointCloud2View& cloud) {
   sink = sum;
 }
 
-/// A serialized cloud reads back unchanged, and is serialized to the same bytes again.
+/// A serialized cloud reads back unchanged, and serialization is deterministic.
 void check_serialization(const PointCloud2View& cloud) {
   std::vector<std::byte> message;
   require(ros::serialize(cloud, message).ok(), "a parsed cloud can be serialized");

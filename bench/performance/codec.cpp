@@ -149,7 +149,7 @@ int main() {
   try {
     fmt::print(
         "Milliseconds per message of {} points, median:\n\n"
-        "| fields | bytes per point | view | append label and height | ground and nonground | "
+        "| fields | bytes per point | view | append label and height | ground and non-ground | "
         "memcpy |\n|---|--:|--:|--:|--:|--:|\n",
         points);
     for (const Layout& layout : layouts) print_row(layout);

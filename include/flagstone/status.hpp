@@ -14,7 +14,7 @@ enum class StatusCode {
   out_of_memory,     ///< a buffer could not be allocated
   not_found,         ///< a file or directory does not exist
   unreadable,        ///< a file exists, but reading it failed
-  bad_file,          ///< the contents of a file do not match its format
+  bad_file,          ///< the contents of a file or message do not match its format
   unwritable,        ///< writing a file failed
 };
 

@@ -14,7 +14,7 @@ returns the plane of each ground patch, and the ground as one continuous surface
 Coordinates are in metres in the sensor frame: x forward, y left, z up.
 """
 
-from flagstone import io, plot
+from flagstone import io, plot, ros
 from flagstone._core import version as __version__
 from flagstone._evaluate import Evaluation, evaluate
 from flagstone._score import Score, score
@@ -47,6 +47,7 @@ __all__ = [
     "make_segmenter",
     "method_names",
     "plot",
+    "ros",
     "score",
     "sensors",
     "show",

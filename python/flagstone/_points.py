@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import numpy.lib.recfunctions
 import numpy.typing as npt
 
 # A NumPy array, or any object that DLPack, the buffer protocol or NumPy can convert to one. The type cannot be
@@ -22,6 +23,7 @@ _CPU_DEVICES = (1, 3)  # kDLCPU and kDLCUDAHost of DLPack; both are host memory
 # Up to this many rows with more than this many columns: the array is probably transposed.
 _FEW_ROWS, _MANY_COLUMNS = 8, 8
 _MAX_FIELDS_NAMED = 8  # in an error message
+_COLUMN_NAMES = ("x", "y", "z", "intensity", "ring")  # of arrays without field names
 
 
 def columns_of(points: PointsLike) -> tuple[Column, Column, Column]:
@@ -56,6 +58,13 @@ def columns_of(points: PointsLike) -> tuple[Column, Column, Column]:
         raise ValueError(f"points: {kind} ({_EXPECTED}, one point per row; pass points.T)")
     array = _floats(array, "points")
     return array[:, 0], array[:, 1], array[:, 2]
+
+
+def records_of(array: npt.NDArray[Any]) -> npt.NDArray[np.void]:
+    """The last axis as fields x, y, z, intensity, ring, c5, c6, ... of a structured array."""
+    count = array.shape[-1]
+    names = [*_COLUMN_NAMES, *(f"c{i}" for i in range(len(_COLUMN_NAMES), count))][:count]
+    return numpy.lib.recfunctions.unstructured_to_structured(array, np.dtype([(name, array.dtype) for name in names]))
 
 
 def _column_names(points: PointsLike) -> Sequence[str] | None:

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from flagstone import _core, _las
 from flagstone._las_classify import classify_las
-from flagstone._points import PointsLike
+from flagstone._points import PointsLike, records_of
 
 __all__ = [
     "classify_las",
@@ -35,7 +35,6 @@ Path = str | os.PathLike[str]
 _NPY_OF = {"float32": "<f4", "float64": "<f8"} | {
     f"{sign}int{8 * size}": f"<{sign or 'i'}{size}" for sign in ("", "u") for size in (1, 2, 4, 8)
 }
-_COLUMN_NAMES = ("x", "y", "z", "intensity", "ring")  # for files without field names
 
 
 def read(
@@ -235,9 +234,7 @@ def _rows(points: PointsLike) -> npt.NDArray[np.void]:
         raise ValueError(
             f"points: shape {array.shape} is not supported (expected (N, 3) or more columns, or fields x, y and z)"
         )
-    names = [*_COLUMN_NAMES, *(f"c{i}" for i in range(len(_COLUMN_NAMES), array.shape[1]))]
-    dtype = np.dtype([(name, array.dtype) for name in names[: array.shape[1]]])
-    return numpy.lib.recfunctions.unstructured_to_structured(array, dtype)
+    return records_of(array)
 
 
 def _with_field(rows: npt.NDArray[np.void], name: str, values: npt.ArrayLike, dtype: Any) -> npt.NDArray[np.void]:

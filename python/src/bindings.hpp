@@ -14,6 +14,7 @@ void bind_segmenter(nanobind::module_& module);
 void bind_result(nanobind::module_& module);
 void bind_known(nanobind::module_& module);
 void bind_files(nanobind::module_& module);
+void bind_ros(nanobind::module_& module);
 void bind_score(nanobind::module_& module);
 void bind_runs(nanobind::module_& module);
 

@@ -45,6 +45,7 @@ NB_MODULE(_core, module) {
   bind_segmenter(module);
   bind_known(module);
   bind_files(module);
+  bind_ros(module);
   bind_score(module);
   bind_runs(module);
 }

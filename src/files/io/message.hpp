@@ -14,7 +14,7 @@
 
 #include "flagstone/status.hpp"
 
-/// Error messages of the readers and writers; internal to this directory. Every message is one
+/// Error messages of the readers and writers; internal to src/files. Every message is one
 /// line, `PATH: byte OFFSET: PROBLEM (expected EXPECTED; HINT)`, without the parts that add
 /// nothing.
 namespace flagstone::io {

@@ -54,9 +54,9 @@ class Selection {
   std::array<std::uint8_t, 256> table_{};
 };
 
-/// A cloud with the points of another cloud, the source, and every field of them unchanged: with
-/// added fields (append()), or with some of the points (select()). The header, the byte orders, the
-/// encoding and is_dense are those of the source.
+/// A cloud with the points of another cloud, the source: all of them with added fields (append()),
+/// or some of them (select()). Every existing field is unchanged. The header, the byte orders, the
+/// encoding and is_dense are copied from the source.
 ///
 /// append() and select() compute the layout without copying points; the other functions then write
 /// the result as often as needed, into memory of the caller. The source, its bytes and the added

@@ -53,7 +53,7 @@ struct Codec {
   Bytes out;
 };
 
-TEST(PointCloud2Allocation, IsNoneAfterTheFirstMessage) {
+TEST(PointCloud2Allocation, IsZeroAfterTheFirstMessage) {
   const std::vector<Label> labels(1000, Label::ground);
   const std::vector<float> heights(1000);
   for (const PointFieldType type : {PointFieldType::float32, PointFieldType::int16}) {

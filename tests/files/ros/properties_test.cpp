@@ -64,7 +64,7 @@ const std::byte* address_of(const PointCloud2View& cloud, std::size_t i) {
          i % cloud.width * cloud.point_stride();
 }
 
-/// Whether point i of `a` and point j of `b` have the same bytes in the points of `a`, except for
+/// Whether all bytes of point i of `a` are equal in point j of `b`, except for
 /// the fields of `b` with these names.
 bool has_same_point(const PointCloud2View& a, std::size_t i, const PointCloud2View& b,
                     std::size_t j, const std::vector<std::string>& except) {
@@ -113,7 +113,7 @@ T number_of(const PointCloud2View& cloud, std::size_t i, std::string_view name) 
   return value;
 }
 
-RC_GTEST_PROP(PointCloud2Property, MessagesAreSerializedToTheSameBytes, ()) {
+RC_GTEST_PROP(PointCloud2Property, MessagesSurviveARoundTripUnchanged, ()) {
   const Bytes message = random_message().bytes();
   PointCloud2View cloud;
   const Encoding encoding = message[0] == std::byte{0} && message[1] <= std::byte{1} &&
