@@ -136,8 +136,8 @@ void print_row(const Layout& layout) {
   const double append = time_of([&] { steps.append(); }).median;
   const double divide = time_of([&] { steps.divide(); }).median;
   const double copy = time_of([&] { steps.copy(); }).median;
-  fmt::print("| {} | {} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n", layout.name, layout.point_step,
-             view, append, divide, copy);
+  fmt::print("| {} | {} | {:.1f} | {:.2f} | {:.2f} | {:.2f} |\n", layout.name, layout.point_step,
+             1000 * view, append, divide, copy);
   std::fflush(stdout);
 }
 
@@ -148,9 +148,10 @@ int main() {
   using namespace flagstone::performance;
   try {
     fmt::print(
-        "Milliseconds per message of {} points, median:\n\n"
-        "| fields | bytes per point | view | append label and height | ground and non-ground | "
-        "memcpy |\n|---|--:|--:|--:|--:|--:|\n",
+        "Time per message of {} points, median:\n\n"
+        "| fields | bytes per point | view, µs | append label and height, ms | ground and "
+        "non-ground, ms | "
+        "memcpy, ms |\n|---|--:|--:|--:|--:|--:|\n",
         points);
     for (const Layout& layout : layouts) print_row(layout);
   } catch (const std::exception& error) {

@@ -160,7 +160,7 @@ class PointCloud2:
 
     @property
     def is_bigendian(self) -> bool:
-        """Byte order of the numbers in the points. That of the message can differ."""
+        """Byte order of the numbers in the points. The byte order of the message can differ."""
         return self._core.is_bigendian
 
     @property

@@ -182,7 +182,7 @@ def test_messages_of_rosbags_are_parsed(rosbags: Rosbags, encoding: ros.Encoding
 
 
 @pytest.mark.parametrize("encoding", ENCODINGS)
-def test_rosbags_serializes_the_same_bytes(rosbags: Rosbags, encoding: ros.Encoding) -> None:
+def test_serialized_messages_are_equal_to_those_by_rosbags(rosbags: Rosbags, encoding: ros.Encoding) -> None:
     rows = varied_rows()
     message = ros.serialize(rows, frame_id="lidar", stamp=(12, 345), seq=7, is_dense=True, encoding=encoding)
     assert message == rosbags.serialize(encoding, rosbags.cloud(encoding, rows))

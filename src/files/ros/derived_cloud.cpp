@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -42,43 +43,53 @@ struct PointCopy {
 // Points of up to this many bytes are copied by code for exactly their size, without a call.
 constexpr std::size_t max_inlined = 64;
 
-/// Sets `size` bytes to 0; they are few, so that a call would take most of the time.
-inline void clear_bytes(std::byte* to, std::size_t size) noexcept {
-  if (size >= sizeof(std::uint64_t)) {
-    if (size > 2 * sizeof(std::uint64_t)) {
-      std::memset(to, 0, size);
-      return;
-    }
-    io::store(to, std::uint64_t{0});
-    io::store(to + size - sizeof(std::uint64_t), std::uint64_t{0});
-    return;
+// The bytes after a point of the source are set to 0 by one store of this size. It may reach into
+// the next point of the result, which is written later.
+constexpr std::size_t clearing = sizeof(std::uint64_t);
+
+/// Copies one point and clears the bytes after it. With a `Size` of 0 the size is known at run time
+/// only. `IsLast` must be true if no point follows, or if more than `clearing` bytes are cleared.
+template <std::size_t Size, bool IsLast>
+inline void copy_point(const PointCopy& copy, std::size_t i, std::byte* to) noexcept {
+  const std::size_t size = Size > 0 ? Size : copy.size;
+  std::memcpy(to, copy.from + i * copy.stride, size);
+  if constexpr (IsLast) {
+    std::memset(to + size, 0, copy.step - size);
+  } else {
+    io::store(to + size, std::uint64_t{0});
   }
-  for (std::size_t i = 0; i < size; ++i) to[i] = std::byte{0};
 }
 
-/// Copies all points. With a `Size` of 0 the size is known at run time only.
+/// Number of points at the end of a block that must be copied as the last one.
+std::size_t points_copied_exactly(const PointCopy& copy, std::size_t total) noexcept {
+  return copy.step - copy.size <= clearing && copy.step >= clearing
+             ? std::min<std::size_t>(total, 1)
+             : total;
+}
+
+/// Copies all points.
 template <std::size_t Size>
 void copy_all(const PointCopy& copy) noexcept {
-  const std::size_t size = Size > 0 ? Size : copy.size;
-  const std::size_t gap = copy.step - size;
-  for (std::size_t i = 0; i < copy.count; ++i) {
-    std::byte* const to = copy.to + i * copy.step;
-    std::memcpy(to, copy.from + i * copy.stride, size);
-    clear_bytes(to + size, gap);
-  }
+  const std::size_t first_exact = copy.count - points_copied_exactly(copy, copy.count);
+  std::size_t i = 0;
+  for (; i < first_exact; ++i) copy_point<Size, false>(copy, i, copy.to + i * copy.step);
+  for (; i < copy.count; ++i) copy_point<Size, true>(copy, i, copy.to + i * copy.step);
 }
 
 /// Copies the `kept` points without a branch per point: a point that is not kept is overwritten by
 /// the next one. Stops after `total` points, so that it does not write past them.
 template <std::size_t Size>
 void copy_kept(const PointCopy& copy, const Kept& kept, std::size_t total) noexcept {
-  const std::size_t size = Size > 0 ? Size : copy.size;
-  const std::size_t gap = copy.step - size;
   std::byte* to = copy.to;
-  std::byte* const end = copy.to + total * copy.step;
-  for (std::size_t i = 0; to != end; ++i) {
-    std::memcpy(to, copy.from + i * copy.stride, size);
-    clear_bytes(to + size, gap);
+  std::byte* const end = to + total * copy.step;
+  std::byte* const exact = end - points_copied_exactly(copy, total) * copy.step;
+  std::size_t i = 0;
+  for (; to != exact; ++i) {
+    copy_point<Size, false>(copy, i, to);
+    to += kept[i] * copy.step;
+  }
+  for (; to != end; ++i) {
+    copy_point<Size, true>(copy, i, to);
     to += kept[i] * copy.step;
   }
 }
@@ -98,12 +109,12 @@ constexpr auto copies = functions_by_size(std::make_index_sequence<max_inlined +
 const auto& copies_of(std::size_t size) noexcept { return copies[size <= max_inlined ? size : 0]; }
 
 /// Writes one number for each point, or for each kept point.
-template <class T>
+template <class T, bool Swap>
 void write_numbers(const std::byte* from, std::size_t count, std::byte* to, std::size_t step,
-                   bool swap, const Kept* kept, std::size_t total) noexcept {
-  const auto number = [&](std::size_t i) {
+                   const Kept* kept, std::size_t total) noexcept {
+  const auto number = [from](std::size_t i) {
     const T value = io::load<T>(from + i * sizeof(T));
-    return swap ? reversed(value) : value;
+    return Swap ? reversed(value) : value;
   };
   if (kept == nullptr) {
     for (std::size_t i = 0; i < count; ++i) io::store(to + i * step, number(i));
@@ -128,6 +139,16 @@ bool is_alone(std::span<const PointField> fields, const PointField& field) noexc
   });
 }
 
+/// The unsigned integer type of this size, to copy numbers of any type.
+io::FieldType unsigned_type(std::size_t size) noexcept {
+  switch (size) {
+    case 1: return io::FieldType::uint8;
+    case 2: return io::FieldType::uint16;
+    case 4: return io::FieldType::uint32;
+    default: return io::FieldType::uint64;
+  }
+}
+
 std::size_t next_multiple(std::size_t number, std::size_t of) noexcept {
   return (number + of - 1) / of * of;
 }
@@ -142,19 +163,43 @@ AddedField height_field(std::span<const float> heights) noexcept {
   return {io::height_name, PointFieldType::float32, std::as_bytes(heights)};
 }
 
-Selection::Selection(std::span<const std::uint8_t> mask) noexcept : values_(std::as_bytes(mask)) {
-  table_.fill(1);
-  table_[0] = 0;
-}
+Selection::Selection(std::span<const std::uint8_t> mask) noexcept
+    : values_(std::as_bytes(mask)), is_mask_(true) {}
 
 Selection::Selection(std::span<const Label> labels, std::initializer_list<Label> kept) noexcept
     : values_(std::as_bytes(labels)) {
-  for (const Label label : kept) table_[static_cast<std::size_t>(label)] = 1;
+  for (const Label label : kept) {
+    const auto code = static_cast<std::size_t>(label);
+    if (code < label_count) keeps_[code] = true;
+  }
+}
+
+void Selection::get(std::size_t first, std::span<std::uint8_t> out) const noexcept {
+  // Compilers compare whole vectors in these loops. A table of labels would take four times as
+  // long.
+  const std::byte* const values = values_.data() + first;
+  if (is_mask_) {
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = values[i] != std::byte{0} ? 1 : 0;
+    return;
+  }
+  std::ranges::fill(out, std::uint8_t{0});
+  for (std::size_t code = 0; code < label_count; ++code) {
+    if (!keeps_[code]) continue;
+    const auto kept = static_cast<std::byte>(code);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i] = static_cast<std::uint8_t>(out[i] | (values[i] == kept ? 1U : 0U));
+    }
+  }
 }
 
 std::size_t Selection::count() const noexcept {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < values_.size(); ++i) count += keeps(i);
+  Kept kept{};
+  for (std::size_t begin = 0; begin < values_.size(); begin += block) {
+    const std::span part = std::span(kept).first(std::min(block, values_.size() - begin));
+    get(begin, part);
+    count += std::accumulate(part.begin(), part.end(), std::size_t{0});
+  }
   return count;
 }
 
@@ -261,27 +306,21 @@ void DerivedCloud::write_run(std::size_t first, std::size_t count, const std::by
     Kept kept{};
     std::size_t total = copy.count;
     if (selects_) {
-      total = 0;
-      for (std::size_t i = 0; i < copy.count; ++i) {
-        kept[i] = selection_.keeps(first + begin + i);
-        total += kept[i];
-      }
+      const std::span part = std::span(kept).first(copy.count);
+      selection_.get(first + begin, part);
+      total = std::accumulate(part.begin(), part.end(), std::size_t{0});
       copy_points.kept(copy, kept, total);
     } else {
       copy_points.all(copy);
     }
     for (const Column& column : columns_) {
-      io::visit_type(column.size == 1   ? io::FieldType::uint8
-                     : column.size == 2 ? io::FieldType::uint16
-                     : column.size == 4 ? io::FieldType::uint32
-                                        : io::FieldType::uint64,
-                     [&]<class T>() {
-                       if constexpr (std::is_unsigned_v<T>) {
-                         write_numbers<T>(column.values + (first + begin) * sizeof(T), copy.count,
-                                          to + column.offset, step, column.swap,
-                                          selects_ ? &kept : nullptr, total);
-                       }
-                     });
+      io::visit_type(unsigned_type(column.size), [&]<class T>() {
+        if constexpr (std::is_unsigned_v<T>) {
+          const auto write = column.swap ? write_numbers<T, true> : write_numbers<T, false>;
+          write(column.values + (first + begin) * sizeof(T), copy.count, to + column.offset, step,
+                selects_ ? &kept : nullptr, total);
+        }
+      });
     }
     to += total * step;
   }

@@ -41,17 +41,17 @@ class Selection {
 
   [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }
 
-  /// 1 if the point is kept, otherwise 0.
-  [[nodiscard]] std::uint8_t keeps(std::size_t i) const noexcept {
-    return table_[std::to_integer<std::size_t>(values_[i])];
-  }
+  /// Sets each element of `out` to 1 if the point is kept, otherwise to 0, beginning with point
+  /// `first`.
+  void get(std::size_t first, std::span<std::uint8_t> out) const noexcept;
 
   /// Number of points that are kept.
   [[nodiscard]] std::size_t count() const noexcept;
 
  private:
   std::span<const std::byte> values_;
-  std::array<std::uint8_t, 256> table_{};
+  std::array<bool, label_count> keeps_{};  // by label code
+  bool is_mask_ = false;
 };
 
 /// A cloud with the points of another cloud, the source: all of them with added fields (append()),

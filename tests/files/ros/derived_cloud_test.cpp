@@ -382,8 +382,12 @@ TEST(Selection, CountsAndKeepsPoints) {
   const Selection ground(labels, {Label::ground});
   EXPECT_EQ(ground.size(), 4U);
   EXPECT_EQ(ground.count(), 2U);
-  EXPECT_EQ(ground.keeps(3), 1);
-  EXPECT_EQ(ground.keeps(1), 0);
+  std::array<std::uint8_t, 3> kept{};
+  ground.get(1, kept);
+  EXPECT_THAT(kept, ElementsAre(0, 0, 1));
+  const std::array<std::uint8_t, 4> mask{0, 1, 0, 200};
+  Selection(mask).get(1, kept);
+  EXPECT_THAT(kept, ElementsAre(1, 0, 1));
 }
 
 }  // namespace
