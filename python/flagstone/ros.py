@@ -43,7 +43,9 @@ Encoding = Literal["cdr", "ros1"]
 POINT_CLOUD2 = "sensor_msgs/msg/PointCloud2"
 """The default message type of `parse`."""
 
-_LIVOX_TYPES = ("livox_ros_driver/msg/CustomMsg", "livox_ros_driver2/msg/CustomMsg")
+_LIVOX_TYPES = tuple(
+    f"{package}/msg/CustomMsg" for package in ("livox_ros_driver", "livox_interfaces", "livox_ros_driver2")
+)
 
 POINT_CLOUD_TYPES = (POINT_CLOUD2, *_LIVOX_TYPES)
 """The message types that `parse` supports. Names of ROS 1, without `/msg/`, are equivalent."""

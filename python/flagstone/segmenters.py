@@ -99,7 +99,8 @@ class Segmenter:
                 torch or Open3D tensor in CPU memory. Structured arrays, data frames and PyArrow tables are read by
                 their columns x, y and z. Organized clouds, (H, W, >=3) or (H, W) records, are read as H * W points,
                 row by row. float32 input is zero-copy if the three columns have the same stride. Any value is allowed:
-                points with NaN or infinity are labelled `invalid`.
+                points with NaN or infinity are labelled `invalid`. Clouds of
+                `flagstone.ros.parse` are accepted too.
 
         Returns:
             The result; see `Segmentation`. The same points and settings always give bit-identical results, unless the

@@ -257,7 +257,10 @@ def test_messages_of_livox_become_clouds(rosbags: Rosbags, encoding: ros.Encodin
     )
     for little_endian in (True, False) if encoding == "cdr" else (True,):
         data = rosbags.serialize(encoding, message, little_endian)
+        clouds = [ros.parse(data, encoding=encoding, message_type=name) for name in ros.POINT_CLOUD_TYPES[1:]]
+        assert len(clouds) == 3
         cloud = ros.parse(data, encoding=encoding, message_type="livox_ros_driver2/CustomMsg")
+        assert all(same(cloud.points, other.points) for other in clouds)
         assert (cloud.timebase, cloud.lidar_id, len(cloud)) == (12_000_000_345, 192, 7)
         assert np.array_equal(cloud.xyz[:, 0], np.arange(7) + 0.5)
         assert np.array_equal(cloud.points["offset_time"], 1000 * np.arange(7))
