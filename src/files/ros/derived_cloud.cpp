@@ -231,33 +231,33 @@ Status DerivedCloud::plan(const PointCloud2View& source, std::span<const AddedFi
       if (Status failed = add(field, source.size()); !failed.ok()) return failed;
       alignment = std::max(alignment, size_of(field.type));
     }
-    if (layout_.point_step != source.point_step) {
-      layout_.point_step = static_cast<std::uint32_t>(next_multiple(layout_.point_step, alignment));
-    }
+    std::size_t point_step = layout_.point_step;
+    if (point_step != source.point_step) point_step = next_multiple(point_step, alignment);
     source_ = &source;
     selects_ = selection != nullptr;
     if (selects_) {
       selection_ = *selection;
       layout_.height = 1;
-      layout_.width = static_cast<std::uint32_t>(selection->count());
     }
-    const std::size_t row_step = std::size_t{layout_.width} * layout_.point_step;
-    if (layout_.fields.size() > max_point_fields || row_step > max_message_part ||
-        data_size() > max_message_part) {
+    const std::size_t points = selects_ ? selection->count() : source.size();
+    const std::size_t width = selects_ ? points : source.width;
+    if (layout_.fields.size() > max_point_fields || point_step > max_message_part ||
+        points > max_message_part / std::max<std::size_t>(point_step, 1) ||
+        width * point_step > max_message_part) {
       return invalid(
           "{} points of {} bytes with {} fields do not fit in a message (expected at most {} bytes "
           "and {} fields)",
-          layout_.size(), layout_.point_step, layout_.fields.size(), max_message_part,
-          max_point_fields);
+          points, point_step, layout_.fields.size(), max_message_part, max_point_fields);
     }
-    layout_.row_step = static_cast<std::uint32_t>(row_step);
+    layout_.width = static_cast<std::uint32_t>(width);
+    layout_.point_step = static_cast<std::uint32_t>(point_step);
+    layout_.row_step = static_cast<std::uint32_t>(width * point_step);
     return Status();
   });
   if (!status.ok()) {
     layout_ = PointCloud2View();
     columns_.clear();
-    selects_ = false;
-    source_ = &layout_;
+    source_ = nullptr;
   }
   return status;
 }
@@ -274,13 +274,15 @@ Status DerivedCloud::add(const AddedField& added, std::size_t points) {
   }
   std::vector<PointField>& fields = layout_.fields;
   const bool swap = layout_.is_bigendian != (std::endian::native == std::endian::big);
-  const auto old = std::ranges::find(fields, added.name, &PointField::name);
+  const auto has_name = [&](const PointField& field) { return field.name == added.name; };
+  const auto old = std::ranges::find_if(fields, has_name);
   if (old != fields.end() && old->type == added.type && old->numbers() == 1 &&
       is_alone(fields, *old)) {
     columns_.push_back({added.values.data(), size, old->offset, swap});
+    fields.erase(std::remove_if(old + 1, fields.end(), has_name), fields.end());
     return {};
   }
-  std::erase_if(fields, [&](const PointField& field) { return field.name == added.name; });
+  std::erase_if(fields, has_name);
   const std::size_t offset = next_multiple(layout_.point_step, size);
   if (offset + size > max_message_part) {
     return invalid("field {} does not fit in a point of {} bytes", quote(added.name),

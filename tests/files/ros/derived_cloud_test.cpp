@@ -213,6 +213,19 @@ TEST(DerivedCloud, ReplacesAFieldOfTheSameNameAndTypeInItsPosition) {
   EXPECT_EQ(bytes_of(derived.result, "ring", 0, 1), numbers<std::uint16_t>({6}));
 }
 
+TEST(DerivedCloud, HasAReplacedFieldOnce) {
+  CloudMessage message = small_message();
+  message.fields[3].name = "height";
+  message.fields.push_back({"height", 16, uint8, 1});
+  message.fields.erase(message.fields.begin() + 4);  // ring, which would overlap
+  Derived derived(message);
+
+  derived.append({height_field(two_heights)});
+
+  EXPECT_EQ(std::ranges::count(derived.result.fields, "height", &PointField::name), 1);
+  EXPECT_EQ(derived.result.find("height")->offset, 12U);
+}
+
 TEST(DerivedCloud, OfALabelledCloudHasTheSameLayout) {
   Derived once(small_message());
   once.append({label_field(two_labels), height_field(two_heights)});
@@ -375,6 +388,14 @@ TEST(DerivedCloudError, IsReportedBeyondTheLimitsOfAMessage) {
   const std::vector<AddedField> none{label_field({})};
   EXPECT_THAT(DerivedCloud().append(long_point, none),
               fails(StatusCode::invalid_argument, HasSubstr("does not fit in a point")));
+  long_point.point_step = 0xfffffff0U;
+  const std::vector<AddedField> rounded{height_field({}), {"last", uint64, {}}, label_field({})};
+  EXPECT_THAT(DerivedCloud().append(long_point, rounded),
+              fails(StatusCode::invalid_argument, HasSubstr("does not fit in a point")));
+  const std::vector<AddedField> labelled{height_field({}), label_field({})};
+  long_point.point_step = 0xfffffff8U;
+  EXPECT_THAT(DerivedCloud().append(long_point, labelled),
+              fails(StatusCode::invalid_argument, HasSubstr("do not fit in a message")));
 }
 
 TEST(Selection, CountsAndKeepsPoints) {
