@@ -113,6 +113,8 @@ def _array_of(points: PointsLike) -> npt.NDArray[Any]:
     try:
         return np.asarray(points)
     except ValueError as error:
+        if hasattr(points, "__array__"):  # the object explains its own error, as flagstone.ros.PointCloud2 does
+            raise
         raise TypeError(f"points: {type(points).__name__} is not an array: {error} ({_EXPECTED})") from error
 
 
