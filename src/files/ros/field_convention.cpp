@@ -57,7 +57,7 @@ Match match(std::span<const PointField> fields) noexcept {
     return {Convention::livox, find_one(fields, "timestamp", float64), one_nanosecond, clock};
   }
   const PointField* const t = find_one(fields, "t", uint32);
-  if (t != nullptr && find_any(fields, {"range", "reflectivity"}) != nullptr) {
+  if (t != nullptr && find_any(fields, {"range"}) != nullptr) {
     return {Convention::ouster, t, one_nanosecond, header_stamp};
   }
   if (find_one(fields, "channel", uint16) != nullptr &&

@@ -15,7 +15,7 @@ enum class Convention : std::uint8_t {
   none,      ///< x, y or z is missing
   xyz,       ///< x, y and z; other fields are named by none of the conventions
   velodyne,  ///< ring uint16, time float32
-  ouster,    ///< ring, t uint32; and range or reflectivity
+  ouster,    ///< t uint32, range
   hesai,     ///< ring uint16, timestamp float64; RoboSense too
   livox,     ///< tag and line uint8
   autoware,  ///< channel uint16, return_type uint8

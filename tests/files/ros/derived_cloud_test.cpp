@@ -213,6 +213,17 @@ TEST(DerivedCloud, ReplacesAFieldOfTheSameNameAndTypeInItsPosition) {
   EXPECT_EQ(bytes_of(derived.result, "ring", 0, 1), numbers<std::uint16_t>({6}));
 }
 
+TEST(DerivedCloud, DoesNotOverwriteAFieldThatAFieldOfUnknownTypeMayOverlap) {
+  CloudMessage message = small_message();
+  message.fields[3].name = "height";
+  message.fields[4].type = static_cast<PointFieldType>(12);
+  Derived derived(message);
+
+  derived.append({height_field(two_heights)});
+
+  EXPECT_EQ(derived.result.find("height")->offset, 20U);
+}
+
 TEST(DerivedCloud, HasAReplacedFieldOnce) {
   CloudMessage message = small_message();
   message.fields[3].name = "height";
@@ -330,6 +341,7 @@ TEST_P(DerivedInAnyFormat, CanBeMadeFromALivoxMessage) {
   PointCloud2View result;
   ASSERT_THAT(parse(bytes, GetParam().encoding, result), is_ok());
   EXPECT_EQ(result.format, GetParam());
+  EXPECT_EQ(derived.layout().padded_point_step, 0U);
   EXPECT_EQ(result.point_step, 20U);
   EXPECT_EQ(result.size(), 5U);
   for (std::size_t i = 0; i < 5; ++i) {

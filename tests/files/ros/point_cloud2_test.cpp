@@ -265,6 +265,13 @@ TEST(PointCloud2Error, IsReportedForDataThatIsTooShort) {
                                            "times width 2 points (expected point_step 18,"
                                            " row_step 36;"));
   message = small_message();
+  message.height = 2;
+  message.width = 1;
+  message.row_step = 18;
+  message.data.pop_back();
+  EXPECT_THAT(error_of(message),
+              is_bad_at(height_at, "the data has 35 bytes, too few for height 2"));
+  message = small_message();
   message.height = 0xffffffffU;
   message.width = 0xffffffffU;
   EXPECT_THAT(error_of(message), is_bad_at(height_at, "too few for height 4294967295"));
