@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include "library/surface/distinct_points.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "library/surface/packed_points.cpp"
 #include <hwy/foreach_target.h>
@@ -168,27 +170,28 @@ bool PackedPoints::repeat(std::size_t point_count) noexcept {
   std::size_t seen = 0;
   std::size_t different = 0;
   for (std::uint32_t cell = 0; cell < cell_count_; cell += step) {
-    const std::span<const PackedPoint> held = points(cell, cell + 1);
-    PackedPoint* const copy = packed_.data();
-    std::ranges::copy(held, copy);
-    std::sort(copy, copy + held.size());
+    const std::span<PackedPoint> held = mutable_points(cell);
+    if (held.empty()) continue;
     seen += held.size();
-    different += static_cast<std::size_t>(std::unique(copy, copy + held.size()) - copy);
+    different += copy_distinct(held, packed_.data(), packed_.data());
   }
   return 3 * different < 2 * seen;
 }
 
 void PackedPoints::remove_repeated() noexcept {
-  PackedPoint* const all = sorted_.data();
-  PackedPoint* kept = all;
+  PackedPoint* kept = packed_.data();
   for (std::uint32_t cell = 0; cell < cell_count_; ++cell) {
-    PackedPoint* const first = all + begins()[cell];
-    PackedPoint* const last = all + begins()[cell + 1];
-    begins_.data()[cell] = static_cast<std::uint32_t>(kept - all);
-    std::sort(first, last);
-    kept = std::unique_copy(first, last, kept);
+    const std::span<PackedPoint> held = mutable_points(cell);
+    PackedPoint* const scratch = packed_.data() + begins()[cell];
+    begins_.data()[cell] = static_cast<std::uint32_t>(kept - packed_.data());
+    if (!held.empty()) kept += copy_distinct(held, scratch, kept);
   }
-  begins_.data()[cell_count_] = static_cast<std::uint32_t>(kept - all);
+  begins_.data()[cell_count_] = static_cast<std::uint32_t>(kept - packed_.data());
+  std::swap(packed_, sorted_);
+}
+
+std::span<PackedPoint> PackedPoints::mutable_points(std::uint32_t cell) noexcept {
+  return {sorted_.data() + begins()[cell], sorted_.data() + begins()[cell + 1]};
 }
 
 }  // namespace flagstone::surface

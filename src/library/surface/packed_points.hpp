@@ -65,6 +65,7 @@ class PackedPoints {
  private:
   [[nodiscard]] bool repeat(std::size_t point_count) noexcept;
   void remove_repeated() noexcept;
+  [[nodiscard]] std::span<PackedPoint> mutable_points(std::uint32_t cell) noexcept;
 
   std::uint32_t cell_count_ = 0;
   Buffer<PackedPoint> packed_;  ///< in input order; after sort() free for other uses
