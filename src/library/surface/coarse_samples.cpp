@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -145,7 +146,7 @@ void CoarseSamples::take(const PackedPoints& points) noexcept {
       const std::span<const PackedPoint> all = points.points(cell, cell + each);
       PackedPoint* const to = samples_.data() + next;
       if (all.size() <= most) {
-        std::copy_n(all.data(), most, to);  // of constant length, because that is faster
+        std::memcpy(to, all.data(), most * sizeof *to);  // of constant length, which is faster
         next += static_cast<std::uint32_t>(all.size());
       } else {
         next +=

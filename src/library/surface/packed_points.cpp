@@ -89,12 +89,12 @@ HWY_INLINE void copy_up_to_16(const PackedPoint* from, std::size_t count, Packed
 /// take one step of up to sixteen points, which avoids mispredicted branches.
 void sort_runs(const plane_fits::ScanRuns::Chunk& runs, std::uint32_t* HWY_RESTRICT next,
                const PackedPoint* HWY_RESTRICT points, PackedPoint* HWY_RESTRICT sorted) {
-  for (std::size_t run = 0; run < runs.count; ++run) {
-    const plane_fits::RunStart start = runs.starts[run];
-    const std::uint32_t begin = start >> plane_fits::bin_bits;
-    const std::uint32_t end = runs.starts[run + 1] >> plane_fits::bin_bits;
-    const std::uint32_t cell = start & plane_fits::bin_mask;
-    const PackedPoint* const from = points + runs.first + begin;
+  const auto [starts, run_count, first] = runs;  // copies, which stores cannot change
+  for (std::size_t run = 0; run < run_count; ++run) {
+    const std::uint32_t begin = starts[run] >> plane_fits::bin_bits;
+    const std::uint32_t end = starts[run + 1] >> plane_fits::bin_bits;
+    const std::uint32_t cell = starts[run] & plane_fits::bin_mask;
+    const PackedPoint* const from = points + first + begin;
     PackedPoint* const to = sorted + next[cell];
     const std::size_t count = end - begin;
     next[cell] += end - begin;
