@@ -85,24 +85,42 @@ HWY_INLINE void copy_up_to_16(const PackedPoint* from, std::size_t count, Packed
 #endif
 }
 
+/// Copies `count` points.
+HWY_INLINE void copy_run(const PackedPoint* from, std::size_t count, PackedPoint* to) {
+  if (HWY_LIKELY(count <= 16)) {
+    copy_up_to_16(from, count, to);
+  } else {
+    std::memcpy(to, from, count * sizeof(PackedPoint));
+  }
+}
+
+/// As copy_run(), faster for single points.
+HWY_INLINE void copy_short_run(const PackedPoint* from, std::size_t count, PackedPoint* to) {
+  to[0] = from[0];
+  if (HWY_UNLIKELY(count > 1)) copy_run(from + 1, count - 1, to + 1);
+}
+
 /// Copies each run to the next position of its cell, `next[cell]`, and advances it. Nearly all runs
-/// take one step of up to sixteen points, which avoids mispredicted branches.
+/// take one step of up to sixteen points, which avoids mispredicted branches. Points without an
+/// order have runs of one point.
 void sort_runs(const plane_fits::ScanRuns::Chunk& runs, std::uint32_t* HWY_RESTRICT next,
                const PackedPoint* HWY_RESTRICT points, PackedPoint* HWY_RESTRICT sorted) {
   const auto [starts, run_count, first] = runs;  // copies, which stores cannot change
-  for (std::size_t run = 0; run < run_count; ++run) {
-    const std::uint32_t begin = starts[run] >> plane_fits::bin_bits;
-    const std::uint32_t end = starts[run + 1] >> plane_fits::bin_bits;
-    const std::uint32_t cell = starts[run] & plane_fits::bin_mask;
-    const PackedPoint* const from = points + first + begin;
-    PackedPoint* const to = sorted + next[cell];
-    const std::size_t count = end - begin;
-    next[cell] += end - begin;
-    if (HWY_LIKELY(count <= 16)) {
-      copy_up_to_16(from, count, to);
-    } else {
-      std::memcpy(to, from, count * sizeof(PackedPoint));
+  const auto copy_all = [&](const auto& copy) HWY_ATTR {
+    for (std::size_t run = 0; run < run_count; ++run) {
+      const std::uint32_t begin = starts[run] >> plane_fits::bin_bits;
+      const std::uint32_t end = starts[run + 1] >> plane_fits::bin_bits;
+      const std::uint32_t cell = starts[run] & plane_fits::bin_mask;
+      PackedPoint* const to = sorted + next[cell];
+      next[cell] += end - begin;
+      copy(points + first + begin, end - begin, to);
     }
+  };
+  const std::size_t point_count = starts[run_count] >> plane_fits::bin_bits;
+  if (5 * run_count > 4 * point_count) {
+    copy_all(copy_short_run);
+  } else {
+    copy_all(copy_run);
   }
 }
 
