@@ -222,7 +222,7 @@ void write_observations(const OutputDirectory& output, const SortedPoints& point
   const surface::Observations observations{.points = points.data(),
                                            .planes = planes,
                                            .gates = gates.data(),
-                                           // The figures show the first look only.
+                                           // The images show the first look only.
                                            .second_look = surface::SecondLook::tilted,
                                            .half_bit = 0,
                                            .widening = 0,

@@ -30,8 +30,8 @@ struct ObstacleMarks {
   float low, high;    ///< metres above the surface
 };
 
-/// The index in a Square::place.
-inline constexpr std::int32_t place_mask = (1 << grid_shift) - 1;
+/// Bits of a Square::index without the grid.
+inline constexpr std::int32_t index_mask = (1 << grid_shift) - 1;
 
 /// Data for all points of a scan.
 struct MeasuredScan {
@@ -99,7 +99,7 @@ HWY_INLINE FloatVector blend_with_care(FloatVector a, FloatVector b, FloatVector
 
 /// The four heights of the surface around a position, and the weights of the second ones.
 struct Square {
-  IntVector place;  ///< index of the first height | grid << grid_shift
+  IntVector index;  ///< index of the first height | grid << grid_shift
   FloatVector share_x, share_y;
 };
 
@@ -149,14 +149,14 @@ struct alignas(64) Lookups {
 
   PerPoint<float> share_x, share_y;
   PerPoint<float> z;             ///< NaN for points that are invalid or out of range
-  PerPoint<std::int32_t> place;  ///< of the square; see Square::place
+  PerPoint<std::int32_t> index;  ///< of the square; see Square::index
   PerPoint<std::int32_t> code;   ///< label of points without a height, and of noise below all cells
   std::array<std::uint8_t, lookup_size> has_code;  ///< per vector: whether any point has a code
 
   /// Per vector: where the square of the surface differs from that of the point before.
   std::array<std::uint16_t, lookup_size> starts;
-  /// The places of the squares, one per start.
-  std::array<std::int32_t, lookup_size + lanes> places;
+  /// The indices of the squares, one per start.
+  std::array<std::int32_t, lookup_size + lanes> indices;
   /// The heights of the squares.
   std::array<float, lookup_size + lanes> near_left, near_right, far_left, far_right;
 };
@@ -201,12 +201,12 @@ class FindSquares {
     hn::Store(z, d, lookups_.z.data() + i);
 
     const Square square = squares_.at(x, y);
-    hn::Store(square.place, di, lookups_.place.data() + i);
+    hn::Store(square.index, di, lookups_.index.data() + i);
     hn::Store(square.share_x, d, lookups_.share_x.data() + i);
     hn::Store(square.share_y, d, lookups_.share_y.data() + i);
-    const auto starts = hn::Ne(square.place, move_up(square.place, previous_));
-    previous_ = square.place;
-    found_ += compress_store(square.place, starts, lookups_.places.data() + found_);
+    const auto starts = hn::Ne(square.index, move_up(square.index, previous_));
+    previous_ = square.index;
+    found_ += compress_store(square.index, starts, lookups_.indices.data() + found_);
     lookups_.starts[vector] = static_cast<std::uint16_t>(bits_of(di, starts));
   }
 
@@ -226,9 +226,9 @@ class FindSquares {
 /// this takes less time than reading them for every point.
 HWY_INLINE void look_up(const GridTables& tables, std::size_t count, Lookups& lookups) {
   for (std::size_t i = 0; i < count; ++i) {
-    const auto place = static_cast<std::uint32_t>(lookups.places[i]);
-    const float* const near = tables.heights + (place & place_mask);
-    const float* const far = near + tables.widths[place >> grid_shift];
+    const auto index = static_cast<std::uint32_t>(lookups.indices[i]);
+    const float* const near = tables.heights + (index & index_mask);
+    const float* const far = near + tables.widths[index >> grid_shift];
     lookups.near_left[i] = near[0];
     lookups.near_right[i] = near[1];
     lookups.far_left[i] = far[0];
@@ -430,7 +430,7 @@ class LabelPoints {
         hn::And(hn::Gt(height, limits.low), hn::Lt(height, limits.overhanging));
     if (hn::AllFalse(d, is_obstacle)) return;
     const IntVector square =
-        hn::And(hn::Load(di, lookups.place.data() + i), hn::Set(di, place_mask));
+        hn::And(hn::Load(di, lookups.index.data() + i), hn::Set(di, index_mask));
     const auto is_high = hn::RebindMask(di, hn::Gt(height, limits.high));
     const IntVector mark =
         hn::IfThenElse(hn::RebindMask(di, is_obstacle),
@@ -457,7 +457,7 @@ class LabelPoints {
       const auto point = static_cast<std::size_t>(lists_.undecided[i]);
       slice_.undecided[totals_.undecided++] = {
           .point = static_cast<std::uint32_t>(begin + point),
-          .square = static_cast<std::uint32_t>(lookups.place[point]) & place_mask};
+          .square = static_cast<std::uint32_t>(lookups.index[point]) & index_mask};
     }
   }
 

@@ -28,7 +28,7 @@ constexpr std::size_t cells_of_a_job = 256;
 
 std::size_t jobs_of(std::size_t cells) { return (cells + cells_of_a_job - 1) / cells_of_a_job; }
 
-/// Number of levels whose cells are large enough for a slope of their own.
+/// Number of levels whose cells are large enough for a separate slope.
 constexpr std::size_t tilted_levels = 2;
 
 /// A point is in the upper half of a cell of the coarsest level if this bit of x or y is set.

@@ -77,16 +77,20 @@ class HeightShift : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(All, HeightShift, testing::ValuesIn(cases()),
                          [](const auto& each) { return each.param.name; });
 
-TEST_P(HeightShift, OfPointsAndSensorHeightTogetherChangesNoLabel) {
+TEST_P(HeightShift, OfPointsAndSensorHeightTogetherChangesHardlyAnyLabel) {
   const std::vector<Point> cloud = scene();
   const std::vector<Label> labels = labels_of(GetParam(), cloud, 0);
 
   for (const float rise : {1.75f, 2.75f, 12.75f}) {  // the ground 2 cm to 11 m above the origin
     const std::vector<Label> shifted = labels_of(GetParam(), cloud, rise);
 
-    std::size_t different = 0;  // points within rounding of a threshold may differ
+    // Points within rounding of a threshold may differ. The samples of `surface` depend on the
+    // heights of points, so that it does not depend on a wrong sensor height: another origin
+    // selects other samples.
+    const std::size_t most = cloud.size() / (GetParam().method == "surface" ? 200 : 5000);
+    std::size_t different = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) different += labels[i] != shifted[i];
-    EXPECT_LE(different, cloud.size() / 5000) << "raised by " << rise << " m";
+    EXPECT_LE(different, most) << "raised by " << rise << " m";
   }
 }
 

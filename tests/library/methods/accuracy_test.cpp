@@ -100,7 +100,7 @@ TEST(SurfaceAccuracy, OnLivox) {
   const auto scans = tests::real_scans("livox");
   FLAGSTONE_REQUIRE_SCANS(scans);
 
-  // On the steep scans 04 and 10, single results vary by points of F1.
+  // On the steep scans 04 and 10, single results vary by percentage points.
   EXPECT_GE(of_surface(scans, protocol_of("livox"), 16), 95.5);
 }
 

@@ -17,7 +17,7 @@
 namespace flagstone::surface {
 namespace {
 
-/// First point, number of points and place of a cell.
+/// First point, number of points and index in the grid of a cell.
 using Cell = std::array<std::uint32_t, 3>;
 
 std::vector<Cell> cells_of(const OccupiedCells& cells) {
