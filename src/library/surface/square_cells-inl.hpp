@@ -56,10 +56,10 @@ class CellLocator {
     const IntTag di;
     const FloatVector squared_range = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
     // Nearly all vectors have only points that are valid, in range and above all noise.
-    auto used = hn::And(hn::And(hn::Gt(squared_range, hn::Zero(d)),
-                                hn::Lt(squared_range, hn::Set(d, max_squared_range_))),
-                        hn::And(hn::Ge(z, hn::Set(d, noise_height_)),
-                                hn::Le(z, hn::Set(d, max_coordinate))));
+    auto used = hn::And(
+        hn::And(hn::Gt(squared_range, hn::Zero(d)),
+                hn::Lt(squared_range, hn::Set(d, max_squared_range_))),
+        hn::And(hn::Ge(z, hn::Set(d, noise_height_)), hn::Le(z, hn::Set(d, max_coordinate))));
     Located found;
     found.all_have_cells = hn::AllTrue(d, used);
     if (HWY_UNLIKELY(!found.all_have_cells)) {
