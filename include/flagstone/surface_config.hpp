@@ -64,9 +64,9 @@ struct PointRule {
   float margin = 0.24f;
 
   /// Used instead of `margin` near obstacles: in squares between four cell centres of the surface,
-  /// with a point between 1.25 times `obstacle_height` and 2.5 m above it. If the highest point is only above 0.75 times
-  /// `obstacle_height`, the mean of both margins is used. Metres, 0 to 10. A smaller value rejects
-  /// more of the base of walls, but also loses ground next to them.
+  /// with a point between 1.25 times `obstacle_height` and 2.5 m above it. If the highest point is
+  /// only above 0.75 times `obstacle_height`, the mean of both margins is used. Metres, 0 to 10. A
+  /// smaller value rejects more of the base of walls, but also loses ground next to them.
   float obstacle_margin = 0.06f;
   /// Height of an obstacle above the surface, metres, 0 to 2; see `obstacle_margin`.
   float obstacle_height = 0.72f;
