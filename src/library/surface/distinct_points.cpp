@@ -86,7 +86,7 @@ std::size_t copy_distinct(std::span<PackedPoint> points, PackedPoint* scratch,
     return HWY_DYNAMIC_DISPATCH(copy_unlike_earlier)(points, to);
   }
   const std::span<PackedPoint> sorted = sort_by_digits(points, scratch);
-  return static_cast<std::size_t>(std::unique_copy(sorted.begin(), sorted.end(), to) - to);
+  return static_cast<std::size_t>(std::ranges::unique_copy(sorted, to).out - to);
 }
 
 }  // namespace flagstone::surface
