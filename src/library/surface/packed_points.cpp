@@ -85,20 +85,24 @@ HWY_INLINE void copy_up_to_16(const PackedPoint* from, std::size_t count, Packed
 #endif
 }
 
-/// Copies `count` points.
-HWY_INLINE void copy_run(const PackedPoint* from, std::size_t count, PackedPoint* to) {
-  if (HWY_LIKELY(count <= 16)) {
-    copy_up_to_16(from, count, to);
-  } else {
-    std::memcpy(to, from, count * sizeof(PackedPoint));
+/// Copies a run of `count` points.
+struct CopyRun {
+  HWY_INLINE void operator()(const PackedPoint* from, std::size_t count, PackedPoint* to) const {
+    if (HWY_LIKELY(count <= 16)) {
+      copy_up_to_16(from, count, to);
+    } else {
+      std::memcpy(to, from, count * sizeof(PackedPoint));
+    }
   }
-}
+};
 
-/// As copy_run(), faster for single points.
-HWY_INLINE void copy_short_run(const PackedPoint* from, std::size_t count, PackedPoint* to) {
-  to[0] = from[0];
-  if (HWY_UNLIKELY(count > 1)) copy_run(from + 1, count - 1, to + 1);
-}
+/// As CopyRun, faster for single points.
+struct CopyShortRun {
+  HWY_INLINE void operator()(const PackedPoint* from, std::size_t count, PackedPoint* to) const {
+    to[0] = from[0];
+    if (HWY_UNLIKELY(count > 1)) CopyRun()(from + 1, count - 1, to + 1);
+  }
+};
 
 /// Copies each run to the next position of its cell, `next[cell]`, and advances it. Nearly all runs
 /// take one step of up to sixteen points, which avoids mispredicted branches. Points without an
@@ -118,9 +122,9 @@ void sort_runs(const plane_fits::ScanRuns::Chunk& runs, std::uint32_t* HWY_RESTR
   };
   const std::size_t point_count = starts[run_count] >> plane_fits::bin_bits;
   if (5 * run_count > 4 * point_count) {
-    copy_all(copy_short_run);
+    copy_all(CopyShortRun());
   } else {
-    copy_all(copy_run);
+    copy_all(CopyRun());
   }
 }
 
