@@ -90,7 +90,7 @@ class FieldConvention(NamedTuple):
     time: str | None
     """Field with the time of each point."""
     seconds_per_unit: float
-    """Seconds per unit of the time: 1 or 1e-9; 0 if there is no such field."""
+    """Seconds per unit of the time: 1 or 1e-9; 0 without such a field."""
     time_reference: str
     """Zero of the time: "header_stamp" (the time stamp of the message) or "clock" (the epoch of the sensor's clock)."""
     ring: str | None

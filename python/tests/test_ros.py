@@ -329,9 +329,9 @@ def test_wrong_arguments_are_errors() -> None:
         cloud.select(np.zeros(4, np.uint8))
     with pytest.raises(ValueError, match=r"mask: shape \(5,\)"):
         cloud.select(np.zeros(5, bool))
-    with pytest.raises(ValueError, match="there is no field 'x'"):
+    with pytest.raises(ValueError, match="no field 'x'"):
         _ = ros.parse(ros.serialize(np.zeros(4, [("a", "f4")]))).xyz
-    with pytest.raises(ValueError, match="there is no field 'x'"):
+    with pytest.raises(ValueError, match="no field 'x'"):
         flagstone.Surface().segment(ros.parse(ros.serialize(np.zeros(4, [("a", "f4")]))))
     with pytest.raises(ValueError, match="stamp: -1 is out of range"):
         ros.serialize(np.zeros((4, 3)), stamp=(0, -1))

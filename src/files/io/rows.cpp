@@ -50,7 +50,7 @@ Status check_coordinates(std::span<const Field> fields) {
         if (!present.empty()) present += ' ';
         present += quote(other.name);
       }
-      return invalid("there is no field {} (expected x, y and z; the fields are: {}{})",
+      return invalid("no field {} (expected x, y and z; the fields are: {}{})",
                      quote(name), present, fields.size() > 8 ? " ..." : "");
     }
     if (field->count != 1) {

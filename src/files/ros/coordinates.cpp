@@ -28,7 +28,7 @@ Status missing(const PointCloud2View& cloud, std::string_view name) {
   }
   if (cloud.fields.size() > most_named) names += " ...";
   return Status(StatusCode::bad_file,
-                fmt::format("there is no field {} (expected x, y and z; the fields are: {})",
+                fmt::format("no field {} (expected x, y and z; the fields are: {})",
                             io::quote(name), names.empty() ? "none" : names));
 }
 

@@ -19,7 +19,7 @@ struct Corrections {
 struct Candidate {
   std::uint32_t place;  ///< row * width + column
   float correction;     ///< metres
-  float weight;         ///< 0 if there is no correction
+  float weight;         ///< 0: no correction
 };
 
 /// Adds candidates to the corrections.

@@ -153,7 +153,7 @@ TEST(CoordinatesError, NamesTheMissingFieldAndThoseThatExist) {
   message.fields[2].name = "range";
   EXPECT_THAT(Viewed(message).status,
               fails(StatusCode::bad_file,
-                    HasSubstr("there is no field 'z' (expected x, y and z; the fields are: 'x' 'y' "
+                    HasSubstr("no field 'z' (expected x, y and z; the fields are: 'x' 'y' "
                               "'range' 'intensity' 'ring')")));
   message.fields.clear();
   EXPECT_THAT(Viewed(message).status,
