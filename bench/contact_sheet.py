@@ -40,8 +40,8 @@ KINDS = [
     ("fence", "#e08a35", (51,)),
     ("pole, sign", "#f2e8a0", (80, 81)),
     ("other object", "#3fc9c9", (99,)),
-    ("vehicle", "#5b8ff0", (10, 11, 13, 15, 18, 20)),
-    ("person, rider", "#ff5050", (30, 31, 32)),
+    ("vehicle", "#5b8ff0", (10, 13, 18, 20, 252, 257, 258, 259)),
+    ("person, rider", "#ff5050", (30, 31, 253, 254)),
     ("ghost point", "#ff30ff", (1,)),
 ]
 

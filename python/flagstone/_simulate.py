@@ -37,6 +37,8 @@ class SimulatedScan(NamedTuple):
     """Path of the true z of the ground at each point, metres."""
     returns: str
     """Path of the origin of each return (surface, rain, reflection and so on)."""
+    motion: str
+    """Path of the motion of the object at each point: 0 none, 1 later, 2 now."""
     points: int
     """Number of points."""
     ground_share: float
@@ -60,6 +62,9 @@ def simulate(
     weather: str | Sequence[str] = "clear",
     keep_no_returns: bool = False,
     frames: int = 200,
+    rate: float = 1,
+    speed: float = 8,
+    pose_noise: str = "none",
     seed: int = 1,
     sequence: str = "00",
     threads: int | None = None,
@@ -83,7 +88,10 @@ def simulate(
         noise: `"clean"`, `"default"` or `"harsh"`.
         weather: One or more of `"clear"`, `"wet"`, `"rain"` and `"dust"`.
         keep_no_returns: Write missing returns as points at (0, 0, 0), like many drivers.
-        frames: Number of scans, 1 to 100,000. A new environment starts every 10 scans.
+        frames: Number of scans, 1 to 100,000. A new environment starts every 80 m.
+        rate: Scans per second, 0.1 to 100. With 10, the scans are those of a continuous drive.
+        speed: Speed of the vehicle in m/s, 0.1 to 30. Traffic is as fast, compared with the vehicle, as at 8 m/s.
+        pose_noise: Errors of the poses in `poses_measured.txt`: `"none"` (no such file), `"jitter"` or `"drift"`.
         seed: Seed of the environments and the noise, 0 to 2**64 - 1.
         sequence: Name of the sequence, two digits. One directory can contain several sequences.
         threads: Number of scans to process in parallel, 1 to 1,024; all cores by default.
@@ -107,6 +115,9 @@ def simulate(
             listed(weather),
             keep_no_returns,
             frames,
+            float(rate),
+            float(speed),
+            pose_noise,
             seed,
             sequence,
             threads,
@@ -131,6 +142,7 @@ def _scan(folder: Path, frame: int, drive: int, position: npt.NDArray[np.float64
         labels=str(labels),
         ground=str(folder / "ground" / f"{name}.ground.npy"),
         returns=str(folder / "returns" / f"{name}.return.npy"),
+        motion=str(folder / "motion" / f"{name}.motion.npy"),
         points=len(classes),
         ground_share=float(np.isin(classes, _ground_classes).mean()) if len(classes) > 0 else float("nan"),
         x=x,

@@ -88,11 +88,11 @@ unsigned checked_threads(const std::optional<nb::int_>& threads) {
   return threads ? checked("threads", *threads, 1U, max_threads) : 0;
 }
 
-/// Writes a sequence of simulated scans and returns the number of frames per environment.
-int simulate(const std::string& output, const std::string& scene, const std::string& sensor,
+/// Writes a sequence of simulated scans and returns the number of scans per environment.
+std::size_t simulate(const std::string& output, const std::string& scene, const std::string& sensor,
              std::optional<double> sensor_height, const std::string& tilt, const std::string& noise,
              const std::vector<std::string>& weather, bool keep_no_returns, nb::int_ frames,
-             nb::int_ seed, const std::string& sequence, const std::optional<nb::int_>& threads,
+             double rate, double speed, const std::string& pose_noise, nb::int_ seed, const std::string& sequence, const std::optional<nb::int_>& threads,
              nb::object draw, std::size_t columns) {
   const app::SimulateOptions options{
       .output = output,
@@ -104,12 +104,14 @@ int simulate(const std::string& output, const std::string& scene, const std::str
       .weather = weather,
       .keep_no_returns = keep_no_returns,
       .frames = checked<std::size_t>("frames", frames, 1, app::max_frames),
+      .pace = {.rate = rate, .speed = speed},
+      .pose_noise = pose_noise,
       .seed = checked<std::uint64_t>("seed", seed, 0, std::numeric_limits<std::uint64_t>::max()),
       .sequence = sequence,
       .threads = checked_threads(threads)};
   run({std::move(draw), columns},
       [&](const app::RunCallbacks& callbacks) { app::simulate(options, callbacks); });
-  return sim::frames_per_drive;
+  return options.pace.frames();
 }
 
 /// Settings of methods and of the mounting pose, by name.
@@ -178,8 +180,9 @@ nb::typed<nb::tuple, std::string, nb::bytes, std::vector<std::string>> evaluate(
 void bind_runs(nb::module_& module) {
   module.def("simulate", &simulate, nb::arg("output"), nb::arg("scene"), nb::arg("sensor"),
              nb::arg("sensor_height").none(), nb::arg("tilt"), nb::arg("noise"), nb::arg("weather"),
-             nb::arg("keep_no_returns"), nb::arg("frames"), nb::arg("seed"), nb::arg("sequence"),
-             nb::arg("threads").none(), nb::arg("draw").none(), nb::arg("terminal_columns"));
+             nb::arg("keep_no_returns"), nb::arg("frames"), nb::arg("rate"), nb::arg("speed"),
+             nb::arg("pose_noise"), nb::arg("seed"), nb::arg("sequence"), nb::arg("threads").none(),
+             nb::arg("draw").none(), nb::arg("terminal_columns"));
   module.def("evaluate", &evaluate, nb::arg("datasets"), nb::arg("methods"), nb::arg("protocol"),
              nb::arg("sequences"), nb::arg("every"), nb::arg("columns").none(), nb::arg("sensor"),
              nb::arg("sensor_height").none(), nb::arg("tilt").none(), nb::arg("preset"),

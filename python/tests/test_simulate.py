@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -71,6 +72,9 @@ def test_every_argument_reaches_the_simulator(tmp_path: Path) -> None:
         weather=["rain", "dust"],
         keep_no_returns=True,
         frames=1,
+        rate=10,
+        speed=5,
+        pose_noise="drift",
         seed=9,
         threads=1,
     )
@@ -78,6 +82,19 @@ def test_every_argument_reaches_the_simulator(tmp_path: Path) -> None:
     assert made["mount"] == {"height": 2.5, "pitch": 15, "roll": -5}
     assert (made["scene"], made["sensor"]["name"], made["noise"]["name"]) == ("park", "vlp-16", "harsh")
     assert (made["weather"], made["no_returns_kept"], made["seed"]) == (["rain", "dust"], True, 9)
+    assert (made["rate"], made["speed"], made["pose_noise"]) == (10, 5, "drift")
+
+
+def test_a_continuous_drive_has_more_scans_per_environment_and_marks_what_moves(tmp_path: Path) -> None:
+    scans = flagstone.simulate(tmp_path, scene="urban_street", sensor="vlp-16", rate=2, frames=20, seed=2)
+
+    assert [scan.drive for scan in scans] == [0] * 19 + [1]
+    assert [after.x - before.x for before, after in pairwise(scans[:19])] == pytest.approx([4] * 18, abs=1.2)
+    motion = np.load(scans[5].motion)
+    classes = np.fromfile(scans[5].labels, "<u4")
+    assert motion.shape == (scans[5].points,)
+    assert (motion == 2).any()
+    np.testing.assert_array_equal(motion == 2, classes >= 252)
 
 
 @pytest.mark.parametrize(
@@ -88,6 +105,9 @@ def test_every_argument_reaches_the_simulator(tmp_path: Path) -> None:
         ({"weather": "hail"}, "weather: no weather is named 'hail' \\(expected clear"),
         ({"tilt": (1,)}, "tilt: '1' is not PITCH,ROLL"),
         ({"frames": 0}, "frames: 0 is out of range \\(expected 1 to 100000\\)"),
+        ({"rate": 0}, "rate: 0 is out of range \\(expected 0.1 to 100 scans per second\\)"),
+        ({"speed": float("nan")}, "speed: nan is out of range"),
+        ({"pose_noise": "jiter"}, "pose-noise: no pose noise is named 'jiter' \\(did you mean 'jitter'|expected none"),
         ({"seed": 2**64}, "seed: 18446744073709551616 is out of range"),
         ({"seed": -1}, "seed: -1 is out of range"),
         ({"sensor_height": float("nan")}, "sensor_height: nan is out of range"),

@@ -20,13 +20,12 @@
 #include "flagstone/sensor.hpp"
 #include "lab/sim/drive.hpp"
 #include "lab/sim/noise.hpp"
+#include "lab/sim/pose_noise.hpp"
 #include "lab/sim/scene.hpp"
 #include "library/core/did_you_mean.hpp"
 
 namespace flagstone::app {
 namespace {
-
-constexpr std::size_t drive_length = sim::frames_per_drive;
 
 /// An error that lists the names of `all` and suggests the closest one.
 std::invalid_argument unknown_name(std::string_view option, std::string_view kind,
@@ -75,6 +74,13 @@ sim::Mounting mounting_of(const SimulateOptions& options, const Sensor& sensor) 
   return mounting;
 }
 
+void check_range(std::string_view option, double value, double minimum, double maximum,
+                 std::string_view unit) {
+  if (value >= minimum && value <= maximum) return;  // false for NaN
+  throw std::invalid_argument(fmt::format("{}: {} is out of range (expected {} to {} {})", option,
+                                          value, minimum, maximum, unit));
+}
+
 Sensor sensor_found(const std::string& name_or_file) {
   Sensor sensor;
   if (const Status status = io::find_sensor(name_or_file, sensor); !status.ok()) {
@@ -95,6 +101,11 @@ SequenceOrigin origin_of(const SimulateOptions& options) {
     if (weather == nullptr) throw unknown_name("--weather", "weather", name, sim::weathers());
     weather->add_to(noise);
   }
+  if (sim::find_pose_noise(options.pose_noise) == nullptr) {
+    throw unknown_name("--pose-noise", "pose noise", options.pose_noise, sim::pose_noises());
+  }
+  check_range("--rate", options.pace.rate, min_rate, max_rate, "scans per second");
+  check_range("--speed", options.pace.speed, min_speed, max_speed, "m/s");
   return {.scene = options.scene,
           .sensor = sensor,
           .mounting = mounting_of(options, sensor),
@@ -102,6 +113,8 @@ SequenceOrigin origin_of(const SimulateOptions& options) {
           .weather = options.weather,
           .noise = noise,
           .keep_no_returns = options.keep_no_returns,
+          .pace = options.pace,
+          .pose_noise = options.pose_noise,
           .seed = options.seed,
           .frames = options.frames};
 }
@@ -115,23 +128,25 @@ class SequenceRun {
       : files_(files),
         scene_(scene),
         origin_(origin),
-        worlds_((origin.frames + drive_length - 1) / drive_length) {
+        drive_length_(origin.pace.frames()),
+        worlds_((origin.frames + drive_length_ - 1) / drive_length_) {
     for (std::size_t frame = 0; frame < origin.frames; ++frame) {
       if (files.has(frame)) continue;
       missing_.push_back(frame);
-      ++worlds_[frame / drive_length].frames_left;
+      ++worlds_[frame / drive_length_].frames_left;
     }
   }
 
   [[nodiscard]] std::size_t missing() const noexcept { return missing_.size(); }
+  [[nodiscard]] std::size_t environments() const noexcept { return worlds_.size(); }
 
   RunOutcome run(unsigned threads, const RunCallbacks& callbacks) {
     // Each thread starts with a different environment, so that they are built in parallel. All
     // threads share the last environments.
     const std::size_t side_by_side = threads_or_cores(threads);
     std::ranges::sort(missing_, {}, [&](std::size_t frame) {
-      const std::size_t drive = frame / drive_length;
-      return std::tuple(drive / side_by_side, frame % drive_length, drive);
+      const std::size_t drive = frame / drive_length_;
+      return std::tuple(drive / side_by_side, frame % drive_length_, drive);
     });
     return run_in_order(
         missing_.size(), threads, "scans", callbacks,
@@ -144,14 +159,22 @@ class SequenceRun {
         [](std::size_t, bool) {});
   }
 
-  /// Pose of the sensor in its environment, for every frame.
-  [[nodiscard]] std::vector<sim::Frame> poses() const {
-    std::vector<sim::Frame> poses;
+  /// Pose of the sensor in its environment, for every frame, exact and as an odometry measures it.
+  struct Poses {
+    std::vector<sim::Frame> exact, measured;
+  };
+  [[nodiscard]] Poses poses() const {
+    const sim::PoseNoise& noise = *sim::find_pose_noise(origin_.pose_noise);
+    Poses poses;
     for (std::size_t index = 0; index < worlds_.size(); ++index) {
-      const std::vector<sim::Frame> of_drive = drive(index).poses();
-      poses.insert(poses.end(), of_drive.begin(), of_drive.end());
+      const std::vector<sim::Frame> exact = drive(index).poses();
+      const std::vector<sim::Frame> measured =
+          measured_poses(exact, noise, sim::drive_seed(origin_.seed, index));
+      poses.exact.insert(poses.exact.end(), exact.begin(), exact.end());
+      poses.measured.insert(poses.measured.end(), measured.begin(), measured.end());
     }
-    poses.resize(origin_.frames);
+    poses.exact.resize(origin_.frames);
+    poses.measured.resize(origin_.frames);
     return poses;
   }
 
@@ -166,19 +189,20 @@ class SequenceRun {
   };
 
   [[nodiscard]] sim::Drive drive(std::size_t index) const {
-    return {scene_, origin_.sensor, origin_.mounting, sim::drive_seed(origin_.seed, index)};
+    return {scene_, origin_.sensor, origin_.mounting, sim::drive_seed(origin_.seed, index),
+            origin_.pace};
   }
 
   void simulate(std::size_t frame) {
-    World& world = worlds_[frame / drive_length];
+    World& world = worlds_[frame / drive_length_];
     std::call_once(world.built, [&] {
-      world.drive = std::make_unique<sim::Drive>(drive(frame / drive_length));
+      world.drive = std::make_unique<sim::Drive>(drive(frame / drive_length_));
       world.scene = std::make_unique<sim::Scene>(world.drive->scene());
     });
-    const int stop = static_cast<int>(frame % drive_length);
+    const int number = static_cast<int>(frame % drive_length_);
     const sim::SimulatedScan scan =
-        world.drive->scan(*world.scene, origin_.noise, stop, origin_.keep_no_returns);
-    files_.write(frame, scan, world.drive->ground_of(scan, stop));
+        world.drive->scan(*world.scene, origin_.noise, number, origin_.keep_no_returns);
+    files_.write(frame, scan, world.drive->ground_of(scan, number));
     if (--world.frames_left == 0) {
       world.scene.reset();
       world.drive.reset();
@@ -188,6 +212,7 @@ class SequenceRun {
   const SimulatedSequence& files_;
   const sim::SceneKind& scene_;
   const SequenceOrigin& origin_;
+  std::size_t drive_length_;     // frames per environment
   std::vector<World> worlds_;  // by index of the environment
   std::vector<std::size_t> missing_;
 };
@@ -210,7 +235,8 @@ Simulation simulate(const SimulateOptions& options, const RunCallbacks& callback
   const RunOutcome run = sequence.run(options.threads, callbacks);
   Simulation simulation{.folder = files.folder(),
                         .sensor = origin.sensor.name,
-                        .drives = (options.frames + drive_length - 1) / drive_length,
+                        .drives = sequence.environments(),
+                        .frames_per_environment = origin.pace.frames(),
                         .simulated = run.done,
                         .kept = options.frames - sequence.missing(),
                         .interrupted = run.done < sequence.missing()};
@@ -219,7 +245,9 @@ Simulation simulate(const SimulateOptions& options, const RunCallbacks& callback
         fmt::format("interrupted: {} of {} frames are done (run the command again for all)",
                     simulation.kept + simulation.simulated, options.frames));
   } else {
-    files.write_poses(sequence.poses());
+    const SequenceRun::Poses poses = sequence.poses();
+    files.write_poses("poses.txt", poses.exact);
+    if (options.pose_noise != "none") files.write_poses("poses_measured.txt", poses.measured);
   }
   return simulation;
 }

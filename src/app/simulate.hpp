@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/run.hpp"
+#include "lab/sim/drive.hpp"
 
 namespace flagstone::app {
 
@@ -18,6 +19,8 @@ namespace flagstone::app {
 inline constexpr std::size_t max_frames = 100000;
 inline constexpr double max_simulated_height = 100;  ///< metres
 inline constexpr double max_simulated_tilt = 90;     ///< degrees
+inline constexpr double min_rate = 0.1, max_rate = 100;  ///< scans per second
+inline constexpr double min_speed = 0.1, max_speed = 30;  ///< m/s
 /// @}
 
 struct SimulateOptions {
@@ -30,6 +33,8 @@ struct SimulateOptions {
   std::vector<std::string> weather{"clear"};  ///< names of sim::Weather
   bool keep_no_returns = false;               ///< write missing returns as points at (0, 0, 0)
   std::size_t frames = 200;                   ///< 1 to max_frames
+  sim::Pace pace;                             ///< rate and speed, within the limits above
+  std::string pose_noise = "none";            ///< name of a sim::PoseNoise
   std::uint64_t seed = 1;
   std::string sequence = "00";  ///< two digits
   unsigned threads = 0;         ///< 0: all cores
@@ -39,7 +44,8 @@ struct SimulateOptions {
 struct Simulation {
   std::filesystem::path folder;  ///< OUTPUT/sequences/NN
   std::string sensor;            ///< name
-  std::size_t drives = 0;
+  std::size_t drives = 0;                   ///< environments
+  std::size_t frames_per_environment = 0;
   std::size_t simulated = 0;  ///< frames
   std::size_t kept = 0;       ///< frames that already existed
   bool interrupted = false;   ///< a message reports it; the same call resumes

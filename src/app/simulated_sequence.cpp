@@ -84,44 +84,57 @@ Json origin_json(const SequenceOrigin& origin) {
           {"noise", noise_json(origin)},
           {"weather", origin.weather},
           {"no_returns_kept", origin.keep_no_returns},
+          {"rate", origin.pace.rate},
+          {"speed", origin.pace.speed},
+          {"pose_noise", origin.pose_noise},
           {"sensor", sensor_json(origin.sensor)}};
 }
 
 // The meaning of the codes in label files.
 Json class_json() {
   Json classes = {{"0", "unlabeled"}};
-  for (int code = 1; code < 256; ++code) {
+  for (int code = 1; code <= static_cast<int>(sim::SemanticClass::moving_other_vehicle); ++code) {
     const auto name = sim::name_of(static_cast<sim::SemanticClass>(code));
     if (!name.empty()) classes[std::to_string(code)] = name;
   }
   return classes;
 }
 
-// The meaning of the codes in return files.
-Json return_kinds_json() {
-  Json kinds = Json::object();
-  for (std::size_t code = 0; code < sim::echo_kind_names.size(); ++code) {
-    kinds[std::to_string(code)] = sim::echo_kind_names[code];
-  }
-  return kinds;
+// The meaning of the codes in files of returns and motions.
+Json codes_json(std::span<const std::string_view> names) {
+  Json codes = Json::object();
+  for (std::size_t code = 0; code < names.size(); ++code) codes[std::to_string(code)] = names[code];
+  return codes;
+}
+
+// A uint8 array.
+template <class Code>
+std::string codes_text(std::span<const Code> codes) {
+  std::string text = io::npy_header(io::FieldType::uint8, codes.size());
+  for (const Code code : codes) text += static_cast<char>(code);
+  return text;
 }
 
 std::string scene_text(const SequenceOrigin& origin) {
   Json scene = origin_json(origin);
   scene["frames"] = origin.frames;
   Json drives = Json::array();
-  for (std::size_t first = 0; first < origin.frames; first += sim::frames_per_drive) {
+  const std::size_t per_drive = origin.pace.frames();
+  for (std::size_t first = 0; first < origin.frames; first += per_drive) {
     drives.push_back({{"first_frame", first},
-                      {"world_seed", sim::drive_seed(origin.seed, first / sim::frames_per_drive)}});
+                      {"world_seed", sim::drive_seed(origin.seed, first / per_drive)}});
   }
   scene["drives"] = drives;
   scene["files"] = {{"scans", "velodyne/NNNNNN.bin"},
                     {"labels", "labels/NNNNNN.label"},
                     {"ground", "ground/NNNNNN.ground.npy"},
                     {"returns", "returns/NNNNNN.return.npy"},
+                    {"motion", "motion/NNNNNN.motion.npy"},
                     {"poses", "poses.txt"}};
+  if (origin.pose_noise != "none") scene["files"]["measured_poses"] = "poses_measured.txt";
   scene["classes"] = class_json();
-  scene["return_kinds"] = return_kinds_json();
+  scene["return_kinds"] = codes_json(sim::echo_kind_names);
+  scene["motions"] = codes_json(sim::motion_names);
   return scene.dump(1) + '\n';
 }
 
@@ -194,21 +207,26 @@ void SimulatedSequence::begin(const SequenceOrigin& origin) const {
   make_folder(folder_ / "labels");
   make_folder(folder_ / "ground");
   make_folder(folder_ / "returns");
+  make_folder(folder_ / "motion");
 }
 
 fs::path SimulatedSequence::return_file(std::size_t frame) const {
   return folder_ / "returns" / fmt::format("{:06}.return.npy", frame);
 }
 
+fs::path SimulatedSequence::motion_file(std::size_t frame) const {
+  return folder_ / "motion" / fmt::format("{:06}.motion.npy", frame);
+}
+
 bool SimulatedSequence::has(std::size_t frame) const {
   constexpr std::uintmax_t scan_bytes = 4 * sizeof(float);
   const std::uintmax_t scan = size_of(scan_file(frame));
   const std::uintmax_t points = scan / scan_bytes;
+  const std::uintmax_t code_bytes = io::npy_header(io::FieldType::uint8, points).size() + points;
   return scan > 0 && scan % scan_bytes == 0 &&
          size_of(label_file(frame)) == points * sizeof(std::uint32_t) &&
          size_of(ground_file(frame)) == io::height_file_size(points) &&
-         size_of(return_file(frame)) ==
-             io::npy_header(io::FieldType::uint8, points).size() + points;
+         size_of(return_file(frame)) == code_bytes && size_of(motion_file(frame)) == code_bytes;
 }
 
 void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan,
@@ -218,12 +236,11 @@ void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan,
   must(io::write_cloud(scan_file(frame), cloud));
   must(io::write_class_file(label_file(frame), scan.classes));
   must(io::write_npy_file(ground_file(frame), ground, std::array{ground.size()}));
-  std::string returns = io::npy_header(io::FieldType::uint8, scan.echoes.size());
-  for (const sim::EchoKind kind : scan.echoes) returns += static_cast<char>(kind);
-  must(io::write_file(return_file(frame), returns));
+  must(io::write_file(return_file(frame), codes_text<sim::EchoKind>(scan.echoes)));
+  must(io::write_file(motion_file(frame), codes_text<sim::Motion>(scan.motions)));
 }
 
-void SimulatedSequence::write_poses(std::span<const sim::Frame> poses) const {
+void SimulatedSequence::write_poses(const char* name, std::span<const sim::Frame> poses) const {
   std::string text;
   for (const sim::Frame& pose : poses) {
     const auto& [o, f, l, u] = pose;
@@ -231,7 +248,7 @@ void SimulatedSequence::write_poses(std::span<const sim::Frame> poses) const {
     text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} ", f.y, l.y, u.y, o.y);
     text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", f.z, l.z, u.z, o.z);
   }
-  must(io::write_file(folder_ / "poses.txt", text));
+  must(io::write_file(folder_ / name, text));
 }
 
 }  // namespace flagstone::app

@@ -25,14 +25,17 @@ struct SequenceOrigin {
   std::vector<std::string> weather;  ///< names of sim::Weather; all apply together
   sim::Noise noise;                  ///< result of noise level and weather
   bool keep_no_returns = false;
+  sim::Pace pace;
+  std::string pose_noise = "none";  ///< of a sim::PoseNoise
   std::uint64_t seed = 0;
   std::size_t frames = 0;
 };
 
 /// The files of a simulated sequence, in the layout of SemanticKITTI: velodyne/NNNNNN.bin,
 /// labels/NNNNNN.label, poses.txt and calib.txt. In addition: ground/NNNNNN.ground.npy, the true
-/// ground height at each point; returns/NNNNNN.return.npy, the kind of each return; and scene.json,
-/// the SequenceOrigin. Files are written atomically. Errors throw std::runtime_error.
+/// ground height at each point; returns/NNNNNN.return.npy, the kind of each return;
+/// motion/NNNNNN.motion.npy, the motion of the object at each point; and scene.json, the
+/// SequenceOrigin. Files are written atomically. Errors throw std::runtime_error.
 class SimulatedSequence {
  public:
   explicit SimulatedSequence(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -43,22 +46,23 @@ class SimulatedSequence {
   /// the directory contains other data, or more frames than `origin` has.
   void begin(const SequenceOrigin& origin) const;
 
-  /// True if scan, labels, ground and returns exist and their sizes match.
+  /// True if scan, labels, ground, returns and motion exist and their sizes match.
   [[nodiscard]] bool has(std::size_t frame) const;
 
   /// `ground`: sim::true_ground() of the scan.
   void write(std::size_t frame, const sim::SimulatedScan& scan,
              std::span<const float> ground) const;
 
-  /// Writes poses.txt: per frame one line with the rows of the 3x4 matrix from the sensor to its
+  /// Writes a file of poses: per frame one line with the rows of the 3x4 matrix from the sensor to its
   /// environment.
-  void write_poses(std::span<const sim::Frame> poses) const;
+  void write_poses(const char* name, std::span<const sim::Frame> poses) const;
 
  private:
   [[nodiscard]] std::filesystem::path scan_file(std::size_t frame) const;
   [[nodiscard]] std::filesystem::path label_file(std::size_t frame) const;
   [[nodiscard]] std::filesystem::path ground_file(std::size_t frame) const;
   [[nodiscard]] std::filesystem::path return_file(std::size_t frame) const;
+  [[nodiscard]] std::filesystem::path motion_file(std::size_t frame) const;
   void refuse_others(const SequenceOrigin& origin) const;
 
   std::filesystem::path folder_;

@@ -19,6 +19,7 @@
 #include "flagstone/sensor.hpp"
 #include "lab/sim/drive.hpp"
 #include "lab/sim/noise.hpp"
+#include "lab/sim/pose_noise.hpp"
 #include "lab/sim/scene.hpp"
 #include "library/core/stopwatch.hpp"
 
@@ -43,7 +44,8 @@ Help help_text() {
           {{"flagstone simulate --scene flat_street --output simulated"},
            {"flagstone simulate --scene steep_street --sensor vlp-16 --weather rain -o out"}},
       .lists = {summaries("Scenes", sim::scene_kinds()), summaries("Noise", sim::noise_levels()),
-                summaries("Weather", sim::weathers()), sensors},
+                summaries("Weather", sim::weathers()),
+                summaries("Pose noise", sim::pose_noises()), sensors},
       .notes =
           "The output is a SemanticKITTI sequence with exact ground truth. The output "
           "depends only on the options. Frames that already exist are kept, so the same command "
@@ -90,10 +92,30 @@ std::unique_ptr<Command> add_simulate_command(CLI::App& app) {
       ->type_name("NAME");
   command
       ->add_option("--frames", options->frames,
-                   fmt::format("Number of scans, 1 to {}; every {} scans a new environment",
-                               app::max_frames, sim::frames_per_drive))
+                   fmt::format("Number of scans, 1 to {}; every {:g} m a new environment",
+                               app::max_frames, sim::frames_per_drive * sim::frame_spacing))
       ->check(in_range(std::size_t{1}, app::max_frames))
       ->type_name("N")
+      ->capture_default_str();
+  command
+      ->add_option("--rate", options->pace.rate,
+                   fmt::format("Scans per second, {} to {}; with 10, a continuous drive",
+                               app::min_rate, app::max_rate))
+      ->check(in_range(app::min_rate, app::max_rate))
+      ->type_name("HZ")
+      ->capture_default_str();
+  command
+      ->add_option("--speed", options->pace.speed,
+                   fmt::format("Speed of the vehicle in m/s, {} to {}; traffic is as fast, compared "
+                               "with the vehicle, as at 8 m/s",
+                               app::min_speed, app::max_speed))
+      ->check(in_range(app::min_speed, app::max_speed))
+      ->type_name("M/S")
+      ->capture_default_str();
+  command
+      ->add_option("--pose-noise", options->pose_noise,
+                   "Errors of the poses in poses_measured.txt; see Pose noise below")
+      ->type_name("NAME")
       ->capture_default_str();
   command->add_option("--noise", options->noise, "Measurement errors; see Noise below")
       ->type_name("NAME")
@@ -131,7 +153,7 @@ std::unique_ptr<Command> add_simulate_command(CLI::App& app) {
   command
       ->add_option("-o,--output", options->output,
                    "Output directory, created if it does not exist; gets sequences/NN with "
-                   "velodyne, labels, ground and returns")
+                   "velodyne, labels, ground, returns and motion")
       ->required()
       ->type_name("DIR");
   command

@@ -58,6 +58,8 @@ TEST(SimulateCommand, WritesASequenceInTheLayoutOfSemanticKitti) {
               ElementsAre("sequences/07/calib.txt", "sequences/07/ground/000000.ground.npy",
                           "sequences/07/ground/000001.ground.npy",
                           "sequences/07/labels/000000.label", "sequences/07/labels/000001.label",
+                          "sequences/07/motion/000000.motion.npy",
+                          "sequences/07/motion/000001.motion.npy",
                           "sequences/07/poses.txt", "sequences/07/returns/000000.return.npy",
                           "sequences/07/returns/000001.return.npy", "sequences/07/scene.json",
                           "sequences/07/velodyne/000000.bin", "sequences/07/velodyne/000001.bin"));
@@ -142,6 +144,72 @@ TEST(SimulateCommand, WritesTheKindOfEveryReturnInTheRain) {
   EXPECT_EQ(scene["files"]["returns"], "returns/NNNNNN.return.npy");
 }
 
+// The numbers of each line.
+std::vector<std::vector<double>> poses_of(const std::string& text) {
+  std::vector<std::vector<double>> poses;
+  for (const std::string& line : lines_of(text)) {
+    std::istringstream numbers(line);
+    poses.emplace_back(std::istream_iterator<double>(numbers), std::istream_iterator<double>());
+  }
+  return poses;
+}
+
+TEST(SimulateCommand, WritesAContinuousDriveWithMovingTraffic) {
+  const io::TemporaryFolder folder;
+
+  const Outcome outcome =
+      simulate(folder / "out", "urban_street",
+               {"--frames", "3", "--rate", "10", "--sensor", "vlp-16", "--noise", "clean",
+                "--pose-noise", "jitter"});
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const fs::path sequence = folder / "out" / "sequences" / "00";
+  auto files = files_below(sequence);
+  const auto exact = poses_of(files["poses.txt"]);
+  const auto measured = poses_of(files["poses_measured.txt"]);
+  ASSERT_THAT(exact, SizeIs(3));
+  ASSERT_THAT(measured, SizeIs(3));
+  constexpr std::size_t x = 3;
+  EXPECT_NEAR(exact[2][x] - exact[0][x], 1.6, 0.4) << "0.8 m between scans";
+  EXPECT_NE(measured[2][x], exact[2][x]);
+  EXPECT_NEAR(measured[2][x], exact[2][x], 0.1);
+  const std::size_t points = files["velodyne/000002.bin"].size() / 16;
+  std::vector<std::uint32_t> motion;
+  std::vector<std::uint32_t> classes;
+  ASSERT_THAT(io::read_reference(sequence / "motion" / "000002.motion.npy", points, motion),
+              io::is_ok());
+  ASSERT_THAT(io::read_reference(sequence / "labels" / "000002.label", points, classes),
+              io::is_ok());
+  std::size_t moving = 0;
+  for (std::size_t i = 0; i < points; ++i) {
+    constexpr std::uint32_t now = 2;
+    ASSERT_EQ(classes[i] >= 252, motion[i] == now);
+    moving += motion[i] == now ? 1 : 0;
+  }
+  EXPECT_GT(moving, 100U);
+  const auto scene = nlohmann::json::parse(files["scene.json"]);
+  EXPECT_EQ(scene["rate"], 10);
+  EXPECT_EQ(scene["speed"], 8);
+  EXPECT_EQ(scene["pose_noise"], "jitter");
+  EXPECT_EQ(scene["classes"]["252"], "moving-car");
+  EXPECT_EQ(scene["motions"]["2"], "now");
+}
+
+TEST(SimulateCommand, RejectsARateOrSpeedOutOfRange) {
+  const io::TemporaryFolder folder;
+  for (const auto& [option, value] :
+       {std::pair{"--rate", "0"}, {"--rate", "nan"}, {"--rate", "101"}, {"--speed", "31"}}) {
+    const Outcome outcome = simulate(folder / "out", "steps", {option, value});
+
+    EXPECT_EQ(outcome.exit_code, 2) << option << ' ' << value;
+    EXPECT_THAT(outcome.err, HasSubstr(option));
+  }
+  const Outcome unknown = simulate(folder / "out", "steps", {"--pose-noise", "jiter"});
+
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("jitter"));
+}
+
 TEST(SimulateCommand, ReadsASensorFromAFile) {
   const io::TemporaryFolder folder;
   io::put_file(folder / "mine.toml",
@@ -171,13 +239,14 @@ TEST(SimulateCommand, OutputDoesNotDependOnThreadsOrExistingFrames) {
   fs::resize_file(resumed / "labels" / "000002.label", 1000);
   fs::remove(resumed / "ground" / "000003.ground.npy");
   fs::resize_file(resumed / "returns" / "000004.return.npy", 200);
+  fs::remove(resumed / "motion" / "000000.motion.npy");
   const Outcome finished =
       simulate(folder / "resumed", "bumpy_field", {"--frames", "12", "--threads", "2"});
 
   EXPECT_EQ(whole.exit_code, 0) << whole.err;
   EXPECT_EQ(begun.exit_code, 0) << begun.err;
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_THAT(finished.out, HasSubstr("12 frames in 2 environments, 11 simulated, 1 kept"));
+  EXPECT_THAT(finished.out, HasSubstr("12 frames in 2 environments, 12 simulated, 0 kept"));
   const auto expected = files_below(folder / "whole");
   const auto files = files_below(folder / "resumed");
   EXPECT_THAT(files, SizeIs(expected.size()));

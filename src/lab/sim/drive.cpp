@@ -41,9 +41,17 @@ std::uint64_t drive_seed(std::uint64_t sequence_seed, std::uint64_t index) noexc
   return Random::stream(sequence_seed, index).bits();
 }
 
-Drive::Drive(const SceneKind& kind, Sensor sensor, const Mounting& mounting, std::uint64_t seed)
-    : sensor_(std::move(sensor)), seed_(seed), landscape_(kind.make(seed)) {
-  for (const Stop& stop : landscape_.route) {
+std::size_t Pace::frames() const noexcept {
+  constexpr double rounding = 1e-9;
+  return 1 + static_cast<std::size_t>((frames_per_drive - 1) / stops_per_frame() + rounding);
+}
+
+Drive::Drive(const SceneKind& kind, Sensor sensor, const Mounting& mounting, std::uint64_t seed,
+             const Pace& pace)
+    : sensor_(std::move(sensor)), seed_(seed), pace_(pace), landscape_(kind.make(seed)) {
+  for (std::size_t frame = 0; frame < pace.frames(); ++frame) {
+    const Stop stop =
+        between_stops(landscape_.route, static_cast<double>(frame) * pace.stops_per_frame());
     const Frame vehicle = vehicle_pose(landscape_.ground, stop.x, stop.y, stop.yaw);
     poses_.push_back(sensor_pose(vehicle, mounting));
     upward_.push_back(vehicle.up);
@@ -58,7 +66,10 @@ SimulatedScan Drive::scan(const Scene& scene, const Noise& noise, int frame,
   // Stream 0 of the seed is used for the scene.
   const std::uint64_t noise_seed = Random::stream(seed_, index + 1).bits();
   std::optional<RayCaster> moving;
-  if (landscape_.moving) moving.emplace(landscape_.moving(landscape_.ground, frame));
+  if (landscape_.moving) {
+    const double seconds = frame * pace_.stops_per_frame() * stop_interval;
+    moving.emplace(landscape_.moving(landscape_.ground, seconds));
+  }
   return simulate(
       scene, sensor_, noise, poses_[index], noise_seed,
       {.number = frame, .moving = moving ? &*moving : nullptr, .keep_no_returns = keep_no_returns});

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,7 +11,9 @@
 #include "lab/sim/geometry.hpp"
 #include "lab/sim/ground.hpp"
 #include "lab/sim/scan.hpp"
+#include "lab/sim/route.hpp"
 #include "lab/sim/scene.hpp"
+#include "lab/sim/traffic.hpp"
 
 namespace flagstone::sim {
 
@@ -36,17 +39,34 @@ Frame sensor_pose(const Ground& ground, const Sensor& sensor, double x, double y
 /// depend on the number of runs.
 std::uint64_t drive_seed(std::uint64_t sequence_seed, std::uint64_t index) noexcept;
 
-/// A run: frames_per_drive stops of a sensor in one scene. The constructor computes the poses;
-/// scene() builds the scene. Const functions are thread-safe.
+/// How often a sensor measures on its way through a scene.
+struct Pace {
+  double rate = 1 / stop_interval;  ///< scans per second
+  double speed = own_speed;         ///< of the vehicle, m/s
+
+  /// Number of stop intervals, of frame_spacing metres, between two scans.
+  [[nodiscard]] double stops_per_frame() const noexcept { return speed / rate / frame_spacing; }
+
+  /// Number of scans in one scene: frames_per_drive at the default pace.
+  [[nodiscard]] std::size_t frames() const noexcept;
+
+  friend bool operator==(const Pace&, const Pace&) = default;
+};
+
+/// A run: the scans of a sensor on its way through one scene. The vehicle passes the stops of the
+/// scene, and between them follows between_stops(). Everything that moves in the scene is as fast,
+/// compared with the vehicle, as at own_speed. The constructor computes the poses; scene() builds
+/// the scene. Const functions are thread-safe.
 class Drive {
  public:
   /// A run with a sensor that is mounted upright at its usual height.
   Drive(const SceneKind& kind, const Sensor& sensor, std::uint64_t seed)
       : Drive(kind, sensor, {.height = sensor.height}, seed) {}
 
-  Drive(const SceneKind& kind, Sensor sensor, const Mounting& mounting, std::uint64_t seed);
+  Drive(const SceneKind& kind, Sensor sensor, const Mounting& mounting, std::uint64_t seed,
+        const Pace& pace = {});
 
-  /// Pose of the sensor in the world frame at each stop.
+  /// Pose of the sensor in the world frame at each scan.
   [[nodiscard]] const std::vector<Frame>& poses() const noexcept { return poses_; }
 
   /// The known steps of the ground; empty in most scenes.
@@ -56,7 +76,7 @@ class Drive {
   /// second.
   [[nodiscard]] Scene scene() const;
 
-  /// The scan at a stop, 0 <= frame < frames_per_drive, of the scene and the moving objects in it.
+  /// A scan, 0 <= frame < pace.frames(), of the scene and the moving objects in it.
   /// Several threads may call it at the same time.
   [[nodiscard]] SimulatedScan scan(const Scene& scene, const Noise& noise, int frame,
                                    bool keep_no_returns = false) const;
@@ -68,6 +88,7 @@ class Drive {
  private:
   Sensor sensor_;
   std::uint64_t seed_;
+  Pace pace_;
   Landscape landscape_;
   std::vector<Frame> poses_;     // of the sensor
   std::vector<Vector3> upward_;  // z axes of the vehicle

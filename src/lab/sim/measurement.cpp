@@ -251,8 +251,10 @@ std::optional<Echo> Measurement::echo_of_surface(Vector3 direction, const Meetin
   if (gets_wet(met.surface->semantic)) reflectivity *= 1 - darker_when_wet * noise_.wetness;
   reflectivity *= air_.transmission(direction, met.range);
   if (!is_detected(noise_, met.range, reflectivity, met.incidence, random)) return std::nullopt;
-  return reported(met.range, reflectivity, met.incidence, met.surface->semantic, EchoKind::surface,
-                  random);
+  auto echo = reported(met.range, reflectivity, met.incidence, labelled_class(*met.surface),
+                       EchoKind::surface, random);
+  if (echo) echo->motion = met.surface->motion;
+  return echo;
 }
 
 // Smooth surfaces reflect a tenth of a mirror's light at right angles, and all of it at grazing

@@ -24,7 +24,8 @@ namespace flagstone::sim {
 struct Echo {
   double range;      ///< metres
   double intensity;  ///< 0..1
-  SemanticClass semantic;
+  SemanticClass semantic;  ///< labelled_class() of the surface
+  Motion motion = Motion::none;
   EchoKind kind = EchoKind::surface;
 };
 

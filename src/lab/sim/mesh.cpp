@@ -34,8 +34,27 @@ std::string_view name_of(SemanticClass semantic) noexcept {
     case SemanticClass::pole: return "pole";
     case SemanticClass::traffic_sign: return "traffic-sign";
     case SemanticClass::other_object: return "other-object";
+    case SemanticClass::moving_car: return "moving-car";
+    case SemanticClass::moving_bicyclist: return "moving-bicyclist";
+    case SemanticClass::moving_person: return "moving-person";
+    case SemanticClass::moving_bus: return "moving-bus";
+    case SemanticClass::moving_truck: return "moving-truck";
+    case SemanticClass::moving_other_vehicle: return "moving-other-vehicle";
   }
   return {};
+}
+
+SemanticClass labelled_class(const Surface& surface) noexcept {
+  if (surface.motion != Motion::now) return surface.semantic;
+  switch (surface.semantic) {
+    case SemanticClass::car: return SemanticClass::moving_car;
+    case SemanticClass::bicyclist: return SemanticClass::moving_bicyclist;
+    case SemanticClass::person: return SemanticClass::moving_person;
+    case SemanticClass::bus: return SemanticClass::moving_bus;
+    case SemanticClass::truck: return SemanticClass::moving_truck;
+    case SemanticClass::other_vehicle: return SemanticClass::moving_other_vehicle;
+    default: return surface.semantic;
+  }
 }
 
 Surface random_shade(SemanticClass semantic, Interval reflectivity, Random& random) {
@@ -51,6 +70,10 @@ std::uint32_t Mesh::add_vertex(Vector3 position) {
 void Mesh::add_triangle(Triangle corners, Surface surface) {
   triangles_.push_back(corners);
   surfaces_.push_back(surface);
+}
+
+void Mesh::set_motion(std::size_t first, Motion motion) {
+  for (std::size_t i = first; i < surfaces_.size(); ++i) surfaces_[i].motion = motion;
 }
 
 void Mesh::add_triangle(Vector3 a, Vector3 b, Vector3 c, Surface surface) {

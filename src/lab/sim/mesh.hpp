@@ -17,7 +17,7 @@ namespace flagstone::sim {
 
 /// Classes of surfaces, with the label ids of SemanticKITTI. J. Behley et al., "SemanticKITTI: A
 /// Dataset for Semantic Scene Understanding of LiDAR Sequences", ICCV 2019.
-enum class SemanticClass : std::uint8_t {
+enum class SemanticClass : std::uint16_t {
   outlier = 1,  ///< not a surface: ghost points, mixed pixels, rain, dust, crosstalk
   car = 10,
   bus = 13,
@@ -39,7 +39,25 @@ enum class SemanticClass : std::uint8_t {
   pole = 80,
   traffic_sign = 81,
   other_object = 99,  ///< benches, bins, pallets, heaps and similar objects
+
+  /// @name Objects that move at the time of the scan
+  /// @{
+  moving_car = 252,
+  moving_bicyclist = 253,
+  moving_person = 254,
+  moving_bus = 257,
+  moving_truck = 258,
+  moving_other_vehicle = 259,
+  /// @}
 };
+
+/// Motion of an object, with the codes of the files NNNNNN.motion.npy.
+enum class Motion : std::uint8_t {
+  none,   ///< static, or a return without an object
+  later,  ///< stands still at the time of the scan, and moves at another time of the run
+  now,    ///< moves at the time of the scan
+};
+inline constexpr std::array<std::string_view, 3> motion_names{"none", "later", "now"};
 
 /// The name in SemanticKITTI, for example "lane-marking"; empty for an unknown code.
 std::string_view name_of(SemanticClass semantic) noexcept;
@@ -62,7 +80,11 @@ struct Surface {
   SemanticClass semantic = SemanticClass::other_ground;
   float reflectivity = 0.3f;  ///< fraction of the light returned at normal incidence, 0..1
   float mirror = 0;  ///< specular reflection, 0..1: 0 dry surfaces; 1 window glass, still water
+  Motion motion = Motion::none;  ///< of the object
 };
+
+/// The class of the surface in label files: that of a moving object if the surface moves now.
+SemanticClass labelled_class(const Surface& surface) noexcept;
 
 /// A surface with a reflectivity drawn from an interval.
 Surface random_shade(SemanticClass semantic, Interval reflectivity, Random& random);
@@ -83,6 +105,9 @@ class Mesh {
 
   /// Adds the triangles abc and acd; a, b, c, d are in order around the quad.
   void add_quad(Vector3 a, Vector3 b, Vector3 c, Vector3 d, Surface surface);
+
+  /// Sets the motion of all triangles from `first` on.
+  void set_motion(std::size_t first, Motion motion);
 
   [[nodiscard]] const std::vector<Vector3>& vertices() const noexcept { return vertices_; }
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }

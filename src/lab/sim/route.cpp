@@ -25,6 +25,35 @@ std::vector<Stop> wander_along(const std::function<Stop(double x)>& path, Random
   return stops;
 }
 
+// A cubic Hermite curve. Its tangent at a stop is as long as the distance between the two stops.
+Stop between_stops(std::span<const Stop> stops, double at) noexcept {
+  const auto before = std::min(static_cast<std::size_t>(std::max(at, 0.0)), stops.size() - 1);
+  if (before + 1 == stops.size()) return stops.back();
+  const double u = at - static_cast<double>(before);
+  const Stop& one = stops[before];
+  if (u <= 0) return one;  // without rounding
+  const Stop& next = stops[before + 1];
+  const double gap = std::hypot(next.x - one.x, next.y - one.y);
+  const auto blend = [u](double begin, double end, double tangent, double end_tangent) {
+    const double v = 1 - u;
+    return v * v * (1 + 2 * u) * begin + u * u * (1 + 2 * v) * end +
+           u * v * (v * tangent - u * end_tangent);
+  };
+  const auto slope = [u](double begin, double end, double tangent, double end_tangent) {
+    const double v = 1 - u;
+    return 6 * u * v * (end - begin) + v * (1 - 3 * u) * tangent - u * (2 - 3 * u) * end_tangent;
+  };
+  const double dx = gap * std::cos(one.yaw);
+  const double dy = gap * std::sin(one.yaw);
+  const double next_dx = gap * std::cos(next.yaw);
+  const double next_dy = gap * std::sin(next.yaw);
+  return {.x = blend(one.x, next.x, dx, next_dx),
+          .y = blend(one.y, next.y, dy, next_dy),
+          .yaw = gap > 0 ? std::atan2(slope(one.y, next.y, dy, next_dy),
+                                      slope(one.x, next.x, dx, next_dx))
+                         : one.yaw};
+}
+
 namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "library/core/random.hpp"
@@ -26,6 +27,10 @@ struct Stop {
 /// The stops of a run along a path, given by its position and direction at x. As in real driving,
 /// every stop deviates from the path by up to 0.5 m along, 0.25 m across and 2 degrees.
 std::vector<Stop> wander_along(const std::function<Stop(double x)>& path, Random& random);
+
+/// The pose on the way through `stops`, a curve that passes each stop in its direction. `at` counts
+/// stops: 0 is the first one, 0.5 halfway to the next. Beyond the last stop it is the last one.
+Stop between_stops(std::span<const Stop> stops, double at) noexcept;
 
 /// The path of a vehicle over open land: along x, swinging to both sides.
 struct WindingPath {

@@ -18,6 +18,7 @@ SimulatedScan collect(const Beams& beams, const std::vector<std::optional<Echo>>
   scan.xyzi.reserve(4 * beams.size());
   scan.classes.reserve(beams.size());
   scan.echoes.reserve(beams.size());
+  scan.motions.reserve(beams.size());
   for (std::size_t beam = 0; beam < beams.size(); ++beam) {
     const std::optional<Echo>& echo = echoes[beam];
     if (!echo) {
@@ -25,6 +26,7 @@ SimulatedScan collect(const Beams& beams, const std::vector<std::optional<Echo>>
       scan.xyzi.insert(scan.xyzi.end(), 4, 0.0F);
       scan.classes.push_back(0);
       scan.echoes.push_back(EchoKind::none);
+      scan.motions.push_back(Motion::none);
       continue;
     }
     const Vector3 point = echo->range * beams[beam];
@@ -33,6 +35,7 @@ SimulatedScan collect(const Beams& beams, const std::vector<std::optional<Echo>>
     }
     scan.classes.push_back(static_cast<std::uint32_t>(echo->semantic));
     scan.echoes.push_back(echo->kind);
+    scan.motions.push_back(echo->motion);
   }
   return scan;
 }

@@ -10,6 +10,7 @@
 
 #include "flagstone/sensor.hpp"
 #include "lab/sim/geometry.hpp"
+#include "lab/sim/mesh.hpp"
 #include "lab/sim/noise.hpp"
 #include "lab/sim/scene.hpp"
 
@@ -35,6 +36,7 @@ struct SimulatedScan {
   std::vector<std::uint32_t>
       classes;  ///< SemanticKITTI id of each point, see SemanticClass; 0 for missing returns
   std::vector<EchoKind> echoes;  ///< kind of each return
+  std::vector<Motion> motions;   ///< of the object at each point
 
   [[nodiscard]] std::size_t size() const noexcept { return classes.size(); }
 };

@@ -25,9 +25,9 @@ struct Landscape {
   std::function<Mesh(const Ground&)> furnish;  ///< the same mesh on every call
   std::vector<GroundStep> steps{};             ///< known steps; empty in most scenes
 
-  /// Moving objects, traffic and people, at a stop: the same mesh on every call. Empty if nothing
-  /// moves.
-  std::function<Mesh(const Ground&, int stop)> moving{};
+  /// Moving objects, traffic and people, with their motion, at a time since the first stop: the same
+  /// mesh on every call. Empty if nothing moves.
+  std::function<Mesh(const Ground&, double seconds)> moving{};
 };
 
 /// A ground and the objects on it, ready for ray casting.

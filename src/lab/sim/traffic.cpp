@@ -145,14 +145,31 @@ void Traffic::fill(const Lane& lane, const std::function<RoadUser(Random&)>& dra
   }
 }
 
-Mesh Traffic::at(const Ground& ground, int stop) const {
+Motion Traffic::motion(const Mover& mover, double seconds) {
+  constexpr double slowest = 0.1;  // m/s; a slower object stands still
+  constexpr double interval = 0.1;
+  const auto moves_at = [&](double time) {
+    const Stop before = mover.at(time - interval / 2);
+    const Stop after = mover.at(time + interval / 2);
+    return std::hypot(after.x - before.x, after.y - before.y) > slowest * interval;
+  };
+  if (moves_at(seconds)) return Motion::now;
+  for (int check = 0; check < checks; ++check) {
+    if (moves_at(check * checked_every)) return Motion::later;
+  }
+  return Motion::none;
+}
+
+Mesh Traffic::at(const Ground& ground, double seconds) const {
   constexpr double margin = 8;  // about half the length of the longest vehicle, metres
   Mesh mesh;
   for (const Mover& mover : movers_) {
-    const Stop now = mover.at(stop * stop_interval);
+    const Stop now = mover.at(seconds);
     if (!ground.covers(now.x - margin, now.y) || !ground.covers(now.x + margin, now.y)) continue;
     Random random(mover.look);
+    const std::size_t first = mesh.triangles().size();
     add_vehicle(mesh, ground, mover, now, random);
+    mesh.set_motion(first, motion(mover, seconds));
   }
   return mesh;
 }

@@ -59,18 +59,21 @@ class Traffic {
   };
   void fill(const Lane& lane, const std::function<RoadUser(Random&)>& draw, Random& random);
 
-  /// All movers on the grid of the ground, at a stop.
-  [[nodiscard]] Mesh at(const Ground& ground, int stop) const;
+  /// All movers on the grid of the ground, with their motion; time since the first stop.
+  [[nodiscard]] Mesh at(const Ground& ground, double seconds) const;
 
  private:
+  [[nodiscard]] static Motion motion(const Mover& mover, double seconds);
+
   std::vector<Stop> route_;
   std::vector<Mover> movers_;
 };
 
 /// The traffic as Landscape::moving.
-inline std::function<Mesh(const Ground&, int stop)> moving(Traffic traffic) {
-  return
-      [traffic = std::move(traffic)](const Ground& on, int stop) { return traffic.at(on, stop); };
+inline std::function<Mesh(const Ground&, double seconds)> moving(Traffic traffic) {
+  return [traffic = std::move(traffic)](const Ground& on, double seconds) {
+    return traffic.at(on, seconds);
+  };
 }
 
 }  // namespace flagstone::sim

@@ -69,10 +69,45 @@ TEST(Mounting, HeightsAreMeasuredInTheVehicleFrameForAnyTilt) {
   EXPECT_LT(farthest, 0.001);
 }
 
+TEST(Pace, CountsTheScansOfOneScene) {
+  EXPECT_EQ(Pace{}.frames(), std::size_t{frames_per_drive});
+  EXPECT_EQ((Pace{.rate = 10}.frames()), 91U);
+  EXPECT_EQ((Pace{.rate = 10, .speed = 0.1}.frames()), 7201U);
+  EXPECT_EQ((Pace{.rate = 20, .speed = 30}.frames()), 49U);
+  EXPECT_EQ((Pace{.rate = 0.1, .speed = 30}.frames()), 1U);
+}
+
+TEST(Pace, FasterScansPassTheStopsOfTheDefaultPace) {
+  const SceneKind& kind = *find_scene_kind("urban_street");
+  const Sensor& sensor = Sensor::named("vlp-16");
+  const Drive stops(kind, sensor, 3);
+  const Drive drive(kind, sensor, {.height = sensor.height}, 3, {.rate = 10});
+
+  ASSERT_EQ(drive.poses().size(), 91U);
+  for (std::size_t stop = 0; stop < stops.poses().size(); ++stop) {
+    EXPECT_EQ(drive.poses()[10 * stop].origin, stops.poses()[stop].origin);
+    EXPECT_EQ(drive.poses()[10 * stop].forward, stops.poses()[stop].forward);
+  }
+}
+
+TEST(Pace, PosesBetweenStopsAreSmooth) {
+  const Sensor& sensor = Sensor::named("vlp-16");
+  for (const char* scene : {"urban_street", "forest_track", "highway"}) {
+    const Drive drive(*find_scene_kind(scene), sensor, {.height = sensor.height}, 1, {.rate = 10});
+    const std::vector<Frame>& poses = drive.poses();
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      const Vector3 motion = poses[i].origin - poses[i - 1].origin;
+      EXPECT_NEAR(length(motion), 0.8, 0.2) << scene << ", scan " << i;
+      // A vehicle moves in the direction of its heading.
+      EXPECT_GT(dot(motion, poses[i].forward), 0.99 * length(motion)) << scene << ", scan " << i;
+    }
+  }
+}
+
 constexpr Surface house{.semantic = SemanticClass::building, .reflectivity = 0.5F};
 constexpr Surface lorry{.semantic = SemanticClass::car, .reflectivity = 0.5F};
 constexpr double first_gap = 6;  // metres to the lorry at stop 0
-constexpr double step = 3;       // motion of the lorry per stop, metres
+constexpr double step = 3;       // motion of the lorry per second, metres
 
 // The vehicle stands still, 20 m in front of a house, and a lorry moves away from it.
 Landscape lorry_before_a_house(std::uint64_t /*seed*/) {
@@ -85,9 +120,9 @@ Landscape lorry_before_a_house(std::uint64_t /*seed*/) {
                             return mesh;
                           },
                       .moving =
-                          [](const Ground&, int stop) {
+                          [](const Ground&, double seconds) {
                             Mesh mesh;
-                            add_wall(mesh, first_gap + step * stop, lorry);
+                            add_wall(mesh, first_gap + step * seconds, lorry);
                             return mesh;
                           }};
   return landscape;
@@ -108,6 +143,19 @@ TEST(Moving, ObjectsAreHitAtTheirPositionAtTheStop) {
       ASSERT_EQ(class_of(scan, i), SemanticClass::car);
       ASSERT_NEAR(point_of(scan, i).x, first_gap + step * stop, 1e-4);
     }
+  }
+}
+
+TEST(Moving, ObjectsAreWhereTheyAreBetweenTwoStops) {
+  const SceneKind kind{"lorry", "", lorry_before_a_house};
+  const Drive drive(kind, sensor_ahead(10, 50), {}, 1, {.rate = 10});
+  const Scene scene = drive.scene();
+
+  const SimulatedScan scan = drive.scan(scene, no_noise(), 15);
+
+  ASSERT_EQ(scan.size(), 500U);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    ASSERT_NEAR(point_of(scan, i).x, first_gap + step * 1.5, 1e-4);
   }
 }
 

@@ -179,6 +179,20 @@ TEST_P(MovingScene, TrafficMovesBetweenStopsClearOfTheSensor) {
   }
 }
 
+TEST_P(MovingScene, ContinuousDriveStaysClearOfTrafficAndObjects) {
+  const Landscape land = kind_named(GetParam()).make(3);
+  const Sensor& sensor = Sensor::named("hdl-64e");
+  const Drive drive(kind_named(GetParam()), sensor, {.height = sensor.height}, 3, {.rate = 5});
+  const Scene scene = drive.scene();
+  for (std::size_t frame = 0; frame < drive.poses().size(); ++frame) {
+    const Frame& pose = drive.poses()[frame];
+    const double seconds = static_cast<double>(frame) / 5;
+    EXPECT_TRUE(stands_clear(RayCaster(land.moving(land.ground, seconds)), pose, 2.2, 2.2))
+        << "scan " << frame;
+    EXPECT_TRUE(stands_clear(scene.caster(), pose, 1.1, 0.4)) << "scan " << frame;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, MovingScene,
                          testing::Values("urban_street", "highway", "crossroads", "ramp", "tunnel",
                                          "indoor_hall"),

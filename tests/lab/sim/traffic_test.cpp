@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -80,6 +82,44 @@ TEST(Traffic, MovesAtItsSpeedBetweenStops) {
 
   EXPECT_NEAR(mean_x(traffic.at(ground, 5)) - mean_x(traffic.at(ground, 2)), -12 * stop_interval,
               1e-9);
+}
+
+std::vector<Motion> motions(const Mesh& mesh) {
+  std::vector<Motion> all;
+  for (std::size_t i = 0; i < mesh.triangles().size(); ++i) all.push_back(mesh.surface(i).motion);
+  return all;
+}
+
+TEST(Traffic, IsMarkedByItsMotionNowAndLater) {
+  const Ground ground = level_ground();
+  const Stop begin{.x = 10, .y = 10, .yaw = 0};
+  const auto motion_at = [&](std::function<Stop(double)> at, double seconds) {
+    Traffic traffic(straight_route());
+    EXPECT_TRUE(traffic.join({.kind = RoadUser::car, .at = std::move(at)}));
+    const std::vector<Motion> all = motions(traffic.at(ground, seconds));
+    EXPECT_FALSE(all.empty());
+    EXPECT_EQ(std::ranges::count(all, all.front()), std::ssize(all));
+    return all.front();
+  };
+
+  EXPECT_EQ(motion_at(straight(begin, 0, 0), 4), Motion::none);
+  EXPECT_EQ(motion_at(straight(begin, 2, 90), 4), Motion::now);
+  // It stops after 3 seconds.
+  EXPECT_EQ(motion_at(straight(begin, 2, 6), 2), Motion::now);
+  EXPECT_EQ(motion_at(straight(begin, 2, 6), 4), Motion::later);
+  EXPECT_EQ(motion_at(straight(begin, 0.05, 6), 2), Motion::none);
+}
+
+TEST(Traffic, HasTheMovingClassesOnlyWhileItMoves) {
+  const Surface car{.semantic = SemanticClass::car};
+  Surface moving = car;
+  moving.motion = Motion::now;
+  Surface waiting = car;
+  waiting.motion = Motion::later;
+
+  EXPECT_EQ(labelled_class(car), SemanticClass::car);
+  EXPECT_EQ(labelled_class(waiting), SemanticClass::car);
+  EXPECT_EQ(labelled_class(moving), SemanticClass::moving_car);
 }
 
 TEST(Traffic, LaneIsFilledFromEndToEndAtEveryStop) {

@@ -272,13 +272,16 @@ Traffic draw_workers(const Site& site, std::vector<Stop> route, Random& random) 
 }
 
 void add_excavator_at_work(Mesh& mesh, const Ground& ground, const WindingPath& path,
-                           const Digging& digging, int stop) {
+                           const Digging& digging, double seconds) {
   constexpr double tracks_length = 3.6;
   constexpr double tracks_width = 2.2;
   const double y = path.y(digging.x) + digging.t;
+  const std::size_t first = mesh.triangles().size();
   add_excavator(
       mesh, frame_on_wheels(ground, digging.x, y, digging.yaw, tracks_length, tracks_width),
-      {.swing = digging.swing + stop * digging.turn, .boom = 0.55 + 0.25 * std::sin(1.3 * stop)});
+      {.swing = digging.swing + seconds * digging.turn,
+       .boom = 0.55 + 0.25 * std::sin(1.3 * seconds)});
+  mesh.set_motion(first, Motion::now);
 }
 
 }  // namespace
@@ -295,9 +298,9 @@ Landscape construction_site(std::uint64_t seed) {
           .route = std::move(route),
           .furnish = [site, random](const Ground& on) { return furnish_site(site, on, random); },
           .moving =
-              [path, digging, workers = std::move(workers)](const Ground& on, int stop) {
-                Mesh mesh = workers.at(on, stop);
-                add_excavator_at_work(mesh, on, path, digging, stop);
+              [path, digging, workers = std::move(workers)](const Ground& on, double seconds) {
+                Mesh mesh = workers.at(on, seconds);
+                add_excavator_at_work(mesh, on, path, digging, seconds);
                 return mesh;
               }};
 }

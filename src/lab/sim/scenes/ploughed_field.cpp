@@ -209,15 +209,16 @@ Ploughing draw_ploughing(const Field& field, Random& random) {
           .look = random.bits()};
 }
 
-Mesh tractor_at(const Ploughing& ploughing, const Ground& ground, int stop) {
+Mesh tractor_at(const Ploughing& ploughing, const Ground& ground, double seconds) {
   Mesh mesh;
   Random look(ploughing.look);
   constexpr double wheelbase = 2.4;
   constexpr double track = 1.9;
-  const double x = ploughing.x + stop * stop_interval * ploughing.speed;
+  const double x = ploughing.x + seconds * ploughing.speed;
   const double yaw = ploughing.speed < 0 ? std::numbers::pi : 0;
   add_tractor(mesh, frame_on_wheels(ground, x, ploughing.y, yaw, wheelbase, track),
               ploughing.shares, look);
+  mesh.set_motion(0, Motion::now);
   return mesh;
 }
 
@@ -233,8 +234,9 @@ Landscape ploughed_field(std::uint64_t seed) {
           .route = std::move(route),
           .furnish = [field = std::move(field),
                       random](const Ground& on) { return furnish_field(field, on, random); },
-          .moving = [ploughing](const Ground& on,
-                                int stop) { return tractor_at(ploughing, on, stop); }};
+          .moving = [ploughing](const Ground& on, double seconds) {
+            return tractor_at(ploughing, on, seconds);
+          }};
 }
 
 }  // namespace flagstone::sim
