@@ -90,10 +90,11 @@ unsigned checked_threads(const std::optional<nb::int_>& threads) {
 
 /// Writes a sequence of simulated scans and returns the number of scans per environment.
 std::size_t simulate(const std::string& output, const std::string& scene, const std::string& sensor,
-             std::optional<double> sensor_height, const std::string& tilt, const std::string& noise,
-             const std::vector<std::string>& weather, bool keep_no_returns, nb::int_ frames,
-             double rate, double speed, const std::string& pose_noise, nb::int_ seed, const std::string& sequence, const std::optional<nb::int_>& threads,
-             nb::object draw, std::size_t columns) {
+                     std::optional<double> sensor_height, const std::string& tilt,
+                     const std::string& noise, const std::vector<std::string>& weather,
+                     bool keep_no_returns, nb::int_ frames, double rate, double speed,
+                     const std::string& pose_noise, nb::int_ seed, const std::string& sequence,
+                     const std::optional<nb::int_>& threads, nb::object draw, std::size_t columns) {
   const app::SimulateOptions options{
       .output = output,
       .scene = scene,

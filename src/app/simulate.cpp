@@ -212,7 +212,7 @@ class SequenceRun {
   const SimulatedSequence& files_;
   const sim::SceneKind& scene_;
   const SequenceOrigin& origin_;
-  std::size_t drive_length_;     // frames per environment
+  std::size_t drive_length_;   // frames per environment
   std::vector<World> worlds_;  // by index of the environment
   std::vector<std::size_t> missing_;
 };

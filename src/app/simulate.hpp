@@ -17,9 +17,9 @@ namespace flagstone::app {
 /// @name Limits of SimulateOptions
 /// @{
 inline constexpr std::size_t max_frames = 100000;
-inline constexpr double max_simulated_height = 100;  ///< metres
-inline constexpr double max_simulated_tilt = 90;     ///< degrees
-inline constexpr double min_rate = 0.1, max_rate = 100;  ///< scans per second
+inline constexpr double max_simulated_height = 100;       ///< metres
+inline constexpr double max_simulated_tilt = 90;          ///< degrees
+inline constexpr double min_rate = 0.1, max_rate = 100;   ///< scans per second
 inline constexpr double min_speed = 0.1, max_speed = 30;  ///< m/s
 /// @}
 
@@ -44,7 +44,7 @@ struct SimulateOptions {
 struct Simulation {
   std::filesystem::path folder;  ///< OUTPUT/sequences/NN
   std::string sensor;            ///< name
-  std::size_t drives = 0;                   ///< environments
+  std::size_t drives = 0;        ///< environments
   std::size_t frames_per_environment = 0;
   std::size_t simulated = 0;  ///< frames
   std::size_t kept = 0;       ///< frames that already existed

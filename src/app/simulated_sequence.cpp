@@ -121,16 +121,14 @@ std::string scene_text(const SequenceOrigin& origin) {
   Json drives = Json::array();
   const std::size_t per_drive = origin.pace.frames();
   for (std::size_t first = 0; first < origin.frames; first += per_drive) {
-    drives.push_back({{"first_frame", first},
-                      {"world_seed", sim::drive_seed(origin.seed, first / per_drive)}});
+    drives.push_back(
+        {{"first_frame", first}, {"world_seed", sim::drive_seed(origin.seed, first / per_drive)}});
   }
   scene["drives"] = drives;
-  scene["files"] = {{"scans", "velodyne/NNNNNN.bin"},
-                    {"labels", "labels/NNNNNN.label"},
-                    {"ground", "ground/NNNNNN.ground.npy"},
-                    {"returns", "returns/NNNNNN.return.npy"},
-                    {"motion", "motion/NNNNNN.motion.npy"},
-                    {"poses", "poses.txt"}};
+  scene["files"] = {
+      {"scans", "velodyne/NNNNNN.bin"},       {"labels", "labels/NNNNNN.label"},
+      {"ground", "ground/NNNNNN.ground.npy"}, {"returns", "returns/NNNNNN.return.npy"},
+      {"motion", "motion/NNNNNN.motion.npy"}, {"poses", "poses.txt"}};
   if (origin.pose_noise != "none") scene["files"]["measured_poses"] = "poses_measured.txt";
   scene["classes"] = class_json();
   scene["return_kinds"] = codes_json(sim::echo_kind_names);

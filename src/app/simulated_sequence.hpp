@@ -53,8 +53,8 @@ class SimulatedSequence {
   void write(std::size_t frame, const sim::SimulatedScan& scan,
              std::span<const float> ground) const;
 
-  /// Writes a file of poses: per frame one line with the rows of the 3x4 matrix from the sensor to its
-  /// environment.
+  /// Writes a file of poses: per frame one line with the rows of the 3x4 matrix from the sensor to
+  /// its environment.
   void write_poses(const char* name, std::span<const sim::Frame> poses) const;
 
  private:

@@ -44,8 +44,8 @@ Help help_text() {
           {{"flagstone simulate --scene flat_street --output simulated"},
            {"flagstone simulate --scene steep_street --sensor vlp-16 --weather rain -o out"}},
       .lists = {summaries("Scenes", sim::scene_kinds()), summaries("Noise", sim::noise_levels()),
-                summaries("Weather", sim::weathers()),
-                summaries("Pose noise", sim::pose_noises()), sensors},
+                summaries("Weather", sim::weathers()), summaries("Pose noise", sim::pose_noises()),
+                sensors},
       .notes =
           "The output is a SemanticKITTI sequence with exact ground truth. The output "
           "depends only on the options. Frames that already exist are kept, so the same command "
@@ -92,8 +92,8 @@ std::unique_ptr<Command> add_simulate_command(CLI::App& app) {
       ->type_name("NAME");
   command
       ->add_option("--frames", options->frames,
-                   fmt::format("Number of scans, 1 to {}; every {:g} m a new environment",
-                               app::max_frames, sim::frames_per_drive * sim::frame_spacing))
+                   fmt::format("Number of scans, 1 to {}; a new environment every {:g} m",
+                               app::max_frames, 2 * sim::half_drive))
       ->check(in_range(std::size_t{1}, app::max_frames))
       ->type_name("N")
       ->capture_default_str();
@@ -105,10 +105,11 @@ std::unique_ptr<Command> add_simulate_command(CLI::App& app) {
       ->type_name("HZ")
       ->capture_default_str();
   command
-      ->add_option("--speed", options->pace.speed,
-                   fmt::format("Speed of the vehicle in m/s, {} to {}; traffic is as fast, compared "
-                               "with the vehicle, as at 8 m/s",
-                               app::min_speed, app::max_speed))
+      ->add_option(
+          "--speed", options->pace.speed,
+          fmt::format("Speed of the vehicle in m/s, {} to {}; traffic is as fast, compared "
+                      "with the vehicle, as at 8 m/s",
+                      app::min_speed, app::max_speed))
       ->check(in_range(app::min_speed, app::max_speed))
       ->type_name("M/S")
       ->capture_default_str();

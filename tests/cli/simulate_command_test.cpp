@@ -13,6 +13,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "cli/command_process.hpp"
@@ -54,15 +55,15 @@ TEST(SimulateCommand, WritesASequenceInTheLayoutOfSemanticKitti) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("2 frames in 1 environment, 2 simulated, 0 kept"));
   const fs::path sequence = folder / "out" / "sequences" / "07";
-  EXPECT_THAT(names_below(folder / "out"),
-              ElementsAre("sequences/07/calib.txt", "sequences/07/ground/000000.ground.npy",
-                          "sequences/07/ground/000001.ground.npy",
-                          "sequences/07/labels/000000.label", "sequences/07/labels/000001.label",
-                          "sequences/07/motion/000000.motion.npy",
-                          "sequences/07/motion/000001.motion.npy",
-                          "sequences/07/poses.txt", "sequences/07/returns/000000.return.npy",
-                          "sequences/07/returns/000001.return.npy", "sequences/07/scene.json",
-                          "sequences/07/velodyne/000000.bin", "sequences/07/velodyne/000001.bin"));
+  EXPECT_THAT(
+      names_below(folder / "out"),
+      ElementsAre("sequences/07/calib.txt", "sequences/07/ground/000000.ground.npy",
+                  "sequences/07/ground/000001.ground.npy", "sequences/07/labels/000000.label",
+                  "sequences/07/labels/000001.label", "sequences/07/motion/000000.motion.npy",
+                  "sequences/07/motion/000001.motion.npy", "sequences/07/poses.txt",
+                  "sequences/07/returns/000000.return.npy",
+                  "sequences/07/returns/000001.return.npy", "sequences/07/scene.json",
+                  "sequences/07/velodyne/000000.bin", "sequences/07/velodyne/000001.bin"));
   auto files = files_below(sequence);
   for (const std::string frame : {"000000", "000001"}) {
     const std::size_t points = files["velodyne/" + frame + ".bin"].size() / 16;
@@ -157,10 +158,9 @@ std::vector<std::vector<double>> poses_of(const std::string& text) {
 TEST(SimulateCommand, WritesAContinuousDriveWithMovingTraffic) {
   const io::TemporaryFolder folder;
 
-  const Outcome outcome =
-      simulate(folder / "out", "urban_street",
-               {"--frames", "3", "--rate", "10", "--sensor", "vlp-16", "--noise", "clean",
-                "--pose-noise", "jitter"});
+  const Outcome outcome = simulate(folder / "out", "urban_street",
+                                   {"--frames", "3", "--rate", "10", "--sensor", "vlp-16",
+                                    "--noise", "clean", "--pose-noise", "jitter"});
 
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const fs::path sequence = folder / "out" / "sequences" / "00";
@@ -184,7 +184,7 @@ TEST(SimulateCommand, WritesAContinuousDriveWithMovingTraffic) {
   for (std::size_t i = 0; i < points; ++i) {
     constexpr std::uint32_t now = 2;
     ASSERT_EQ(classes[i] >= 252, motion[i] == now);
-    moving += motion[i] == now ? 1 : 0;
+    moving += motion[i] == now;
   }
   EXPECT_GT(moving, 100U);
   const auto scene = nlohmann::json::parse(files["scene.json"]);

@@ -46,7 +46,8 @@ struct ReadOptions {
 
 /// Whether a file found in a directory is treated as a scan: its extension is known, it is not
 /// hidden, and it is not a file of labels (`_lidarseg.bin`, `.label.npy`), heights (`.heights.npy`,
-/// `.ground.npy`), a surface (`.surface.npy`) return kinds (`.return.npy`) or motions (`.motion.npy`).
+/// `.ground.npy`), a surface (`.surface.npy`) return kinds (`.return.npy`) or motions
+/// (`.motion.npy`).
 [[nodiscard]] bool is_scan_name(const std::filesystem::path& path) noexcept;
 
 /// Reads a point cloud; the file extension determines the format. Never throws; changes `out` only

@@ -50,8 +50,8 @@ Status check_coordinates(std::span<const Field> fields) {
         if (!present.empty()) present += ' ';
         present += quote(other.name);
       }
-      return invalid("no field {} (expected x, y and z; the fields are: {}{})",
-                     quote(name), present, fields.size() > 8 ? " ..." : "");
+      return invalid("no field {} (expected x, y and z; the fields are: {}{})", quote(name),
+                     present, fields.size() > 8 ? " ..." : "");
     }
     if (field->count != 1) {
       return invalid("field {} has count {} (expected one number each for x, y and z)", quote(name),

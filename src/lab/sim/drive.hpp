@@ -10,8 +10,8 @@
 #include "flagstone/sensor.hpp"
 #include "lab/sim/geometry.hpp"
 #include "lab/sim/ground.hpp"
-#include "lab/sim/scan.hpp"
 #include "lab/sim/route.hpp"
+#include "lab/sim/scan.hpp"
 #include "lab/sim/scene.hpp"
 #include "lab/sim/traffic.hpp"
 

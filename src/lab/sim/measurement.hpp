@@ -22,8 +22,8 @@ namespace flagstone::sim {
 
 /// The return that the sensor reports for a beam.
 struct Echo {
-  double range;      ///< metres
-  double intensity;  ///< 0..1
+  double range;            ///< metres
+  double intensity;        ///< 0..1
   SemanticClass semantic;  ///< labelled_class() of the surface
   Motion motion = Motion::none;
   EchoKind kind = EchoKind::surface;

@@ -42,8 +42,8 @@ Frame turned(const Frame& frame, Vector3 axis, double angle) {
 
 Frame with_jitter(Frame pose, const PoseNoise& noise, Random random) {
   const double sigma = noise.position_sigma;
-  pose.origin = pose.origin + Vector3{sigma * random.normal(), sigma * random.normal(),
-                                      sigma * random.normal()};
+  pose.origin = pose.origin +
+                Vector3{sigma * random.normal(), sigma * random.normal(), sigma * random.normal()};
   const double angle = noise.angle_sigma * radians;
   pose = turned(pose, pose.up, angle * random.normal());
   pose = turned(pose, pose.left, angle * random.normal());

@@ -25,8 +25,8 @@ struct Landscape {
   std::function<Mesh(const Ground&)> furnish;  ///< the same mesh on every call
   std::vector<GroundStep> steps{};             ///< known steps; empty in most scenes
 
-  /// Moving objects, traffic and people, with their motion, at a time since the first stop: the same
-  /// mesh on every call. Empty if nothing moves.
+  /// Moving objects, traffic and people, with their motion, at a time since the first stop: the
+  /// same mesh on every call. Empty if nothing moves.
   std::function<Mesh(const Ground&, double seconds)> moving{};
 };
 

@@ -277,10 +277,10 @@ void add_excavator_at_work(Mesh& mesh, const Ground& ground, const WindingPath& 
   constexpr double tracks_width = 2.2;
   const double y = path.y(digging.x) + digging.t;
   const std::size_t first = mesh.triangles().size();
-  add_excavator(
-      mesh, frame_on_wheels(ground, digging.x, y, digging.yaw, tracks_length, tracks_width),
-      {.swing = digging.swing + seconds * digging.turn,
-       .boom = 0.55 + 0.25 * std::sin(1.3 * seconds)});
+  add_excavator(mesh,
+                frame_on_wheels(ground, digging.x, y, digging.yaw, tracks_length, tracks_width),
+                {.swing = digging.swing + seconds * digging.turn,
+                 .boom = 0.55 + 0.25 * std::sin(1.3 * seconds)});
   mesh.set_motion(first, Motion::now);
 }
 

@@ -234,9 +234,8 @@ Landscape ploughed_field(std::uint64_t seed) {
           .route = std::move(route),
           .furnish = [field = std::move(field),
                       random](const Ground& on) { return furnish_field(field, on, random); },
-          .moving = [ploughing](const Ground& on, double seconds) {
-            return tractor_at(ploughing, on, seconds);
-          }};
+          .moving = [ploughing](const Ground& on,
+                                double seconds) { return tractor_at(ploughing, on, seconds); }};
 }
 
 }  // namespace flagstone::sim
