@@ -89,7 +89,7 @@ def simulate(
         weather: One or more of `"clear"`, `"wet"`, `"rain"` and `"dust"`.
         keep_no_returns: Write missing returns as points at (0, 0, 0), like many drivers.
         frames: Number of scans, 1 to 100,000. A new environment starts every 72 m.
-        rate: Scans per second, 0.1 to 100. With 10, the scans are those of a continuous drive.
+        rate: Scans per second, 0.1 to 100. With 10, the sensor moves 0.8 m between scans.
         speed: Speed of the vehicle in m/s, 0.1 to 30. Traffic is as fast, compared with the vehicle, as at 8 m/s.
         pose_noise: Errors of the poses in `poses_measured.txt`: `"none"` (no such file), `"jitter"` or `"drift"`.
         seed: Seed of the environments and the noise, 0 to 2**64 - 1.

@@ -85,7 +85,7 @@ def test_every_argument_reaches_the_simulator(tmp_path: Path) -> None:
     assert (made["rate"], made["speed"], made["pose_noise"]) == (10, 5, "drift")
 
 
-def test_a_continuous_drive_has_more_scans_per_environment_and_marks_what_moves(tmp_path: Path) -> None:
+def test_a_continuous_run_has_more_scans_per_environment_and_marks_what_moves(tmp_path: Path) -> None:
     scans = flagstone.simulate(tmp_path, scene="urban_street", sensor="vlp-16", rate=2, frames=20, seed=2)
 
     assert [scan.drive for scan in scans] == [0] * 19 + [1]

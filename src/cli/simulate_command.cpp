@@ -99,7 +99,7 @@ std::unique_ptr<Command> add_simulate_command(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--rate", options->pace.rate,
-                   fmt::format("Scans per second, {} to {}; with 10, a continuous drive",
+                   fmt::format("Scans per second, {} to {}; with 10, a continuous run",
                                app::min_rate, app::max_rate))
       ->check(in_range(app::min_rate, app::max_rate))
       ->type_name("HZ")

@@ -155,7 +155,7 @@ std::vector<std::vector<double>> poses_of(const std::string& text) {
   return poses;
 }
 
-TEST(SimulateCommand, WritesAContinuousDriveWithMovingTraffic) {
+TEST(SimulateCommand, WritesAContinuousRunWithMovingTraffic) {
   const io::TemporaryFolder folder;
 
   const Outcome outcome = simulate(folder / "out", "urban_street",

@@ -83,7 +83,7 @@ struct Surface {
   Motion motion = Motion::none;  ///< of the object
 };
 
-/// The class of the surface in label files: that of a moving object if the surface moves now.
+/// The class of the surface in label files: the class of a moving object if the surface moves now.
 SemanticClass labelled_class(const Surface& surface) noexcept;
 
 /// A surface with a reflectivity drawn from an interval.

@@ -179,7 +179,7 @@ TEST_P(MovingScene, TrafficMovesBetweenStopsClearOfTheSensor) {
   }
 }
 
-TEST_P(MovingScene, ContinuousDriveStaysClearOfTrafficAndObjects) {
+TEST_P(MovingScene, ContinuousRunStaysClearOfTrafficAndObjects) {
   const Landscape land = kind_named(GetParam()).make(3);
   const Sensor& sensor = Sensor::named("hdl-64e");
   const Drive drive(kind_named(GetParam()), sensor, {.height = sensor.height}, 3, {.rate = 5});
