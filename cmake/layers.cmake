@@ -6,7 +6,7 @@
 set(flagstone_layers
     "library/core"
     "library/plane_fits"
-    "library/(patchwork|surface|mount)"
+    "library/(patchwork|surface|mount|ground_map)"
     "library/methods"
     "files"
     "lab"

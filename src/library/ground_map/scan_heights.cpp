@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/ground_map/scan_heights.hpp"
+
+#include <cmath>
+
+#include "library/ground_map/poses.hpp"
+
+namespace flagstone {
+namespace {
+
+constexpr double fixed_point = 1 << 20;  // units per metre
+constexpr float max_deviation = 0.08F;   // of a point from the surface of its scan, metres
+
+std::int64_t to_fixed(double metres) noexcept {
+  return static_cast<std::int64_t>(std::llround(metres * fixed_point));
+}
+
+// The variance of a measured height, m^2: of the surface, of the mean of the points, and of what
+// grows with the range, for pitch and for the footprint of a beam at grazing incidence.
+float variance_of(std::uint32_t points, double range) noexcept {
+  constexpr double surface = 0.02;     // metres
+  constexpr double point = 0.05;       // metres
+  constexpr double pitch = 0.002;      // radians
+  constexpr double footprint = 0.0002;  // 1/m
+  const double grown = footprint * range * range;
+  return static_cast<float>(surface * surface + point * point / points +
+                            (pitch * range) * (pitch * range) + grown * grown);
+}
+
+}  // namespace
+
+std::span<const MeasuredHeight> ScanHeights::measure(CloudView cloud, const Segmentation& result,
+                                                     const Pose& pose,
+                                                     const GroundMapConfig& config) {
+  const double reach = config.max_range;
+  const auto [sensor_x, sensor_y, sensor_z] = pose.position;
+  const auto first_x = static_cast<std::int64_t>(std::floor((sensor_x - reach) / config.cell));
+  const auto first_y = static_cast<std::int64_t>(std::floor((sensor_y - reach) / config.cell));
+  const auto width = static_cast<std::size_t>(std::ceil(2 * reach / config.cell)) + 2;
+  sums_.assign(width * width, {});
+  const std::span<const Label> labels = result.labels();
+  const std::span<const float> heights = result.heights();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (labels[i] != Label::ground || !(std::abs(heights[i]) < max_deviation)) continue;
+    const Point point = cloud[i];
+    if (point.x * point.x + point.y * point.y > static_cast<float>(reach * reach)) continue;
+    // The surface below the point.
+    const WorldVector foot = rotated(pose, point.x, point.y, point.z - heights[i]);
+    const auto column = static_cast<std::int64_t>(std::floor((sensor_x + foot.x) / config.cell));
+    const auto row = static_cast<std::int64_t>(std::floor((sensor_y + foot.y) / config.cell));
+    // A steep pose or rounding can move a point at the rim out of the grid.
+    const auto i_column = static_cast<std::uint64_t>(column - first_x);
+    const auto i_row = static_cast<std::uint64_t>(row - first_y);
+    if (i_column >= width || i_row >= width) continue;
+    Sums& sums = sums_[i_row * width + i_column];
+    sums.height += to_fixed(heights[i]);
+    sums.z += to_fixed(foot.z);
+    ++sums.points;
+  }
+
+  heights_.clear();
+  const GroundSurface& surface = result.surface();
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    const Sums& sums = sums_[k];
+    if (sums.points == 0) continue;
+    const CellIndex cell{.x = first_x + static_cast<std::int64_t>(k % width),
+                         .y = first_y + static_cast<std::int64_t>(k / width)};
+    const double dx = (static_cast<double>(cell.x) + 0.5) * config.cell - sensor_x;
+    const double dy = (static_cast<double>(cell.y) + 0.5) * config.cell - sensor_y;
+    // The surface in the middle of the cell, where the mean of the points is shifted to it.
+    const double scale = 1 / (fixed_point * sums.points);
+    const WorldVector local = rotated_back(pose, dx, dy, static_cast<double>(sums.z) * scale);
+    const float on_surface =
+        surface.height(static_cast<float>(local.x), static_cast<float>(local.y));
+    if (!std::isfinite(on_surface)) continue;
+    const double above = static_cast<double>(sums.height) * scale;
+    const WorldVector ground = rotated(pose, local.x, local.y, double{on_surface} + above);
+    const double range = std::hypot(local.x, local.y);
+    heights_.push_back({.cell = cell,
+                        .dx = static_cast<float>(dx),
+                        .dy = static_cast<float>(dy),
+                        .range = static_cast<float>(range),
+                        .height = sensor_z + ground.z,
+                        .variance = variance_of(sums.points, range)});
+  }
+  return heights_;
+}
+
+}  // namespace flagstone

@@ -1,0 +1,287 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "flagstone/ground_map.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "library/ground_map/ground_scan.hpp"
+
+namespace flagstone {
+namespace {
+
+double hills(double x, double y) { return 0.03 * x + std::sin(0.05 * x) + 0.5 * std::cos(0.07 * y); }
+
+Levelling add(GroundMap& map, const GroundScan& scan, const Pose& pose) {
+  Levelling levelling;
+  EXPECT_TRUE(map.add(scan.view(), scan.result, pose, levelling).ok());
+  return levelling;
+}
+
+// A pose with an error in height and pitch.
+Pose wrong(Pose pose, double up, double pitch) {
+  const double c = std::cos(pitch);
+  const double s = std::sin(pitch);
+  auto& r = pose.rotation;
+  for (std::size_t row = 0; row < 9; row += 3) {  // turned about the y axis of the sensor
+    const double x = r[row];
+    const double z = r[row + 2];
+    r[row] = c * x - s * z;
+    r[row + 2] = s * x + c * z;
+  }
+  pose.position[2] += up;
+  return pose;
+}
+
+// The largest error of the map within 20 m of (x, y), metres.
+double worst_error(const GroundMap& map, const WorldGround& ground, double x, double y) {
+  double worst = 0;
+  for (double dy = -20; dy <= 20; dy += 1.3) {
+    for (double dx = -20; dx <= 20; dx += 1.3) {
+      worst = std::max(worst, std::abs(map.height(x + dx, y + dy) - ground(x + dx, y + dy)));
+    }
+  }
+  return worst;
+}
+
+TEST(GroundMap, KnowsNothingAtFirst) {
+  const GroundMap map;
+
+  EXPECT_TRUE(std::isnan(map.height(0, 0)));
+  EXPECT_TRUE(std::isnan(map.at(0, 0).height));
+  EXPECT_EQ(map.at(0, 0).scans, 0U);
+  EXPECT_EQ(map.cells(), 0U);
+}
+
+TEST(GroundMap, HasTheHeightsThatTheScansMeasured) {
+  GroundMap map;
+  for (double x = 0; x < 60; x += 5) {
+    const Pose pose = upright_pose(hills, x, 0.1 * x, 0.02 * x);
+    add(map, GroundScan(hills, pose), pose);
+  }
+
+  for (double x = 0; x < 60; x += 10) EXPECT_LT(worst_error(map, hills, x, 0.1 * x), 0.01);
+  const MapSample sample = map.at(20.3, 4.1);
+  EXPECT_NEAR(sample.height, hills(20.3, 4.1), 0.01);
+  EXPECT_NEAR(sample.slope, std::atan(std::hypot(0.03 + 0.05 * std::cos(0.05 * 20.3),
+                                                 -0.035 * std::sin(0.07 * 4.1))),
+              0.01);
+  EXPECT_GT(sample.scans, 5U);
+  EXPECT_EQ(sample.contradictions, 0U);
+}
+
+TEST(GroundMap, CoordinatesMayBeLarge) {
+  const auto ground = [](double x, double) { return 2000 + 0.02 * (x - 500'000); };
+  GroundMap map;
+  const Pose pose = upright_pose(ground, 500'000, 5'400'000);
+  add(map, GroundScan(ground, pose), pose);
+
+  EXPECT_LT(worst_error(map, ground, 500'000, 5'400'000), 0.01);
+}
+
+TEST(GroundMap, LevellingRemovesErrorsInHeightAndPitch) {
+  GroundMap map;
+  const Pose first = upright_pose(hills, 0, 0);
+  add(map, GroundScan(hills, first), first);
+  const Pose second = upright_pose(hills, 4, 0);
+  constexpr double up = 0.3;
+  constexpr double pitch = 0.01;
+
+  const Levelling levelling = add(map, GroundScan(hills, second), wrong(second, up, pitch));
+
+  EXPECT_TRUE(levelling.applied);
+  EXPECT_GT(levelling.cells, 5000U);
+  EXPECT_NEAR(levelling.at(4, 0, {4, 0, 0}), up, 0.03);
+  EXPECT_NEAR(std::abs(levelling.slope_x), pitch, 0.001);
+  EXPECT_LT(worst_error(map, hills, 2, 0), 0.03);
+}
+
+// The rule for loops: the first pass decides.
+TEST(GroundMap, LaterPassesAreLevelledToTheFirst) {
+  GroundMap map;
+  for (double x = 0; x <= 20; x += 5) {
+    const Pose pose = upright_pose(hills, x, 0);
+    add(map, GroundScan(hills, pose), pose);
+  }
+  for (double x = 20; x >= 0; x -= 5) {
+    Pose pose = upright_pose(hills, x, 2, 3.14);
+    const GroundScan scan(hills, pose);
+    pose.position[2] += 0.5;
+    EXPECT_NEAR(add(map, scan, pose).offset, 0.5, 0.01);
+  }
+
+  EXPECT_LT(worst_error(map, hills, 10, 0), 0.02);
+}
+
+TEST(GroundMap, DoesNotLevelToAnotherStorey) {
+  GroundMap map;
+  const Pose below = upright_pose(level_ground, 0, 0);
+  add(map, GroundScan(level_ground, below), below);
+  const auto bridge = [](double, double) { return 6.0; };
+  const Pose above = upright_pose(bridge, 0, 0);
+
+  const Levelling levelling = add(map, GroundScan(bridge, above), above);
+
+  EXPECT_FALSE(levelling.applied);
+  EXPECT_EQ(levelling.offset, 0);
+  EXPECT_GT(levelling.cells, 5000U);
+  EXPECT_EQ(map.at(3, 3).contradictions, 1U);
+}
+
+TEST(GroundMap, AWrongHeightGivesWayToTheHeightThatMoreScansMeasured) {
+  const auto with_roof = [](double x, double y) {
+    return std::hypot(x - 8, y) < 2 ? 1.5 : level_ground(x, y);
+  };
+  GroundMap map;
+  const Pose pose = upright_pose(level_ground, 0, 0);
+  add(map, GroundScan(with_roof, pose), pose);
+  EXPECT_NEAR(map.height(8, 0), 1.5, 0.01);
+
+  add(map, GroundScan(level_ground, pose), pose);
+  add(map, GroundScan(level_ground, pose), pose);
+
+  EXPECT_NEAR(map.height(8, 0), 0, 0.01);
+  EXPECT_EQ(map.at(8.1, 0.1).contradictions, 1U);
+  EXPECT_EQ(map.at(8.1, 0.1).scans, 2U);
+}
+
+TEST(GroundMap, AgeCountsTheScansSinceTheLastMeasurement) {
+  GroundMap map;
+  const Pose here = upright_pose(level_ground, 0, 0);
+  const Pose far = upright_pose(level_ground, 500, 0);
+  add(map, GroundScan(level_ground, here), here);
+  for (int i = 0; i < 3; ++i) add(map, GroundScan(level_ground, far), far);
+
+  EXPECT_EQ(map.at(1, 1).age, 3U);
+  EXPECT_EQ(map.at(501, 1).age, 0U);
+}
+
+TEST(GroundMap, DoesNotDependOnTheOrderOfThePoints) {
+  const Pose pose = upright_pose(hills, 1, 2, 0.3);
+  const GroundScan scan(hills, pose);
+  // All heights differ, so that sums in another order would be rounded differently.
+  std::vector<float> heights(scan.result.heights().size());
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    heights[i] = 0.07F * std::sin(static_cast<float>(i));
+  }
+  std::vector<std::size_t> order(heights.size());
+  std::iota(order.begin(), order.end(), 0U);
+  GroundMap maps[2];
+  for (GroundMap& map : maps) {
+    GroundScan shuffled = scan;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) shuffled.xyz[3 * i + k] = scan.xyz[3 * order[i] + k];
+      shuffled.xyz[3 * i + 2] += heights[order[i]];
+      shuffled.result.start_heights()[i] = heights[order[i]];
+    }
+    add(map, shuffled, pose);
+    std::ranges::shuffle(order, std::mt19937(1));
+  }
+
+  for (double x = -30; x < 30; x += 0.7) {
+    const double one = maps[0].height(x, 0.5 * x);
+    const double other = maps[1].height(x, 0.5 * x);
+    EXPECT_TRUE(one == other || (std::isnan(one) && std::isnan(other))) << x;
+  }
+}
+
+TEST(GroundMap, MemoryIsBoundedWithAWindow) {
+  GroundMap everything;
+  GroundMap rolling({.window = 80});
+  std::size_t largest = 0;
+  for (double x = 0; x < 1000; x += 20) {
+    const Pose pose = upright_pose(hills, x, 0);
+    const GroundScan scan(hills, pose);
+    add(everything, scan, pose);
+    add(rolling, scan, pose);
+    if (x >= 200) largest = std::max(largest, rolling.bytes());
+    if (x == 200) largest = rolling.bytes();
+  }
+
+  EXPECT_LT(largest, everything.bytes() / 3);
+  EXPECT_TRUE(std::isnan(rolling.height(100, 0)));
+  EXPECT_FALSE(std::isnan(rolling.height(980, 0)));
+  EXPECT_EQ(rolling.height(980, 3), everything.height(980, 3));
+}
+
+TEST(GroundMap, QueriesAcceptAnyNumber) {
+  GroundMap map;
+  const Pose pose = upright_pose(level_ground, 0, 0);
+  add(map, GroundScan(level_ground, pose), pose);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  for (const double x : {std::nan(""), infinity, -infinity, 1e300, -1e8, 1e17}) {
+    EXPECT_TRUE(std::isnan(map.height(x, 0))) << x;
+    EXPECT_TRUE(std::isnan(map.at(0, x).height)) << x;
+  }
+}
+
+TEST(GroundMap, RejectsInvalidPosesAndStaysAsItWas) {
+  GroundMap map;
+  const Pose good = upright_pose(level_ground, 0, 0);
+  const GroundScan scan(level_ground, good);
+  add(map, scan, good);
+  std::vector<Pose> bad(5, good);
+  bad[0].position[1] = std::nan("");
+  bad[1].position[0] = 1e9;
+  bad[2].rotation[0] = std::nan("");
+  bad[3].rotation[0] = 1.1;
+  bad[4].rotation = {1, 0, 0, 0, 1, 0, 0, 0, -1};
+
+  for (const Pose& pose : bad) {
+    Levelling levelling;
+    const Status status = map.add(scan.view(), scan.result, pose, levelling);
+
+    EXPECT_EQ(status.code(), StatusCode::invalid_argument);
+    EXPECT_THAT(status.message(), testing::HasSubstr("expected finite numbers"));
+    EXPECT_EQ(map.scans(), 1U);
+  }
+}
+
+TEST(GroundMap, RejectsResultsOfAnotherCloudOrWithoutHeights) {
+  GroundMap map;
+  const Pose pose = upright_pose(level_ground, 0, 0);
+  const GroundScan scan(level_ground, pose);
+  Segmentation without_heights;
+  without_heights.start(scan.view().size());
+  Levelling levelling;
+
+  EXPECT_EQ(map.add(CloudView(scan.xyz.data(), 5), scan.result, pose, levelling).code(),
+            StatusCode::invalid_argument);
+  EXPECT_EQ(map.add(scan.view(), without_heights, pose, levelling).code(),
+            StatusCode::invalid_argument);
+  EXPECT_EQ(map.scans(), 0U);
+}
+
+TEST(GroundMap, AcceptsAnEmptyScan) {
+  GroundMap map;
+  const Pose pose = upright_pose(level_ground, 0, 0);
+  Levelling levelling;
+
+  EXPECT_TRUE(map.add(CloudView(), Segmentation(), pose, levelling).ok());
+
+  EXPECT_FALSE(levelling.applied);
+  EXPECT_EQ(map.scans(), 1U);
+  EXPECT_EQ(map.cells(), 0U);
+}
+
+TEST(GroundMapConfig, RejectsValuesOutOfRange) {
+  EXPECT_NO_THROW(GroundMapConfig{}.check());
+  const GroundMapConfig invalid[] = {{.cell = 0.05},   {.cell = std::nan("")}, {.max_range = 4},
+                                     {.window = 20},   {.window = -1},         {.max_correction = -1}};
+  for (const GroundMapConfig& config : invalid) {
+    EXPECT_THROW(GroundMap{config}, std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace flagstone
