@@ -8,8 +8,8 @@
 #include "flagstone/gravity_aligned_segmenter.hpp"  // IWYU pragma: export
 #include "flagstone/ground_map.hpp"                 // IWYU pragma: export
 #include "flagstone/ground_surface.hpp"             // IWYU pragma: export
-#include "flagstone/label_vote.hpp"                 // IWYU pragma: export
 #include "flagstone/label.hpp"                      // IWYU pragma: export
+#include "flagstone/label_vote.hpp"                 // IWYU pragma: export
 #include "flagstone/mount.hpp"                      // IWYU pragma: export
 #include "flagstone/patch.hpp"                      // IWYU pragma: export
 #include "flagstone/patchwork.hpp"                  // IWYU pragma: export

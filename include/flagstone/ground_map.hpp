@@ -33,7 +33,7 @@ struct GroundMapConfig {
   /// 0: the map keeps everything.
   double window = 0;
   /// Largest height difference between a scan and the map that is treated as an error of the pose,
-  /// metres, 0 to 100. A scan that differs more is added as it is.
+  /// metres, 0 to 100. Scans that differ more are added without a correction.
   double max_correction = 1;
 
   /// Throws std::invalid_argument if a value is out of its range.
@@ -44,8 +44,8 @@ struct GroundMapConfig {
 struct Levelling {
   bool applied = false;   ///< false: too few common cells, or a difference above max_correction
   std::size_t cells = 0;  ///< number of cells that both the scan and the map know
-  /// Plane to subtract from world heights: offset + slope_x (x - X) + slope_y (y - Y), where (X, Y)
-  /// is the position of the sensor. Metres and m/m; 0 if not applied.
+  /// Plane to subtract from heights in the world frame: offset + slope_x (x - X) + slope_y (y - Y),
+  /// where (X, Y) is the position of the sensor. Metres and m/m; 0 if not applied.
   double offset = 0, slope_x = 0, slope_y = 0;
 
   /// The correction at (x, y), metres, for a sensor at `position`.
@@ -60,7 +60,8 @@ struct MapSample {
   double height = 0;              ///< z of the ground, metres, world frame; NaN if unknown
   std::array<float, 3> normal{};  ///< unit length, z > 0; NaN if unknown
   float slope = 0;  ///< angle between normal and z axis, radians, 0 to pi/2; NaN if unknown
-  float deviation = 0;  ///< expected error of the height (standard deviation), metres; NaN if unknown
+  float deviation =
+      0;  ///< expected error of the height (standard deviation), metres; NaN if unknown
   std::uint32_t scans = 0;           ///< scans that agree on the height of the nearest cell
   std::uint32_t contradictions = 0;  ///< scans that measured another height in that cell
   std::uint32_t age = 0;             ///< scans added since the nearest cell was measured last
@@ -70,12 +71,13 @@ struct MapSample {
 /// cell. Each scan is levelled to the map before it is added, which removes the errors of its pose
 /// in height, pitch and roll.
 ///
-/// If a run comes back to a place, later scans are levelled to the heights of the first pass. A
-/// cell keeps two heights, so a wrong one from one scan (a car roof, say) gives way to the height
-/// that more scans measured.
+/// If a run returns to the same ground, later scans are levelled to the heights of the first pass.
+/// A cell keeps two heights, so a wrong one from one scan, such as a car roof, gives way to the
+/// height that more scans measured.
 ///
 /// The map does not depend on the order of the points in a scan, nor on threads; it depends on the
-/// order of the scans. Not thread-safe while a scan is added; otherwise several threads can read it.
+/// order of the scans. Not thread-safe while a scan is added; otherwise several threads can read
+/// it.
 class GroundMap {
  public:
   /// Throws std::invalid_argument if the configuration is invalid.

@@ -30,12 +30,12 @@ struct LabelVoteConfig {
   void check() const;
 };
 
-/// Better labels for the scans of a run: all scans that measured a place vote on whether it is
-/// ground. Places are voxels in the world frame after levelling, see GroundMap. A scan votes with
+/// Better labels for the scans of a run: all scans that measured a voxel vote on whether it is
+/// ground. Voxels are in the world frame after levelling, see GroundMap. A scan votes with
 /// the fraction of its points in the voxel that it labelled ground; votes from nearby count more.
 ///
 /// With the scans so far the labels are available at once; with later scans they are better. Remove
-/// points that move before both calls, or label them nonground.
+/// points that move before both calls, or label them `nonground`.
 ///
 /// The result does not depend on the order of the points or of the scans. Not thread-safe while a
 /// scan is added; otherwise several threads can call relabel().
@@ -53,9 +53,9 @@ class LabelVote {
   Status add(CloudView cloud, const Segmentation& result, const Pose& pose,
              const Levelling& levelling);
 
-  /// Writes the labels of a scan after the votes so far to `labels`, which must have the size of the
-  /// cloud. A point keeps its own label if its voxel has no votes or a tie, and labels other than
-  /// ground and nonground never change. Errors as add().
+  /// Writes the labels of a scan after the votes so far to `labels`, which must have the size of
+  /// the cloud. A point keeps its own label if its voxel has no votes or a tie, and labels other
+  /// than `ground` and `nonground` never change. Errors as add().
   Status relabel(CloudView cloud, const Segmentation& result, const Pose& pose,
                  const Levelling& levelling, std::span<Label> labels) const;
 

@@ -51,7 +51,7 @@ std::int64_t index_in(std::uint64_t key, unsigned shift, std::int64_t near) noex
   return near + (ahead < period / 2 ? ahead : ahead - period);
 }
 
-/// A scan in the levelled world.
+/// A scan in the world frame after levelling.
 class LevelledScan {
  public:
   LevelledScan(const LabelVoteConfig& config, CloudView cloud, const Segmentation& result,
@@ -110,28 +110,27 @@ class LabelVote::Votes {
   };
 
   LabelVoteConfig config;
-  VoxelSums<std::int32_t> sums;      // of votes
-  VoxelSums<PointCounts> of_scan;    // working memory
+  VoxelSums<std::int32_t> sums;             // of votes
+  VoxelSums<PointCounts> of_scan;           // working memory
   double forgotten_x = 0, forgotten_y = 0;  // position when voxels were forgotten last
 
   [[nodiscard]] std::int32_t vote(const PointCounts& counts) const noexcept;
   void forget_beyond(double x, double y);
 };
 
-// w (g - 0.5) with g the fraction of ground and w = 1 / (1 + (r / 15 m)^2), in whole numbers.
+// w (g - 0.5) with g the fraction of ground and w = 1 / (1 + (r / 15 m)^2), as an integer.
 std::int32_t LabelVote::Votes::vote(const PointCounts& counts) const noexcept {
   constexpr double unit = 4096;
   constexpr double half_weight_range = 15;  // metres
   const double share = static_cast<double>(counts.ground) / counts.all;
   const double dx = (counts.x + 0.5) * config.voxel;
   const double dy = (counts.y + 0.5) * config.voxel;
-  const double weight =
-      1 / (1 + (dx * dx + dy * dy) / (half_weight_range * half_weight_range));
+  const double weight = 1 / (1 + (dx * dx + dy * dy) / (half_weight_range * half_weight_range));
   return static_cast<std::int32_t>(std::lround(unit * weight * (share - 0.5)));
 }
 
-// Copies the voxels that remain. Done when the sensor has moved a quarter of the window, so that its
-// time is spread over many scans.
+// Copies the voxels that remain. Done when the sensor has moved a quarter of the window, so that
+// its time is spread over many scans.
 void LabelVote::Votes::forget_beyond(double x, double y) {
   if (std::hypot(x - forgotten_x, y - forgotten_y) < config.window / 4) return;
   const std::int64_t centre_x = LevelledScan::index_of(x, config.voxel);

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t min_cells = 100;
 constexpr int rounds = 5;
-constexpr double ridge = 100;         // m^2: pulls the slopes to 0 if the cells are close together
-constexpr double min_scale = 0.02;    // metres
-constexpr double max_slope = 0.176;   // tangent of 10 degrees
+constexpr double ridge = 100;        // m^2: pulls the slopes to 0 if the cells are close together
+constexpr double min_scale = 0.02;   // metres
+constexpr double max_slope = 0.176;  // tangent of 10 degrees
 
 struct Plane3 {
   double offset = 0, slope_x = 0, slope_y = 0;

@@ -15,8 +15,8 @@ bool is_valid(const Pose& pose) noexcept {
   constexpr double tolerance = 1e-3;
   for (std::size_t row = 0; row < 9; row += 3) {
     for (std::size_t other = row; other < 9; other += 3) {
-      const double product = r[row] * r[other] + r[row + 1] * r[other + 1] +
-                             r[row + 2] * r[other + 2];
+      const double product =
+          r[row] * r[other] + r[row + 1] * r[other + 1] + r[row + 2] * r[other + 2];
       if (!(std::abs(product - (row == other ? 1 : 0)) <= tolerance)) return false;
     }
   }

@@ -19,9 +19,9 @@ std::int64_t to_fixed(double metres) noexcept {
 // The variance of a measured height, m^2: of the surface, of the mean of the points, and of what
 // grows with the range, for pitch and for the footprint of a beam at grazing incidence.
 float variance_of(std::uint32_t points, double range) noexcept {
-  constexpr double surface = 0.02;     // metres
-  constexpr double point = 0.05;       // metres
-  constexpr double pitch = 0.002;      // radians
+  constexpr double surface = 0.02;      // metres
+  constexpr double point = 0.05;        // metres
+  constexpr double pitch = 0.002;       // radians
   constexpr double footprint = 0.0002;  // 1/m
   const double grown = footprint * range * range;
   return static_cast<float>(surface * surface + point * point / points +

@@ -17,10 +17,10 @@ namespace flagstone {
 /// The height that one scan measures for a cell of the world.
 struct MeasuredHeight {
   CellIndex cell;
-  float dx = 0, dy = 0;    ///< from the sensor to the centre of the cell, world frame, metres
-  float range = 0;         ///< horizontal, in the frame of the sensor, metres
-  double height = 0;       ///< z of the ground in the middle of the cell, world frame, metres
-  float variance = 0;      ///< of the height, m^2
+  float dx = 0, dy = 0;  ///< from the sensor to the centre of the cell, world frame, metres
+  float range = 0;       ///< horizontal, in the frame of the sensor, metres
+  double height = 0;     ///< z of the ground in the middle of the cell, world frame, metres
+  float variance = 0;    ///< of the height, m^2
 };
 
 /// Computes the heights of one scan after another and reuses its memory. Does not depend on the

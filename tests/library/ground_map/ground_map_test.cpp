@@ -19,7 +19,9 @@
 namespace flagstone {
 namespace {
 
-double hills(double x, double y) { return 0.03 * x + std::sin(0.05 * x) + 0.5 * std::cos(0.07 * y); }
+double hills(double x, double y) {
+  return 0.03 * x + std::sin(0.05 * x) + 0.5 * std::cos(0.07 * y);
+}
 
 Levelling add(GroundMap& map, const GroundScan& scan, const Pose& pose) {
   Levelling levelling;
@@ -43,7 +45,7 @@ Pose wrong(Pose pose, double up, double pitch) {
 }
 
 // The largest error of the map within 20 m of (x, y), metres.
-double worst_error(const GroundMap& map, const WorldGround& ground, double x, double y) {
+double worst_error(const GroundMap& map, const TrueGround& ground, double x, double y) {
   double worst = 0;
   for (double dy = -20; dy <= 20; dy += 1.3) {
     for (double dx = -20; dx <= 20; dx += 1.3) {
@@ -53,7 +55,7 @@ double worst_error(const GroundMap& map, const WorldGround& ground, double x, do
   return worst;
 }
 
-TEST(GroundMap, KnowsNothingAtFirst) {
+TEST(GroundMap, IsEmptyAtFirst) {
   const GroundMap map;
 
   EXPECT_TRUE(std::isnan(map.height(0, 0)));
@@ -72,9 +74,10 @@ TEST(GroundMap, HasTheHeightsThatTheScansMeasured) {
   for (double x = 0; x < 60; x += 10) EXPECT_LT(worst_error(map, hills, x, 0.1 * x), 0.01);
   const MapSample sample = map.at(20.3, 4.1);
   EXPECT_NEAR(sample.height, hills(20.3, 4.1), 0.01);
-  EXPECT_NEAR(sample.slope, std::atan(std::hypot(0.03 + 0.05 * std::cos(0.05 * 20.3),
-                                                 -0.035 * std::sin(0.07 * 4.1))),
-              0.01);
+  EXPECT_NEAR(
+      sample.slope,
+      std::atan(std::hypot(0.03 + 0.05 * std::cos(0.05 * 20.3), -0.035 * std::sin(0.07 * 4.1))),
+      0.01);
   EXPECT_GT(sample.scans, 5U);
   EXPECT_EQ(sample.contradictions, 0U);
 }
@@ -276,8 +279,9 @@ TEST(GroundMap, AcceptsAnEmptyScan) {
 
 TEST(GroundMapConfig, RejectsValuesOutOfRange) {
   EXPECT_NO_THROW(GroundMapConfig{}.check());
-  const GroundMapConfig invalid[] = {{.cell = 0.05},   {.cell = std::nan("")}, {.max_range = 4},
-                                     {.window = 20},   {.window = -1},         {.max_correction = -1}};
+  const GroundMapConfig invalid[] = {{.cell = 0.05},   {.cell = std::nan("")},
+                                     {.max_range = 4}, {.window = 20},
+                                     {.window = -1},   {.max_correction = -1}};
   for (const GroundMapConfig& config : invalid) {
     EXPECT_THROW(GroundMap{config}, std::invalid_argument);
   }

@@ -11,13 +11,13 @@ namespace flagstone {
 
 double level_ground(double /*x*/, double /*y*/) { return 0; }
 
-Pose upright_pose(const WorldGround& ground, double x, double y, double yaw, double above) {
+Pose upright_pose(const TrueGround& ground, double x, double y, double yaw, double above) {
   const double c = std::cos(yaw);
   const double s = std::sin(yaw);
   return {.rotation = {c, -s, 0, s, c, 0, 0, 0, 1}, .position = {x, y, ground(x, y) + above}};
 }
 
-GroundScan::GroundScan(const WorldGround& ground, const Pose& pose, double reach) {
+GroundScan::GroundScan(const TrueGround& ground, const Pose& pose, double reach) {
   const auto& r = pose.rotation;
   const auto& p = pose.position;
   const auto local_ground = [&](double x, double y) {
@@ -26,7 +26,8 @@ GroundScan::GroundScan(const WorldGround& ground, const Pose& pose, double reach
   for (double y = -reach; y <= reach; y += 0.25) {
     for (double x = -reach; x <= reach; x += 0.25) {
       if (std::hypot(x, y) > reach) continue;
-      for (const double value : {x, y, local_ground(x, y)}) xyz.push_back(static_cast<float>(value));
+      for (const double value : {x, y, local_ground(x, y)})
+        xyz.push_back(static_cast<float>(value));
     }
   }
   std::ranges::fill(result.start(xyz.size() / 3), Label::ground);

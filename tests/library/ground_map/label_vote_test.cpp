@@ -18,10 +18,10 @@
 namespace flagstone {
 namespace {
 
-// Scans of one place, each with its labels.
-class Place {
+// Scans from one position, each with its labels.
+class Position {
  public:
-  explicit Place(const LabelVoteConfig& config = {})
+  explicit Position(const LabelVoteConfig& config = {})
       : pose_(upright_pose(level_ground, 0, 0)), scan_(level_ground, pose_, 20), vote_(config) {}
 
   [[nodiscard]] std::size_t points() const { return scan_.xyz.size() / 3; }
@@ -56,53 +56,54 @@ class Place {
 };
 
 TEST(LabelVote, TheMajorityOfTheScansDecides) {
-  Place place;
-  place.add(Label::ground);
-  place.add(Label::ground);
-  place.add(Label::nonground);
+  Position position;
+  position.add(Label::ground);
+  position.add(Label::ground);
+  position.add(Label::nonground);
 
-  EXPECT_THAT(place.relabel(Label::nonground), testing::Each(Label::ground));
-  EXPECT_THAT(place.relabel(Label::ground), testing::Each(Label::ground));
+  EXPECT_THAT(position.relabel(Label::nonground), testing::Each(Label::ground));
+  EXPECT_THAT(position.relabel(Label::ground), testing::Each(Label::ground));
 }
 
 TEST(LabelVote, APointKeepsItsLabelWithoutVotesOrAfterATie) {
-  Place place;
-  EXPECT_THAT(place.relabel(Label::nonground), testing::Each(Label::nonground));
-  place.add(Label::ground);
-  place.add(Label::nonground);
+  Position position;
+  EXPECT_THAT(position.relabel(Label::nonground), testing::Each(Label::nonground));
+  position.add(Label::ground);
+  position.add(Label::nonground);
 
-  EXPECT_THAT(place.relabel(Label::nonground), testing::Each(Label::nonground));
-  EXPECT_THAT(place.relabel(Label::ground), testing::Each(Label::ground));
+  EXPECT_THAT(position.relabel(Label::nonground), testing::Each(Label::nonground));
+  EXPECT_THAT(position.relabel(Label::ground), testing::Each(Label::ground));
 }
 
 TEST(LabelVote, OtherLabelsNeverChangeAndDoNotVote) {
   for (const Label label : {Label::noise, Label::out_of_range, Label::invalid}) {
-    Place place;
-    place.add(label);
-    EXPECT_EQ(place.vote().voxels(), 0U);
-    place.add(Label::ground);
-    EXPECT_THAT(place.relabel(label), testing::Each(label));
+    Position position;
+    position.add(label);
+    EXPECT_EQ(position.vote().voxels(), 0U);
+    position.add(Label::ground);
+    EXPECT_THAT(position.relabel(label), testing::Each(label));
   }
 }
 
 TEST(LabelVote, PointsFarAboveTheGroundKeepTheirLabels) {
-  Place place;
-  place.add(Label::ground);
-  std::vector<Label> labels(place.points());
-  std::ranges::fill(place.scan().result.start(place.points()), Label::nonground);
-  std::ranges::fill(place.scan().result.start_heights(), 1.5F);
+  Position position;
+  position.add(Label::ground);
+  std::vector<Label> labels(position.points());
+  std::ranges::fill(position.scan().result.start(position.points()), Label::nonground);
+  std::ranges::fill(position.scan().result.start_heights(), 1.5F);
 
-  EXPECT_TRUE(place.vote()
-                  .relabel(place.scan().view(), place.scan().result, place.pose(), {}, labels)
-                  .ok());
+  EXPECT_TRUE(
+      position.vote()
+          .relabel(position.scan().view(), position.scan().result, position.pose(), {}, labels)
+          .ok());
 
   EXPECT_THAT(labels, testing::Each(Label::nonground));
 }
 
 TEST(LabelVote, AVoteFromNearbyCountsMoreThanOneFromFar) {
-  Place near;
+  Position near;
   near.add(Label::ground);
-  // The same points in the world, seen from 30 m away.
+  // The same points, seen from 30 m away.
   Pose far_pose = near.pose();
   far_pose.position[0] -= 30;
   GroundScan far = near.scan();
@@ -120,20 +121,21 @@ TEST(LabelVote, AVoteFromNearbyCountsMoreThanOneFromFar) {
   }
 }
 
-TEST(LabelVote, UsesTheLevelledWorld) {
-  Place place;
-  place.add(Label::ground);
-  place.add(Label::ground);
+TEST(LabelVote, UsesPosesAfterLevelling) {
+  Position position;
+  position.add(Label::ground);
+  position.add(Label::ground);
   // The pose of this scan is 0.5 m too high.
-  Pose pose = place.pose();
+  Pose pose = position.pose();
   pose.position[2] += 0.5;
-  std::ranges::fill(place.scan().result.start(place.points()), Label::nonground);
-  std::ranges::fill(place.scan().result.start_heights(), 0.0F);
-  std::vector<Label> labels(place.points());
+  std::ranges::fill(position.scan().result.start(position.points()), Label::nonground);
+  std::ranges::fill(position.scan().result.start_heights(), 0.0F);
+  std::vector<Label> labels(position.points());
   const auto relabel = [&](const Levelling& levelling) {
-    EXPECT_TRUE(place.vote()
-                    .relabel(place.scan().view(), place.scan().result, pose, levelling, labels)
-                    .ok());
+    EXPECT_TRUE(
+        position.vote()
+            .relabel(position.scan().view(), position.scan().result, pose, levelling, labels)
+            .ok());
     return labels;
   };
 
@@ -179,8 +181,8 @@ TEST(LabelVote, DoesNotDependOnTheOrderOfPointsOrScans) {
 }
 
 TEST(LabelVote, ForgetsVoxelsOutsideTheWindow) {
-  Place rolling({.window = 100});
-  Place everything;
+  Position rolling({.window = 100});
+  Position everything;
   std::size_t largest = 0;
   for (double x = 0; x < 2000; x += 10) {
     const Pose pose = upright_pose(level_ground, x, 0);
@@ -194,24 +196,28 @@ TEST(LabelVote, ForgetsVoxelsOutsideTheWindow) {
 }
 
 TEST(LabelVote, RejectsOtherSizesAndInvalidPoses) {
-  Place place;
-  place.add(Label::ground);
+  Position position;
+  position.add(Label::ground);
   std::vector<Label> few(3);
-  Pose invalid = place.pose();
+  Pose invalid = position.pose();
   invalid.rotation[4] = std::nan("");
-  const GroundScan& scan = place.scan();
+  const GroundScan& scan = position.scan();
 
-  EXPECT_EQ(place.vote().relabel(scan.view(), scan.result, place.pose(), {}, few).code(),
+  EXPECT_EQ(position.vote().relabel(scan.view(), scan.result, position.pose(), {}, few).code(),
             StatusCode::invalid_argument);
-  EXPECT_EQ(place.vote().add(scan.view(), scan.result, invalid, {}).code(),
+  EXPECT_EQ(position.vote().add(scan.view(), scan.result, invalid, {}).code(),
             StatusCode::invalid_argument);
-  EXPECT_EQ(place.vote().add(CloudView(scan.xyz.data(), 2), scan.result, place.pose(), {}).code(),
-            StatusCode::invalid_argument);
+  EXPECT_EQ(
+      position.vote().add(CloudView(scan.xyz.data(), 2), scan.result, position.pose(), {}).code(),
+      StatusCode::invalid_argument);
 }
 
 TEST(LabelVoteConfig, RejectsValuesOutOfRange) {
-  const LabelVoteConfig invalid[] = {
-      {.voxel = 0.01}, {.voxel_height = 2}, {.min_height = -11}, {.max_range = 201}, {.window = 50}};
+  const LabelVoteConfig invalid[] = {{.voxel = 0.01},
+                                     {.voxel_height = 2},
+                                     {.min_height = -11},
+                                     {.max_range = 201},
+                                     {.window = 50}};
   for (const LabelVoteConfig& config : invalid) {
     EXPECT_THROW(LabelVote{config}, std::invalid_argument);
   }

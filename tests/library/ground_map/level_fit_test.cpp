@@ -12,8 +12,8 @@
 namespace flagstone {
 namespace {
 
-std::vector<HeightDifference> cells_with(const std::function<double(double x, double y)>& difference,
-                                         int side = 40) {
+std::vector<HeightDifference> cells_with(
+    const std::function<double(double x, double y)>& difference, int side = 40) {
   std::vector<HeightDifference> cells;
   for (int j = -side; j <= side; ++j) {
     for (int i = -side; i <= side; ++i) {
@@ -31,7 +31,8 @@ Levelling fitted(const std::vector<HeightDifference>& cells, double max_correcti
 }
 
 TEST(LevelFit, FindsThePlane) {
-  const Levelling fit = fitted(cells_with([](double x, double y) { return 0.2 + 0.01 * x - 0.02 * y; }));
+  const Levelling fit =
+      fitted(cells_with([](double x, double y) { return 0.2 + 0.01 * x - 0.02 * y; }));
 
   EXPECT_TRUE(fit.applied);
   EXPECT_NEAR(fit.offset, 0.2, 1e-3);

@@ -75,7 +75,8 @@ TEST(SimulatedRun, TheVoteCorrectsLabels) {
   for (std::size_t i = 0; i < run.scans.size(); ++i) {
     std::vector<Label> labels(run.scans[i].size());
     ASSERT_TRUE(
-        run.vote.relabel(run.view(i), run.results[i], run.poses[i], run.levellings[i], labels).ok());
+        run.vote.relabel(run.view(i), run.results[i], run.poses[i], run.levellings[i], labels)
+            .ok());
     own += errors(run.scans[i], run.results[i].labels());
     voted += errors(run.scans[i], labels);
   }
