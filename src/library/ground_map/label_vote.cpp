@@ -66,7 +66,8 @@ class LevelledScan {
     const Label label = result_.labels()[i];
     if (label != Label::ground && label != Label::nonground) return std::nullopt;
     const float height = result_.heights()[i];
-    if (!(height > config_.min_height && height < config_.max_height)) return std::nullopt;
+    const bool is_near_ground = height > config_.min_height && height < config_.max_height;
+    if (!is_near_ground) return std::nullopt;  // also without a height
     const Point point = cloud_[i];
     const auto reach = static_cast<float>(config_.max_range);
     if (!(point.x * point.x + point.y * point.y < reach * reach)) return std::nullopt;
