@@ -8,7 +8,7 @@ PREFIX ?= /usr/local
 MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence bench-codec latency soak-test surface-figures
 
 .PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
-        bench-compare $(MEASUREMENTS) surface-study worlds-study invariance-study contact-sheet clean
+        bench-compare bench-bags $(MEASUREMENTS) surface-study worlds-study invariance-study contact-sheet clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
@@ -68,6 +68,9 @@ soak-test: PROGRAM = soak ## memory of one segmenter over 100,000 different scan
 surface-figures: PROGRAM = surface_stages ## draw the images of docs/explanation/surface.md
 $(MEASUREMENTS):
 	@scripts/setup build plot && scripts/benchmark $(PROGRAM)
+
+bench-bags: ## time `flagstone bag` with each format of bags; BAGS: options of bench/bags.py
+	@scripts/setup build python && scripts/python install && "$$(scripts/python environment)" bench/bags.py $(BAGS)
 
 surface-study: build ## measure accuracy, write tables of docs/benchmarks/accuracy.md and robustness.md; WORK: a directory with 4 GB free
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/surface_study.py run --work $(or $(WORK),out/study)

@@ -19,6 +19,8 @@ from flagstone._core import version as __version__
 from flagstone._evaluate import Evaluation, evaluate
 from flagstone._score import Score, score
 from flagstone._simulate import SimulatedScan, simulate
+from flagstone.bags.job import bag
+from flagstone.bags.summary import BagSummary
 from flagstone.codes import Label, Verdict
 from flagstone.ground_surface import Grid, GroundSample, GroundSurface
 from flagstone.segmentation import Mount, Segmentation
@@ -27,6 +29,7 @@ from flagstone.sensors import Sensor, sensors
 from flagstone.viewer import show
 
 __all__ = [
+    "BagSummary",
     "Evaluation",
     "Grid",
     "GroundSample",
@@ -42,6 +45,7 @@ __all__ = [
     "Surface",
     "Verdict",
     "__version__",
+    "bag",
     "evaluate",
     "io",
     "make_segmenter",

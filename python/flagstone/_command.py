@@ -9,6 +9,9 @@ from typing import NoReturn
 
 from flagstone import _core
 
+PYTHON_VARIABLE = "FLAGSTONE_PYTHON"
+"""Environment variable with the interpreter, which the program starts for commands that need Python."""
+
 
 def path() -> Path:
     """Path of the program.
@@ -23,10 +26,15 @@ def path() -> Path:
     return program
 
 
+def environment() -> dict[str, str]:
+    """The environment variables of this process and the interpreter, for the program."""
+    return {**os.environ, PYTHON_VARIABLE: sys.executable}
+
+
 def main() -> NoReturn:
     """Replaces this process with the command and passes on its arguments."""
     try:
         program = os.fspath(path())
-        os.execv(program, [program, *sys.argv[1:]])
+        os.execve(program, [program, *sys.argv[1:]], environment())
     except OSError as error:
         sys.exit(f"flagstone: {error}")

@@ -41,6 +41,10 @@ class Progress:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self.clear()
+
+    def clear(self) -> None:
+        """Removes the bar, so that something else can be printed."""
         if self._is_drawn:
             self._draw("")
 

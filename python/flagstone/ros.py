@@ -103,7 +103,8 @@ class PointCloud2:
     """A point cloud in a serialized message. Create one with `parse`.
 
     The arrays are views of the message, which must not change while they are used. `Segmenter.segment` accepts the
-    object: NumPy converts it to `xyz`. Threads may share it; `xyz`, `append` and `select` release the GIL.
+    object: NumPy converts it to `xyz`. Threads may share it; `xyz`, `transformed`, `append` and
+    `select` release the GIL.
     """
 
     def __init__(self, core: _core.RosMessage, message: Buffer, encoding: Encoding, is_livox: bool) -> None:
@@ -250,6 +251,25 @@ class PointCloud2:
         )
         array.flags.writeable = False
         return array
+
+    def transformed(self, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> npt.NDArray[np.float32]:
+        """(N, 3): `rotation` @ (x, y, z) + `translation` of every point, row by row, computed in double precision.
+
+        Missing returns, which are all zero, stay all zero; no other point becomes all zero.
+
+        Args:
+            rotation: (3, 3) matrix.
+            translation: (3,) in the units of the message.
+
+        Raises:
+            ValueError: As `xyz`, or an argument has another shape.
+            MemoryError: There is not enough memory.
+        """
+        matrix, shift = np.asarray(rotation, np.float64), np.asarray(translation, np.float64)
+        for name, array, shape in (("rotation", matrix, (3, 3)), ("translation", shift, (3,))):
+            if array.shape != shape:
+                raise ValueError(f"{name}: shape {array.shape} is not supported (expected {shape})")
+        return self._core.transformed_coordinates(matrix.reshape(-1).tolist(), shift.tolist())
 
     def append(self, fields: Mapping[str, npt.ArrayLike]) -> bytes:
         """Returns the message with added fields, and all existing fields unchanged.

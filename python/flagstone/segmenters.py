@@ -276,6 +276,38 @@ def _remake(name: str, made_of: dict[str, Any]) -> Segmenter:
     return segmenter
 
 
+class _SegmenterWithSettings(Segmenter):
+    """Made from all settings. Argument `sensor_height` would fix a height that the settings estimate."""
+
+    def __init__(self, method: str, settings: dict[str, Any]) -> None:
+        self._method = method
+        self._made_of = settings
+        self._core = _core.Segmenter(
+            method=method,
+            preset="default",
+            sensor="",
+            config_file="",
+            settings=settings,
+            sensor_height=None,
+            tilt=None,
+            threads=1,
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _SegmenterWithSettings, (self._method, self._made_of)
+
+
+def segmenter_with(method: str, settings: dict[str, Any]) -> Segmenter:
+    """A segmenter with the same settings as another one, from its `method` and `settings`.
+
+    It has one thread, and none of the estimates of the other segmenter.
+
+    Raises:
+        ValueError: The method or a setting is unknown, or a value is out of range.
+    """
+    return _SegmenterWithSettings(method, settings)
+
+
 def method_names() -> tuple[str, ...]:
     """Names that `make_segmenter` accepts, in the order of Table I of the paper, followed by `surface`."""
     return tuple(_core.method_names())

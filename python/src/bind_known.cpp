@@ -5,8 +5,10 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "app/config/method_choice.hpp"
@@ -15,6 +17,7 @@
 #include "flagstone/patch.hpp"
 #include "flagstone/sensor.hpp"
 #include "library/core/setting.hpp"
+#include "library/mount/mount_settings.hpp"
 
 namespace nb = nanobind;
 
@@ -78,17 +81,51 @@ const char* type_of(const Setting& setting) {
   return names.at(setting.value.index());
 }
 
-/// Key, Python type, meaning and valid range of every setting of a method.
-nb::list settings(const std::string& method) {
-  MethodConfig config = config::resolve_one({.methods = {method}}).config;
+/// "fixed, estimate or track"
+std::string names_of(const Choice& choice) {
+  std::string text;
+  for (std::size_t i = 0; i < choice.names().size(); ++i) {
+    const bool is_last = i + 1 == choice.names().size();
+    text += i == 0 ? "" : is_last ? " or " : ", ";
+    text += choice.names()[i];
+  }
+  return text;
+}
+
+/// Key, Python type, meaning, allowed values in words, and minimum and maximum of a number.
+nb::list list_of(const std::vector<Setting>& settings) {
   nb::list list;
-  for (const Setting& setting : config.settings()) {
-    const bool is_range = setting.value.index() != 2 && setting.value.index() != 5;
-    const std::string allowed = is_range ? to_string(setting.allowed) : "";
+  for (const Setting& setting : settings) {
+    const auto* choice = std::get_if<Choice>(&setting.value);
+    const bool is_flag = std::holds_alternative<bool*>(setting.value);
+    const bool is_number = std::holds_alternative<float*>(setting.value) ||
+                           std::holds_alternative<int*>(setting.value);
+    const ValidRange& allowed = setting.allowed;
+    nb::object low = nb::none();
+    nb::object high = nb::none();
+    if (is_number) {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      low = nb::float_(allowed.low);
+      high = nb::float_(allowed.allow_infinity ? infinity : allowed.high);
+    }
+    std::string words;
+    if (choice != nullptr) words = names_of(*choice);
+    if (choice == nullptr && !is_flag) words = to_string(allowed);
     list.append(nb::make_tuple(str_of(setting.key), type_of(setting), str_of(setting.meaning),
-                               str_of(allowed)));
+                               words, low, high));
   }
   return list;
+}
+
+/// The settings of a method, without the mounting pose.
+nb::list settings(const std::string& method) {
+  MethodConfig config = config::resolve_one({.methods = {method}}).config;
+  return list_of(config.settings());
+}
+
+nb::list mount_settings() {
+  MountSettings mount;
+  return list_of(settings_of(mount));
 }
 
 }  // namespace
@@ -99,7 +136,11 @@ void bind_known(nb::module_& module) {
   module.def("verdict_names", &names_of_verdicts, nb::sig("def verdict_names() -> list[str]"));
   module.def("sensors", &sensors, nb::sig("def sensors() -> list[dict[str, typing.Any]]"));
   module.def("settings", &settings, nb::arg("method"),
-             nb::sig("def settings(method: str) -> list[tuple[str, str, str, str]]"));
+             nb::sig("def settings(method: str) -> list[tuple[str, str, str, str, float | None, "
+                     "float | None]]"));
+  module.def("mount_settings", &mount_settings,
+             nb::sig("def mount_settings() -> list[tuple[str, str, str, str, float | None, "
+                     "float | None]]"));
 }
 
 }  // namespace flagstone::python

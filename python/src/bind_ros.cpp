@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -147,6 +149,22 @@ class Message {
     return {memory->data(), {cloud_.size(), 3}, owner};
   }
 
+  /// x, y and z of every point in another frame.
+  [[nodiscard]] nb::ndarray<nb::numpy, float, nb::ndim<2>> transformed_coordinates(
+      const std::array<double, 9>& rotation, const std::array<double, 3>& translation) const {
+    auto* const memory = new std::vector<float>();
+    const nb::capsule owner(
+        memory, [](void* kept) noexcept { delete static_cast<std::vector<float>*>(kept); });
+    Status status;
+    {
+      const nb::gil_scoped_release released;
+      status = ros::transform_coordinates(
+          cloud_, {.rotation = rotation, .translation = translation}, *memory);
+    }
+    raise_if_failed(status);
+    return {memory->data(), {cloud_.size(), 3}, owner};
+  }
+
   [[nodiscard]] nb::object append(const std::vector<AddedTuple>& added) const {
     return derive(added, [](ros::DerivedCloud& derived, const ros::PointCloud2View& cloud,
                             std::span<const ros::AddedField> fields) {
@@ -262,6 +280,10 @@ void bind_ros(nb::module_& module) {
            nb::sig("def zero_copy_layout(self) -> tuple[int, int] | None"))
       .def("copied_coordinates", &Message::copied_coordinates,
            nb::sig("def copied_coordinates(self) -> numpy.typing.NDArray[numpy.float32]"))
+      .def("transformed_coordinates", &Message::transformed_coordinates, nb::arg("rotation"),
+           nb::arg("translation"),
+           nb::sig("def transformed_coordinates(self, rotation: list[float], translation: "
+                   "list[float]) -> numpy.typing.NDArray[numpy.float32]"))
       .def("convention", &Message::convention,
            nb::sig("def convention(self) -> tuple[str, str | None, float, str, str | None, "
                    "str | None]"))

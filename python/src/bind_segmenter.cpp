@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/variant.h>
 #include <pthread.h>
@@ -13,8 +15,10 @@
 #include <cstdlib>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -66,6 +70,38 @@ class SharedSegmenter {
 
   std::unique_ptr<Result> segment(nb::handle x, nb::handle y, nb::handle z) {
     return segment_points(Points(x, y, z));
+  }
+
+  /// The mounting pose that one scan shows: whether the estimate is accepted, the height, the up
+  /// direction, and the decision in one sentence. Does not change the state of the segmenter.
+  nb::tuple estimate_mount(nb::handle x, nb::handle y, nb::handle z) {
+    const Points points(x, y, z);
+    std::vector<float> copy;
+    MountDecision decision;
+    {
+      const nb::gil_scoped_release released;
+      decision = MountEstimator(method_.mount).estimate(points.view(copy));
+    }
+    const auto& up = decision.mount.up;
+    return nb::make_tuple(decision.accepted(), decision.mount.sensor_height,
+                          nb::make_tuple(up[0], up[1], up[2]), to_sentence(decision));
+  }
+
+  /// A segmenter with the same settings, except that a height or tilt to be estimated is fixed: at
+  /// the given values, otherwise at the configured ones.
+  [[nodiscard]] std::unique_ptr<SharedSegmenter> with_fixed_mount(
+      const std::optional<std::tuple<float, std::array<float, 3>>>& found) const {
+    config::ResolvedMethod method = method_;
+    MountSettings& mount = method.mount;
+    if (mount.height != HeightSource::fixed) {
+      mount.height = HeightSource::fixed;
+      if (found) mount.mount.sensor_height = std::get<0>(*found);
+    }
+    if (mount.tilt == TiltSource::estimate) {
+      mount.tilt = TiltSource::fixed;
+      if (found) mount.mount.up = std::get<1>(*found);
+    }
+    return std::make_unique<SharedSegmenter>(std::move(method), threads_);
   }
 
   void reset() {
@@ -253,6 +289,13 @@ void bind_segmenter(nb::module_& module) {
            nb::sig("def segment_rows(self, array: object) -> Result | None"))
       .def("segment", &SharedSegmenter::segment, nb::arg("x"), nb::arg("y"), nb::arg("z"),
            nb::sig("def segment(self, x: object, y: object, z: object) -> Result"))
+      .def("estimate_mount", &SharedSegmenter::estimate_mount, nb::arg("x"), nb::arg("y"),
+           nb::arg("z"),
+           nb::sig("def estimate_mount(self, x: object, y: object, z: object) -> tuple[bool, "
+                   "float, tuple[float, float, float], str]"))
+      .def("with_fixed_mount", &SharedSegmenter::with_fixed_mount, nb::arg("found").none(),
+           nb::sig("def with_fixed_mount(self, found: tuple[float, tuple[float, float, float]] | "
+                   "None) -> Segmenter"))
       .def("reset", &SharedSegmenter::reset)
       .def("settings", &settings_dict, nb::sig("def settings(self) -> dict[str, typing.Any]"));
 }

@@ -48,4 +48,5 @@ NB_MODULE(_core, module) {
   bind_ros(module);
   bind_score(module);
   bind_runs(module);
+  bind_doctor(module);
 }

@@ -5,7 +5,7 @@
 The Python code of a page runs from top to bottom, in an empty directory or after the page's `flagstone demo`. C++ code
 is compiled. Commands run on one small simulated scan instead of the data that they name, and simulate one frame: the
 data sets are large, and some commands take hours. So options, their values and their combinations are tested, but not
-the printed results. Commands for Ray are only parsed, because they may need a cluster.
+the printed results. Of commands for Ray, only the options are checked, because they may need a cluster.
 """
 
 from __future__ import annotations
@@ -156,8 +156,10 @@ def commands(program: str) -> dict[str, str]:
     return found
 
 
-COMMANDS = commands("flagstone")
-RAY_COMMANDS = commands("flagstone-ray")
+ALL_COMMANDS = commands("flagstone")
+RAY_COMMANDS = {text: place for text, place in ALL_COMMANDS.items() if text.startswith("flagstone ray ")}
+BAG_COMMANDS = {text: place for text, place in ALL_COMMANDS.items() if text.startswith("flagstone bag ")}
+COMMANDS = {text: place for text, place in ALL_COMMANDS.items() if text not in RAY_COMMANDS | BAG_COMMANDS}
 
 
 @pytest.fixture(scope="module")
@@ -182,9 +184,15 @@ def stand_ins(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return directory
 
 
-def run_command(arguments: list[str], directory: Path) -> str:
+def run_command(arguments: list[str], directory: Path, environment: dict[str, str] | None = None) -> str:
     done = subprocess.run(
-        [_command.path(), *arguments], cwd=directory, capture_output=True, text=True, timeout=120, check=False
+        [_command.path(), *arguments],
+        cwd=directory,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -196,9 +204,27 @@ def test_command_runs_on_stand_ins(command: str, stand_ins: Path, tmp_path: Path
 
 
 @pytest.mark.parametrize("command", RAY_COMMANDS, ids=[f"{place} {text[:60]}" for text, place in RAY_COMMANDS.items()])
-def test_command_for_ray_is_understood(command: str) -> None:
-    of_ray = pytest.importorskip("flagstone.ray.command")
-    of_ray.make_parser().parse_args(shlex.split(command, comments=True)[1:])
+def test_command_for_ray_is_understood(command: str, tmp_path: Path) -> None:
+    nothing = shutil.which("true")
+    assert nothing is not None
+    environment = {**_command.environment(), _command.PYTHON_VARIABLE: nothing}  # instead of Python
+    run_command(shlex.split(command, comments=True)[1:], tmp_path, environment)
+
+
+@pytest.mark.parametrize("command", BAG_COMMANDS, ids=[f"{place} {text[:60]}" for text, place in BAG_COMMANDS.items()])
+def test_command_for_bags_runs_on_a_stand_in(command: str, stand_ins: Path, tmp_path: Path) -> None:
+    pytest.importorskip("rosbags", reason="needs rosbags, of the test dependencies")
+    from bag_scenes import scans, scene, write_bag
+
+    source = write_bag(tmp_path / "in.bag", "rosbag1", scene("rosbag1", scans(2)))
+    names = {"--topic": "/points", "--tf": "base_link", "--imu": "/imu", "--config": str(stand_ins / "surface.toml")}
+    words = shlex.split(command, comments=True)[1:]
+    options = words[3:]
+    for option in words[3:]:
+        if option in names:
+            options[options.index(option) + 1] = names[option]
+    assert not any(word.startswith("-") for word in words[1:3]), "IN and OUT come first"
+    run_command(["bag", str(source), str(tmp_path / "out.bag"), *options], tmp_path, _command.environment())
 
 
 def on_stand_ins(command: str, directory: Path) -> list[str]:

@@ -80,6 +80,21 @@ def test_settings_formats_and_destinations_are_used(scans: Path, tmp_path: Path)
     )  # label files are not treated as scans
 
 
+def run_command(scans: Path, labels: Path) -> int:
+    """Runs the Python part of `flagstone ray` in this process, which has joined Ray already."""
+    options = {
+        "method": "surface",
+        "settings": flagstone.Surface().settings,
+        "columns": 0,
+        "format": "label",
+        "label_map": "flagstone",
+        "overwrite": False,
+        "address": "",
+        "workers": 1,
+    }
+    return command.run(options, [str(scans), str(labels)])
+
+
 def test_failures_do_not_affect_other_scans_and_a_second_run_retries_them(
     scans: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -89,7 +104,7 @@ def test_failures_do_not_affect_other_scans_and_a_second_run_retries_them(
     labels = tmp_path / "labels"
     labels.mkdir()
     (labels / "01").write_text("a file with the name of a directory")
-    assert command.main([str(scans), "--output", str(labels), "--workers", "1"]) == 1
+    assert run_command(scans, labels) == 1
     printed = capsys.readouterr().out
     assert f"4 of {len(SCANS)} scans labelled" in printed
     assert f"4 failed:\n  {scans}/00/b.pcd: byte " in printed
@@ -103,7 +118,7 @@ def test_failures_do_not_affect_other_scans_and_a_second_run_retries_them(
     (labels / "a.label").unlink()
     os.truncate(labels / "00" / "a.label", 400)
     kept = {path: path.stat().st_ino for path in (labels / "02" / "g.label", labels / "00" / "deep" / "c.label")}
-    assert command.main([str(scans), "--output", str(labels), "--workers", "1"]) == 0
+    assert run_command(scans, labels) == 0
     assert f"6 of {len(SCANS)} scans labelled" in capsys.readouterr().out
     assert files(labels) == files(tmp_path / "expected")
     assert all(path.stat().st_ino == number for path, number in kept.items())

@@ -10,7 +10,6 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -27,6 +26,7 @@ from conftest import run_command  # noqa: E402
 from ray_scans import files, label_with_command  # noqa: E402
 
 import flagstone.ray  # noqa: E402
+from flagstone import _command  # noqa: E402
 
 pytestmark = pytest.mark.slow
 
@@ -79,7 +79,8 @@ def cluster() -> Iterator[Any]:
 def start(cluster: Any, scans: Path, labels: Path) -> subprocess.Popen[str]:
     arguments = [scans, "--output", labels, "--address", cluster.address]
     return subprocess.Popen(
-        [sys.executable, "-m", "flagstone.ray.command", *map(str, arguments)],
+        [str(_command.path()), "ray", *map(str, arguments)],
+        env=_command.environment(),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -185,7 +186,7 @@ def test_an_interrupted_run_reports_the_finished_scans(
     known = len(flagstone.ray.statistics(labels))
     print(printed, error)
     assert run.returncode == 1
-    assert f"flagstone-ray: interrupted: {known} of {SCANS} scans are finished (run again to resume)\n" in error
+    assert f"flagstone: interrupted: {known} of {SCANS} scans are finished (run again to resume)\n" in error
     assert "Traceback" not in error
     assert printed.startswith(f"{known} of {SCANS} scans labelled")
     assert whole(labels).items() <= expected.items()

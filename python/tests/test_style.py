@@ -17,6 +17,6 @@ pytest.importorskip("ruff")
 
 @pytest.mark.parametrize("check", [["check"], ["format", "--check"]], ids=["lint", "format"])
 def test_ruff_finds_nothing(check: list[str]) -> None:
-    command = [sys.executable, "-m", "ruff", *check, "--no-cache", "python", "examples/python"]
+    command = [sys.executable, "-m", "ruff", *check, "--no-cache", "python", "examples/python", "ros2"]
     done = subprocess.run(command, capture_output=True, text=True, cwd=REPOSITORY)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -62,12 +62,18 @@ def run(*arguments: str | Path, folder: Path) -> subprocess.CompletedProcess[str
     return subprocess.run(command, capture_output=True, text=True, cwd=folder, env=environment)
 
 
-def mypy(cache: Path, *arguments: str, folder: Path) -> subprocess.CompletedProcess[str]:
+def mypy(cache: Path, *arguments: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
     return run("mypy", "--strict", f"--cache-dir={cache}", *arguments, folder=folder)
 
 
 def test_the_package_passes_mypy_strict(tmp_path: Path, cache: Path) -> None:
     done = mypy(cache, f"--config-file={REPOSITORY / 'pyproject.toml'}", "-p", "flagstone", folder=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_ros_2_package_passes_mypy_strict(tmp_path: Path, cache: Path) -> None:
+    sources = REPOSITORY / "ros2" / "flagstone_ros" / "flagstone_ros"
+    done = mypy(cache, f"--config-file={REPOSITORY / 'pyproject.toml'}", sources, folder=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
 
 

@@ -92,34 +92,52 @@ bool DoctorReport::ok() const {
   return failures.empty() && !files.empty() && !interrupted && !diagnosis.has_something_to_fix();
 }
 
+ScanExaminer::ScanExaminer(std::string method, const MethodConfig& config)
+    : expected_(expected_of(config)) {
+  report_.method = std::move(method);
+}
+
+void ScanExaminer::examine(const std::string& name, const io::Cloud& cloud) {
+  examinations_.push_back(doctor::examine(cloud));
+  report_.files.push_back(name);
+}
+
+void ScanExaminer::fail(const std::string& name, const std::string& error) {
+  report_.failures.push_back({name, error});
+}
+
+DoctorReport ScanExaminer::report() const {
+  DoctorReport report = report_;
+  if (!examinations_.empty()) {
+    report.diagnosis = doctor::diagnose(doctor::summarise(examinations_), expected_);
+  }
+  return report;
+}
+
 DoctorReport examine_files(const DoctorRequest& request, const RunCallbacks& callbacks) {
-  const doctor::Expected expected = expected_of(request.config);
   const std::vector<std::string> scans = chosen_scans(request.scans, request.max_scans, callbacks);
   OutputPlan plan = request.plan;
   for (const std::string& scan : scans) plan.reads(scan);
   plan.writes(request.output);
   plan.check();
 
-  DoctorReport report{.method = request.method};
-  std::vector<doctor::Examination> examinations;
+  ScanExaminer examiner(request.method, request.config);
   const ProgressMeter meter(scans.size());
   for (std::size_t i = 0; i < scans.size() && !callbacks.stopped(); ++i) {
     callbacks.show(meter.at(i));
     io::Cloud cloud;
     const Status status = io::read_cloud(scans[i], {.columns = request.columns}, cloud);
     if (status.ok()) {
-      examinations.push_back(doctor::examine(cloud));
-      report.files.push_back(scans[i]);
+      examiner.examine(scans[i], cloud);
     } else {
       callbacks.say(status.message());
-      report.failures.push_back({scans[i], status.message()});
+      examiner.fail(scans[i], status.message());
     }
   }
-  report.interrupted = callbacks.stopped();
-  if (examinations.empty() || report.interrupted) return report;
+  if (callbacks.stopped()) return {.method = request.method, .interrupted = true};
 
-  report.diagnosis = doctor::diagnose(doctor::summarise(examinations), expected);
-  if (!request.output.empty()) {
+  DoctorReport report = examiner.report();
+  if (!report.files.empty() && !request.output.empty()) {
     const Status status = io::write_file(request.output, toml_of(report));
     if (!status.ok()) throw std::runtime_error(status.message());
   }

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "app/doctor/diagnosis.hpp"
+#include "app/doctor/examination.hpp"
 #include "app/output_plan.hpp"
 #include "app/run.hpp"
+#include "files/io/cloud.hpp"
 #include "flagstone/make_segmenter.hpp"
 
 namespace flagstone::app {
@@ -40,6 +42,27 @@ struct DoctorReport {
 
   /// True if all scans were examined and no finding has severity `fix`.
   [[nodiscard]] bool ok() const;
+};
+
+/// Examines scans one by one and combines the results. Not thread-safe.
+class ScanExaminer {
+ public:
+  /// Scans are compared with the settings of `config`.
+  ScanExaminer(std::string method, const MethodConfig& config);
+
+  /// Examines a scan. `name` is its path, or another description of its origin.
+  void examine(const std::string& name, const io::Cloud& cloud);
+
+  /// Records a scan that cannot be read, with a message of one line.
+  void fail(const std::string& name, const std::string& error);
+
+  /// The diagnosis of all scans so far. If no scan was examined, there is no diagnosis.
+  [[nodiscard]] DoctorReport report() const;
+
+ private:
+  doctor::Expected expected_;
+  std::vector<doctor::Examination> examinations_;
+  DoctorReport report_;
 };
 
 /// Examines scans and writes the recommended settings. If no scan can be read, or if interrupted,

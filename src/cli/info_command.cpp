@@ -7,12 +7,14 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "app/scan_info.hpp"
 #include "cli/commands.hpp"
 #include "cli/help.hpp"
+#include "cli/python_command.hpp"
 #include "cli/shared_options.hpp"
 #include "cli/terminal.hpp"
 #include "files/io/read_cloud.hpp"
@@ -27,6 +29,7 @@ class InfoCommand final : public Command {
   int columns = 0;
 
   int run() override {
+    if (are_bags(scans)) run_in_python("info", nlohmann::ordered_json::object(), scans);
     int exit_code = 0;
     for (const std::string& scan : scans) {
       io::Cloud cloud;
@@ -46,10 +49,12 @@ class InfoCommand final : public Command {
 
 std::unique_ptr<Command> add_info_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("info", "Show the fields, bounds and histograms of scan files.");
-  set_help(*command, {.examples = {{"flagstone info scan.pcd"}}});
+      app.add_subcommand("info", "Show the fields and bounds of scans, or the topics of bags.");
+  set_help(*command, {.examples = {{"flagstone info scan.pcd"}, {"flagstone info street.mcap"}}});
   auto made = std::make_unique<InfoCommand>(*command);
-  add_scans_option(*command, made->scans, "Scan files (.bin, .pcd.bin, .pcd, .ply, .npy)");
+  add_scans_option(*command, made->scans,
+                   "Scan files (.bin, .pcd.bin, .pcd, .ply, .npy), or bags (.bag, .mcap, .db3, "
+                   "directories with metadata.yaml)");
   add_columns_option(*command, made->columns);
   return made;
 }

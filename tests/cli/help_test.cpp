@@ -40,8 +40,8 @@ std::vector<std::string> listed_commands() {
 
 TEST(Help, ListsEveryCommandOnOneLine) {
   EXPECT_THAT(listed_commands(),
-              testing::ElementsAre("segment", "doctor", "info", "eval", "sweep", "bench", "demo",
-                                   "simulate", "config", "sensors"));
+              testing::ElementsAre("segment", "bag", "ray", "doctor", "info", "eval", "sweep",
+                                   "bench", "demo", "simulate", "config", "sensors"));
 }
 
 TEST(Help, OfEveryCommandHasPurposeUsageExamplesOptionsAndExitCodesInThisOrder) {

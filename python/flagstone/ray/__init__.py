@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Labels for millions of scans in a directory or bucket, on one machine or on a Ray cluster.
 
-`segment` labels all scans. `statistics` reads the table of results. `flagstone-ray` is the command for `segment`.
+`segment` labels all scans. `statistics` reads the table of results. `flagstone ray` is the command for `segment`.
 """
 
 from flagstone.ray.job import segment

@@ -82,6 +82,23 @@ void convert_axis(const PointCloud2View& cloud, std::size_t offset, float* to) n
   }
 }
 
+/// x of a point that would be transformed to (0, 0, 0), which means a missing return.
+constexpr float next_to_origin = 1e-6f;
+
+/// Without branches, so that the compiler can vectorise it.
+void transform_point(const Point& p, const RigidTransform& transform, float* to) noexcept {
+  const auto& [r, t] = transform;
+  const double x = p.x, y = p.y, z = p.z;
+  const bool is_missing = (p.x == 0) & (p.y == 0) & (p.z == 0);
+  const auto moved_x = static_cast<float>(r[0] * x + r[1] * y + r[2] * z + t[0]);
+  const auto moved_y = static_cast<float>(r[3] * x + r[4] * y + r[5] * z + t[1]);
+  const auto moved_z = static_cast<float>(r[6] * x + r[7] * y + r[8] * z + t[2]);
+  const bool is_at_origin = (moved_x == 0) & (moved_y == 0) & (moved_z == 0);
+  to[0] = is_missing ? 0 : is_at_origin ? next_to_origin : moved_x;
+  to[1] = is_missing ? 0 : moved_y;
+  to[2] = is_missing ? 0 : moved_z;
+}
+
 }  // namespace
 
 bool has_native_coordinates(const PointCloud2View& cloud) noexcept {
@@ -114,6 +131,20 @@ Status view_coordinates(const PointCloud2View& cloud, std::vector<float>& copy, 
         });
       }
       out = CloudView(copy.data(), cloud.size());
+    }
+    return Status();
+  });
+}
+
+Status transform_coordinates(const PointCloud2View& cloud, const RigidTransform& transform,
+                             std::vector<float>& out) {
+  std::vector<float> copy;
+  CloudView view;
+  if (Status status = view_coordinates(cloud, copy, view); !status.ok()) return status;
+  return io::within_memory([&] {
+    out.resize(3 * view.size());
+    for (std::size_t i = 0; i < view.size(); ++i) {
+      transform_point(view[i], transform, out.data() + 3 * i);
     }
     return Status();
   });

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "files/ros/point_cloud2.hpp"
@@ -22,5 +23,16 @@ namespace flagstone::ros {
 /// check(). bad_file if x, y or z is missing, is not a single number, or is a boolean or of an
 /// unknown type; out_of_memory. Never throws; changes `out` only on success.
 Status view_coordinates(const PointCloud2View& cloud, std::vector<float>& copy, CloudView& out);
+
+/// Coordinates in another frame: `rotation` times the coordinates, plus `translation`.
+struct RigidTransform {
+  std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< row by row
+  std::array<double, 3> translation{0, 0, 0};                 ///< in the unit of the cloud
+};
+
+/// x, y and z of every point in another frame, packed, row by row. Missing returns, which are all
+/// zero, stay all zero; no other point becomes all zero. Errors as view_coordinates().
+Status transform_coordinates(const PointCloud2View& cloud, const RigidTransform& transform,
+                             std::vector<float>& out);
 
 }  // namespace flagstone::ros

@@ -178,5 +178,39 @@ TEST(CoordinatesError, IsReportedForBooleansAndUnknownTypes) {
               fails(StatusCode::bad_file, HasSubstr("field 'y' has datatype 77")));
 }
 
+TEST(TransformedCoordinates, AreRotatedAndMoved) {
+  const RigidTransform quarter_turn_about_z = {.rotation = {0, -1, 0, 1, 0, 0, 0, 0, 1},
+                                               .translation = {10, 20, 30}};
+  const Viewed viewed(message_of<double>(float64, {1, 2, 3}));
+  std::vector<float> moved;
+
+  ASSERT_THAT(transform_coordinates(viewed.cloud, quarter_turn_about_z, moved), is_ok());
+
+  EXPECT_EQ(moved, (std::vector<float>{8, 21, 33}));
+}
+
+TEST(TransformedCoordinates, KeepMissingReturnsAndMakeNoOthers) {
+  const RigidTransform shift = {.translation = {-1, -2, -3}};
+  std::vector<float> moved;
+
+  const Viewed missing(message_of<float>(float32, {0, 0, 0}));
+  ASSERT_THAT(transform_coordinates(missing.cloud, shift, moved), is_ok());
+  EXPECT_EQ(moved, (std::vector<float>{0, 0, 0}));
+
+  const Viewed at_new_origin(message_of<float>(float32, {1, 2, 3}));
+  ASSERT_THAT(transform_coordinates(at_new_origin.cloud, shift, moved), is_ok());
+  EXPECT_NE(moved, (std::vector<float>{0, 0, 0}));
+}
+
+TEST(TransformedCoordinates, OfACloudWithoutZAreAnError) {
+  CloudMessage message = message_of<float>(float32, {1, 2, 3});
+  message.fields.pop_back();
+  const Viewed viewed(message);
+  std::vector<float> moved;
+
+  EXPECT_THAT(transform_coordinates(viewed.cloud, {}, moved),
+              fails(StatusCode::bad_file, HasSubstr("no field 'z'")));
+}
+
 }  // namespace
 }  // namespace flagstone::ros

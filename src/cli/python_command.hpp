@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace flagstone::cli {
+
+/// Replaces this process with the Python of the package that this command belongs to, which runs
+/// `command`. `options` must be UTF-8; `paths` may contain any bytes.
+///
+/// Throws std::invalid_argument with what to install if the command was not started by the Python
+/// package, std::runtime_error if Python cannot be started.
+[[noreturn]] void run_in_python(const std::string& command, const nlohmann::ordered_json& options,
+                                const std::vector<std::string>& paths);
+
+/// Whether the path names a bag: a file .bag, .mcap or .db3, or a directory with metadata.yaml.
+bool is_bag(std::string_view path);
+
+/// Whether the paths name bags. Throws std::invalid_argument if only some of them do.
+bool are_bags(const std::vector<std::string>& paths);
+
+}  // namespace flagstone::cli
