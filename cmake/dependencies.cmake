@@ -69,7 +69,7 @@ if(FLAGSTONE_BUILD_COMMAND OR FLAGSTONE_BUILD_TESTS)
   set(needs_command ON)
 endif()
 
-if(needs_command OR FLAGSTONE_BUILD_FUZZERS OR FLAGSTONE_SANITIZED_TESTS)
+if(needs_command OR FLAGSTONE_BUILD_ROS OR FLAGSTONE_BUILD_FUZZERS OR FLAGSTONE_SANITIZED_TESTS)
   flagstone_dependency(
     fmt https://github.com/fmtlib/fmt/archive/9.1.0.tar.gz
     5dea48d1fcddc3ec571ce2058e13910a0d4a6bab4cc09a809d8b1dd1c88ae6f2 9)
