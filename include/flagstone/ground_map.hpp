@@ -44,9 +44,14 @@ struct GroundMapConfig {
 struct Levelling {
   bool applied = false;   ///< false: too few common cells, or a difference above max_correction
   std::size_t cells = 0;  ///< number of cells that both the scan and the map know
-  /// Plane to subtract from heights in the world frame: offset + slope_x (x - X) + slope_y (y - Y),
-  /// where (X, Y) is the position of the sensor. Metres and m/m; 0 if not applied.
-  double offset = 0, slope_x = 0, slope_y = 0;
+  /// @name Plane to subtract from heights in the world frame
+  /// offset + slope_x (x - X) + slope_y (y - Y), where (X, Y) is the position of the sensor. 0 if
+  /// not applied.
+  /// @{
+  double offset = 0;   ///< metres
+  double slope_x = 0;  ///< m/m
+  double slope_y = 0;  ///< m/m
+  /// @}
 
   /// The correction at (x, y), metres, for a sensor at `position`.
   [[nodiscard]] double at(double x, double y,
@@ -86,6 +91,7 @@ class GroundMap {
   GroundMap(GroundMap&&) noexcept;
   GroundMap& operator=(GroundMap&&) noexcept;
 
+  /// The configuration.
   [[nodiscard]] const GroundMapConfig& config() const noexcept;
 
   /// Fits a scan to the map without adding it.

@@ -18,9 +18,9 @@ namespace flagstone {
 struct LabelVoteConfig {
   double voxel = 0.25;         ///< width of a voxel, metres, 0.05 to 2
   double voxel_height = 0.06;  ///< metres, 0.01 to 1
-  /// Points with another height above the ground of their scan keep their labels, metres, -10 to
-  /// 10.
-  float min_height = -0.4f, max_height = 1;
+  /// Points lower than this above the ground of their scan keep their labels, metres, -10 to 10.
+  float min_height = -0.4f;
+  float max_height = 1;   ///< points higher than this keep their labels, metres, -10 to 10
   double max_range = 70;  ///< points farther from the sensor keep their labels, metres, 5 to 200
   /// After each scan, voxels farther from the sensor than this are forgotten, metres, 100 to 1e6.
   /// 0: nothing is forgotten.
