@@ -56,7 +56,7 @@ class ScanExaminer {
   /// Records a scan that cannot be read, with a message of one line.
   void fail(const std::string& name, const std::string& error);
 
-  /// The diagnosis of all scans so far. If no scan was examined, there is no diagnosis.
+  /// The diagnosis of all scans so far; empty if no scan was examined.
   [[nodiscard]] DoctorReport report() const;
 
  private:

@@ -119,6 +119,16 @@ class Bag(ABC):
             ValueError: The bag is closed.
         """
 
+    def _counted(self, messages: Iterator[Message]) -> dict[int, int]:
+        """Sets the first and the last log time, and returns the number of messages by the id of their topic."""
+        counts: dict[int, int] = {}
+        for message in messages:
+            counts[message.topic.id] = counts.get(message.topic.id, 0) + 1
+            time = message.log_time
+            self.start_time = time if self.start_time is None else min(self.start_time, time)
+            self.end_time = time if self.end_time is None else max(self.end_time, time)
+        return counts
+
     @abstractmethod
     def close(self) -> None:
         """Closes the files. Data of messages that still exist remain valid."""

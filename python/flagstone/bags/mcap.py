@@ -349,14 +349,7 @@ class McapFile(Bag):
 
     def _count(self) -> None:
         """Finds channels, counts and times in the data."""
-        counts: dict[int, int] = {}
-        for message in self._walk(None, self._file.size):
-            counts[message.topic.id] = counts.get(message.topic.id, 0) + 1
-            time = message.log_time
-            if self.start_time is None or self.end_time is None:
-                self.start_time = self.end_time = time
-            self.start_time = min(self.start_time, time)
-            self.end_time = max(self.end_time, time)
+        counts = self._counted(self._walk(None, self._file.size))
         for id, topic in self._topics.items():
             self._topics[id] = replace(topic, message_count=counts.get(id, 0))
 

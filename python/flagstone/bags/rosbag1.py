@@ -292,15 +292,7 @@ class Rosbag1(Bag):
 
     def _count(self) -> None:
         """Finds connections, counts and times in the chunks."""
-        counts: dict[int, int] = {}
-        for message in self._walk(None, self._file.size):
-            counts[message.topic.id] = counts.get(message.topic.id, 0) + 1
-            time = message.log_time
-            if self.start_time is None or self.end_time is None:
-                self.start_time = self.end_time = time
-            self.start_time = min(self.start_time, time)
-            self.end_time = max(self.end_time, time)
-        self._set_counts(counts)
+        self._set_counts(self._counted(self._walk(None, self._file.size)))
 
     def _set_counts(self, counts: dict[int, int]) -> None:
         for id, topic in self._topics.items():

@@ -43,7 +43,7 @@ def descriptor_of(parameter: declaration.Parameter) -> ParameterDescriptor:
 
 
 def default_of(parameter: declaration.Parameter) -> Any:
-    """The second argument of declare_parameter: a value, or the type if there is no default."""
+    """The second argument of declare_parameter: a value, or the type of a parameter without default."""
     if parameter.default is not None:
         return to_ros(parameter.default)
     return _TYPES[parameter.types[0]] if len(parameter.types) == 1 else None
