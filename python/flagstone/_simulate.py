@@ -62,8 +62,11 @@ def simulate(
     weather: str | Sequence[str] = "clear",
     keep_no_returns: bool = False,
     frames: int = 200,
+    length: float = 72,
+    loop: bool = False,
     rate: float = 1,
     speed: float = 8,
+    distortion: bool = False,
     pose_noise: str = "none",
     seed: int = 1,
     sequence: str = "00",
@@ -88,9 +91,14 @@ def simulate(
         noise: `"clean"`, `"default"` or `"harsh"`.
         weather: One or more of `"clear"`, `"wet"`, `"rain"` and `"dust"`.
         keep_no_returns: Write missing returns as points at (0, 0, 0), like many drivers.
-        frames: Number of scans, 1 to 100,000. A new environment starts every 72 m.
+        frames: Number of scans, 1 to 100,000. A new environment starts behind the end of the previous one.
+        length: Length of an environment in metres, 72 to 20,000, rounded up to a multiple of 72. More than 72 for the
+            scenes `"parked_cars"`, `"park"`, `"forest_track"`, `"urban_street"`, `"highway"` and `"crossroads"`.
+        loop: Environments are circuits of `length`, at least 700 m, which the vehicle passes twice.
         rate: Scans per second, 0.1 to 100. With 10, the sensor moves 0.8 m between scans.
         speed: Speed of the vehicle in m/s, 0.1 to 30. Traffic is as fast, compared with the vehicle, as at 8 m/s.
+        distortion: Motion distortion: the sensor moves while it measures a scan. `times/NNNNNN.time.npy` contains the
+            time of each point after the first firing of its scan, in seconds.
         pose_noise: Errors of the poses in `poses_measured.txt`: `"none"` (no such file), `"jitter"` or `"drift"`.
         seed: Seed of the environments and the noise, 0 to 2**64 - 1.
         sequence: Name of the sequence, two digits. One directory can contain several sequences.
@@ -115,8 +123,11 @@ def simulate(
             listed(weather),
             keep_no_returns,
             frames,
+            float(length),
+            loop,
             float(rate),
             float(speed),
+            distortion,
             pose_noise,
             seed,
             sequence,

@@ -8,7 +8,9 @@
 #include <atomic>
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -18,9 +20,12 @@
 #include "app/simulated_sequence.hpp"
 #include "files/io/sensor_file.hpp"
 #include "flagstone/sensor.hpp"
+#include "lab/sim/alignment.hpp"
 #include "lab/sim/drive.hpp"
+#include "lab/sim/extent.hpp"
 #include "lab/sim/noise.hpp"
 #include "lab/sim/pose_noise.hpp"
+#include "lab/sim/ray_caster.hpp"
 #include "lab/sim/scene.hpp"
 #include "library/core/did_you_mean.hpp"
 
@@ -89,7 +94,28 @@ Sensor sensor_found(const std::string& name_or_file) {
   return sensor;
 }
 
-SequenceOrigin origin_of(const SimulateOptions& options) {
+/// The environment of at least `length` metres, in whole stretches.
+sim::Extent extent_of(const SimulateOptions& options, const sim::SceneKind& scene) {
+  const double shortest = options.loop ? sim::shortest_circuit : sim::stretch_length;
+  check_range("--length", options.length, shortest, max_length,
+              options.loop ? "m with --loop" : "m");
+  constexpr double rounding = 1e-9;
+  const sim::Extent extent{.stretches = static_cast<std::size_t>(
+                               std::ceil(options.length / sim::stretch_length - rounding)),
+                           .closed = options.loop};
+  if (extent.is_long() && scene.make_long == nullptr) {
+    std::string names;
+    for (const sim::SceneKind& kind : sim::scene_kinds()) {
+      if (kind.make_long != nullptr) names += fmt::format(", {}", kind.name);
+    }
+    throw std::invalid_argument(
+        fmt::format("--length: {} is always {} m long (expected one of these scenes: {})",
+                    scene.name, sim::stretch_length, names.substr(2)));
+  }
+  return extent;
+}
+
+SequenceOrigin origin_of(const SimulateOptions& options, const sim::SceneKind& scene) {
   const Sensor sensor = sensor_found(options.sensor);
   const sim::NoiseLevel* level = sim::find_noise_level(options.noise);
   if (level == nullptr) {
@@ -114,6 +140,7 @@ SequenceOrigin origin_of(const SimulateOptions& options) {
           .noise = noise,
           .keep_no_returns = options.keep_no_returns,
           .pace = options.pace,
+          .extent = extent_of(options, scene),
           .pose_noise = options.pose_noise,
           .seed = options.seed,
           .frames = options.frames};
@@ -128,12 +155,17 @@ class SequenceRun {
       : files_(files),
         scene_(scene),
         origin_(origin),
-        drive_length_(origin.pace.frames()),
+        drive_length_(origin.pace.frames(origin.extent)),
         worlds_((origin.frames + drive_length_ - 1) / drive_length_) {
+    for (World& world : worlds_) {
+      world.parts = std::vector<Part>(sim::Drive::part_count(origin.extent));
+    }
     for (std::size_t frame = 0; frame < origin.frames; ++frame) {
       if (files.has(frame)) continue;
       missing_.push_back(frame);
-      ++worlds_[frame / drive_length_].frames_left;
+      World& world = worlds_[frame / drive_length_];
+      ++world.frames_left;
+      for (Part& part : parts_of(world, frame % drive_length_)) ++part.frames_left;
     }
   }
 
@@ -179,34 +211,54 @@ class SequenceRun {
   }
 
  private:
-  /// The environment of a sequence: built by the first thread that needs it, freed after its last
-  /// frame.
-  struct World {
+  /// A part of an environment: built by the first thread that needs it, freed after the last frame
+  /// that does.
+  struct Part {
     std::once_flag built;
-    std::unique_ptr<sim::Drive> drive;
-    std::unique_ptr<sim::Scene> scene;
+    std::shared_ptr<const sim::RayCaster> caster;
     std::atomic<std::size_t> frames_left = 0;
   };
 
+  /// An environment of a sequence, made and freed in the same way.
+  struct World {
+    std::once_flag made;
+    std::unique_ptr<sim::Drive> drive;
+    std::vector<Part> parts;
+    std::atomic<std::size_t> frames_left = 0;
+  };
+
+  /// The parts that a frame of an environment needs.
+  [[nodiscard]] std::span<Part> parts_of(World& world, std::size_t number) const {
+    const auto [first, count] = sim::Drive::parts_of(number, origin_.pace, origin_.extent);
+    return std::span(world.parts).subspan(first, count);
+  }
+
   [[nodiscard]] sim::Drive drive(std::size_t index) const {
-    return {scene_, origin_.sensor, origin_.mounting, sim::drive_seed(origin_.seed, index),
-            origin_.pace};
+    return {scene_,       origin_.sensor, origin_.mounting, sim::drive_seed(origin_.seed, index),
+            origin_.pace, origin_.extent};
   }
 
   void simulate(std::size_t frame) {
     World& world = worlds_[frame / drive_length_];
-    std::call_once(world.built, [&] {
+    std::call_once(world.made, [&] {
       world.drive = std::make_unique<sim::Drive>(drive(frame / drive_length_));
-      world.scene = std::make_unique<sim::Scene>(world.drive->scene());
     });
-    const int number = static_cast<int>(frame % drive_length_);
-    const sim::SimulatedScan scan =
-        world.drive->scan(*world.scene, origin_.noise, number, origin_.keep_no_returns);
-    files_.write(frame, scan, world.drive->ground_of(scan, number));
-    if (--world.frames_left == 0) {
-      world.scene.reset();
-      world.drive.reset();
+    const std::span<Part> parts = parts_of(world, frame % drive_length_);
+    std::vector<std::shared_ptr<const sim::RayCaster>> casters;
+    for (Part& part : parts) {
+      std::call_once(part.built, [&] {
+        part.caster = world.drive->part(static_cast<std::size_t>(&part - world.parts.data()));
+      });
+      casters.push_back(part.caster);
     }
+    const int number = static_cast<int>(frame % drive_length_);
+    const sim::SimulatedScan scan = world.drive->scan(
+        world.drive->scene(std::move(casters)), origin_.noise, number, origin_.keep_no_returns);
+    files_.write(frame, scan, world.drive->ground_of(scan, number), world.drive->times_of(scan));
+    for (Part& part : parts) {
+      if (--part.frames_left == 0) part.caster.reset();
+    }
+    if (--world.frames_left == 0) world.drive.reset();
   }
 
   const SimulatedSequence& files_;
@@ -226,9 +278,10 @@ Simulation simulate(const SimulateOptions& options, const RunCallbacks& callback
     throw std::invalid_argument(
         fmt::format("--frames: {} is out of range (expected 1 to {})", options.frames, max_frames));
   }
-  const SimulatedSequence files(std::filesystem::path(options.output) / "sequences" /
-                                options.sequence);
-  const SequenceOrigin origin = origin_of(options);
+  const SimulatedSequence files(
+      std::filesystem::path(options.output) / "sequences" / options.sequence,
+      options.pace.distortion);
+  const SequenceOrigin origin = origin_of(options, scene);
   files.begin(origin);
 
   SequenceRun sequence(files, scene, origin);
@@ -236,7 +289,7 @@ Simulation simulate(const SimulateOptions& options, const RunCallbacks& callback
   Simulation simulation{.folder = files.folder(),
                         .sensor = origin.sensor.name,
                         .drives = sequence.environments(),
-                        .frames_per_environment = origin.pace.frames(),
+                        .frames_per_environment = origin.pace.frames(origin.extent),
                         .simulated = run.done,
                         .kept = options.frames - sequence.missing(),
                         .interrupted = run.done < sequence.missing()};
@@ -247,6 +300,7 @@ Simulation simulate(const SimulateOptions& options, const RunCallbacks& callback
   } else {
     const SequenceRun::Poses poses = sequence.poses();
     files.write_poses("poses.txt", poses.exact);
+    files.write_times(options.frames, options.pace.rate);
     if (options.pose_noise != "none") files.write_poses("poses_measured.txt", poses.measured);
   }
   return simulation;

@@ -11,6 +11,7 @@
 
 #include "app/run.hpp"
 #include "lab/sim/drive.hpp"
+#include "lab/sim/extent.hpp"
 
 namespace flagstone::app {
 
@@ -21,6 +22,7 @@ inline constexpr double max_simulated_height = 100;       ///< metres
 inline constexpr double max_simulated_tilt = 90;          ///< degrees
 inline constexpr double min_rate = 0.1, max_rate = 100;   ///< scans per second
 inline constexpr double min_speed = 0.1, max_speed = 30;  ///< m/s
+inline constexpr double max_length = 20000;               ///< metres
 /// @}
 
 struct SimulateOptions {
@@ -33,8 +35,10 @@ struct SimulateOptions {
   std::vector<std::string> weather{"clear"};  ///< names of sim::Weather
   bool keep_no_returns = false;               ///< write missing returns as points at (0, 0, 0)
   std::size_t frames = 200;                   ///< 1 to max_frames
-  sim::Pace pace;                             ///< rate and speed, within the limits above
-  std::string pose_noise = "none";            ///< name of a sim::PoseNoise
+  double length = sim::stretch_length;        ///< of an environment, metres; up to max_length
+  bool loop = false;                          ///< a circuit of this length, passed twice
+  sim::Pace pace;                   ///< rate, speed and distortion, within the limits above
+  std::string pose_noise = "none";  ///< name of a sim::PoseNoise
   std::uint64_t seed = 1;
   std::string sequence = "00";  ///< two digits
   unsigned threads = 0;         ///< 0: all cores

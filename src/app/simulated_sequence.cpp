@@ -86,6 +86,9 @@ Json origin_json(const SequenceOrigin& origin) {
           {"no_returns_kept", origin.keep_no_returns},
           {"rate", origin.pace.rate},
           {"speed", origin.pace.speed},
+          {"length", origin.extent.length()},
+          {"loop", origin.extent.closed},
+          {"distortion", origin.pace.distortion},
           {"pose_noise", origin.pose_noise},
           {"sensor", sensor_json(origin.sensor)}};
 }
@@ -119,17 +122,21 @@ std::string scene_text(const SequenceOrigin& origin) {
   Json scene = origin_json(origin);
   scene["frames"] = origin.frames;
   Json drives = Json::array();
-  const std::size_t per_drive = origin.pace.frames();
+  const std::size_t per_drive = origin.pace.frames(origin.extent);
   for (std::size_t first = 0; first < origin.frames; first += per_drive) {
     drives.push_back(
         {{"first_frame", first}, {"world_seed", sim::drive_seed(origin.seed, first / per_drive)}});
   }
   scene["drives"] = drives;
-  scene["files"] = {
-      {"scans", "velodyne/NNNNNN.bin"},       {"labels", "labels/NNNNNN.label"},
-      {"ground", "ground/NNNNNN.ground.npy"}, {"returns", "returns/NNNNNN.return.npy"},
-      {"motion", "motion/NNNNNN.motion.npy"}, {"poses", "poses.txt"}};
+  scene["files"] = {{"scans", "velodyne/NNNNNN.bin"},
+                    {"labels", "labels/NNNNNN.label"},
+                    {"ground", "ground/NNNNNN.ground.npy"},
+                    {"returns", "returns/NNNNNN.return.npy"},
+                    {"motion", "motion/NNNNNN.motion.npy"},
+                    {"poses", "poses.txt"},
+                    {"scan_times", "times.txt"}};
   if (origin.pose_noise != "none") scene["files"]["measured_poses"] = "poses_measured.txt";
+  if (origin.pace.distortion) scene["files"]["times"] = "times/NNNNNN.time.npy";
   scene["classes"] = class_json();
   scene["return_kinds"] = codes_json(sim::echo_kind_names);
   scene["motions"] = codes_json(sim::motion_names);
@@ -206,6 +213,7 @@ void SimulatedSequence::begin(const SequenceOrigin& origin) const {
   make_folder(folder_ / "ground");
   make_folder(folder_ / "returns");
   make_folder(folder_ / "motion");
+  if (timed_) make_folder(folder_ / "times");
 }
 
 fs::path SimulatedSequence::return_file(std::size_t frame) const {
@@ -216,6 +224,10 @@ fs::path SimulatedSequence::motion_file(std::size_t frame) const {
   return folder_ / "motion" / fmt::format("{:06}.motion.npy", frame);
 }
 
+fs::path SimulatedSequence::time_file(std::size_t frame) const {
+  return folder_ / "times" / fmt::format("{:06}.time.npy", frame);
+}
+
 bool SimulatedSequence::has(std::size_t frame) const {
   constexpr std::uintmax_t scan_bytes = 4 * sizeof(float);
   const std::uintmax_t scan = size_of(scan_file(frame));
@@ -224,11 +236,12 @@ bool SimulatedSequence::has(std::size_t frame) const {
   return scan > 0 && scan % scan_bytes == 0 &&
          size_of(label_file(frame)) == points * sizeof(std::uint32_t) &&
          size_of(ground_file(frame)) == io::height_file_size(points) &&
-         size_of(return_file(frame)) == code_bytes && size_of(motion_file(frame)) == code_bytes;
+         size_of(return_file(frame)) == code_bytes && size_of(motion_file(frame)) == code_bytes &&
+         (!timed_ || size_of(time_file(frame)) == io::height_file_size(points));
 }
 
 void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan,
-                              std::span<const float> ground) const {
+                              std::span<const float> ground, std::span<const float> times) const {
   io::Cloud cloud;
   must(io::Cloud::from_floats(scan.xyzi, 4, cloud));
   must(io::write_cloud(scan_file(frame), cloud));
@@ -236,6 +249,7 @@ void SimulatedSequence::write(std::size_t frame, const sim::SimulatedScan& scan,
   must(io::write_npy_file(ground_file(frame), ground, std::array{ground.size()}));
   must(io::write_file(return_file(frame), codes_text<sim::EchoKind>(scan.echoes)));
   must(io::write_file(motion_file(frame), codes_text<sim::Motion>(scan.motions)));
+  if (timed_) must(io::write_npy_file(time_file(frame), times, std::array{times.size()}));
 }
 
 void SimulatedSequence::write_poses(const char* name, std::span<const sim::Frame> poses) const {
@@ -247,6 +261,14 @@ void SimulatedSequence::write_poses(const char* name, std::span<const sim::Frame
     text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", f.z, l.z, u.z, o.z);
   }
   must(io::write_file(folder_ / name, text));
+}
+
+void SimulatedSequence::write_times(std::size_t frames, double rate) const {
+  std::string text;
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    text += fmt::format("{:.6f}\n", static_cast<double>(frame) / rate);
+  }
+  must(io::write_file(folder_ / "times.txt", text));
 }
 
 }  // namespace flagstone::app

@@ -17,7 +17,9 @@
 #include "cli/terminal.hpp"
 #include "files/io/message.hpp"
 #include "flagstone/sensor.hpp"
+#include "lab/sim/alignment.hpp"
 #include "lab/sim/drive.hpp"
+#include "lab/sim/extent.hpp"
 #include "lab/sim/noise.hpp"
 #include "lab/sim/pose_noise.hpp"
 #include "lab/sim/scene.hpp"
@@ -35,6 +37,16 @@ NameList summaries(std::string title, const auto& kinds) {
   return list;
 }
 
+/// The scenes that can be longer than a stretch.
+std::string long_scenes() {
+  std::string names;
+  for (const sim::SceneKind& kind : sim::scene_kinds()) {
+    if (kind.make_long == nullptr) continue;
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", kind.name);
+  }
+  return names;
+}
+
 Help help_text() {
   NameList sensors{.title = "Sensors"};
   for (const Sensor& sensor : Sensor::known())
@@ -42,7 +54,8 @@ Help help_text() {
   return {
       .examples =
           {{"flagstone simulate --scene flat_street --output simulated"},
-           {"flagstone simulate --scene steep_street --sensor vlp-16 --weather rain -o out"}},
+           {"flagstone simulate --scene steep_street --sensor vlp-16 --weather rain -o out"},
+           {"flagstone simulate --scene park --length 1000 --loop --frames 252 -o loop"}},
       .lists = {summaries("Scenes", sim::scene_kinds()), summaries("Noise", sim::noise_levels()),
                 summaries("Weather", sim::weathers()), summaries("Pose noise", sim::pose_noises()),
                 sensors},
@@ -92,11 +105,24 @@ std::unique_ptr<Command> add_simulate_command(CLI::App& app) {
       ->type_name("NAME");
   command
       ->add_option("--frames", options->frames,
-                   fmt::format("Number of scans, 1 to {}; a new environment every {:g} m",
-                               app::max_frames, 2 * sim::half_drive))
+                   fmt::format("Number of scans, 1 to {}; a new environment every --length",
+                               app::max_frames))
       ->check(in_range(std::size_t{1}, app::max_frames))
       ->type_name("N")
       ->capture_default_str();
+  command
+      ->add_option(
+          "--length", options->length,
+          fmt::format("Length of an environment in metres, {:g} to {:g}, rounded up to a "
+                      "multiple of {:g}; for {}",
+                      sim::stretch_length, app::max_length, sim::stretch_length, long_scenes()))
+      ->check(in_range(sim::stretch_length, app::max_length))
+      ->type_name("M")
+      ->capture_default_str();
+  command->add_flag("--loop", options->loop,
+                    fmt::format("Environments are circuits of --length, at least {:g} m, which the "
+                                "vehicle passes twice",
+                                sim::shortest_circuit));
   command
       ->add_option("--rate", options->pace.rate,
                    fmt::format("Scans per second, {} to {}; with 10, a continuous run",
@@ -113,6 +139,10 @@ std::unique_ptr<Command> add_simulate_command(CLI::App& app) {
       ->check(in_range(app::min_speed, app::max_speed))
       ->type_name("M/S")
       ->capture_default_str();
+  command->add_flag(
+      "--distortion", options->pace.distortion,
+      "Motion distortion: the sensor moves while it measures a scan; adds the time of "
+      "each point");
   command
       ->add_option("--pose-noise", options->pose_noise,
                    "Errors of the poses in poses_measured.txt; see Pose noise below")

@@ -63,7 +63,8 @@ TEST(SimulateCommand, WritesASequenceInTheLayoutOfSemanticKitti) {
                   "sequences/07/motion/000001.motion.npy", "sequences/07/poses.txt",
                   "sequences/07/returns/000000.return.npy",
                   "sequences/07/returns/000001.return.npy", "sequences/07/scene.json",
-                  "sequences/07/velodyne/000000.bin", "sequences/07/velodyne/000001.bin"));
+                  "sequences/07/times.txt", "sequences/07/velodyne/000000.bin",
+                  "sequences/07/velodyne/000001.bin"));
   auto files = files_below(sequence);
   for (const std::string frame : {"000000", "000001"}) {
     const std::size_t points = files["velodyne/" + frame + ".bin"].size() / 16;
@@ -253,6 +254,75 @@ TEST(SimulateCommand, OutputDoesNotDependOnThreadsOrExistingFrames) {
   for (const auto& [name, contents] : expected) {
     EXPECT_TRUE(files.contains(name) && files.at(name) == contents) << name;
   }
+}
+
+TEST(SimulateCommand, LongRunDoesNotDependOnThreadsOrExistingFrames) {
+  const io::TemporaryFolder folder;
+  const auto simulated = [&](const char* name, const char* frames, const char* threads) {
+    const Outcome outcome =
+        simulate(folder / name, "highway",
+                 {"--frames", frames, "--threads", threads, "--length", "700", "--loop", "--speed",
+                  "30", "--rate", "0.3", "--sensor", "vlp-16", "--pose-noise", "drift"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return files_below(folder / name);
+  };
+
+  const auto expected = simulated("one", "9", "1");
+  const auto seven = simulated("seven", "9", "7");
+  simulated("resumed", "4", "2");
+  fs::remove(folder / "resumed" / "sequences" / "00" / "velodyne" / "000002.bin");
+  const auto resumed = simulated("resumed", "9", "2");
+
+  const auto scene = nlohmann::json::parse(expected.at("sequences/00/scene.json"));
+  EXPECT_EQ(scene["length"], 720);
+  EXPECT_EQ(scene["loop"], true);
+  EXPECT_THAT(scene["drives"], SizeIs(1)) << "the second lap is in the same environment";
+  EXPECT_EQ(seven == expected, true);
+  EXPECT_EQ(resumed == expected, true);
+}
+
+TEST(SimulateCommand, WritesTheTimeOfEveryPointWithMotionDistortion) {
+  const io::TemporaryFolder folder;
+  const std::vector<std::string> options{"--frames",     "2",        "--rate", "10",
+                                         "--distortion", "--sensor", "vlp-16"};
+  const fs::path sequence = folder / "out" / "sequences" / "00";
+
+  const Outcome outcome = simulate(folder / "out", "park", options);
+  auto files = files_below(sequence);
+  fs::remove(sequence / "times" / "000001.time.npy");
+  const Outcome resumed = simulate(folder / "out", "park", options);
+
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::size_t points = files["velodyne/000001.bin"].size() / 16;
+  std::vector<float> times;
+  ASSERT_THAT(io::read_height_file(sequence / "times" / "000001.time.npy", points, times),
+              io::is_ok());
+  for (const float time : times) {
+    ASSERT_GE(time, 0);
+    ASSERT_LT(time, 0.1F);
+  }
+  const auto scene = nlohmann::json::parse(files["scene.json"]);
+  EXPECT_EQ(scene["distortion"], true);
+  EXPECT_EQ(scene["files"]["times"], "times/NNNNNN.time.npy");
+  EXPECT_THAT(resumed.out, HasSubstr("1 simulated, 1 kept"));
+  EXPECT_EQ(files_below(sequence) == files, true);
+}
+
+TEST(SimulateCommand, RejectsALengthThatTheSceneCannotHave) {
+  const io::TemporaryFolder folder;
+
+  const Outcome fixed = simulate(folder / "out", "ramp", {"--length", "500"});
+  const Outcome short_loop = simulate(folder / "out", "park", {"--length", "300", "--loop"});
+  const Outcome fixed_loop = simulate(folder / "out", "steps", {"--length", "900", "--loop"});
+  const Outcome endless = simulate(folder / "out", "park", {"--length", "1e9"});
+
+  for (const Outcome& refused : {fixed, short_loop, fixed_loop, endless}) {
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, is_one_line_with("--length"));
+  }
+  EXPECT_THAT(fixed.err, HasSubstr("ramp is always 72 m long"));
+  EXPECT_THAT(short_loop.err, HasSubstr("expected 700 to 20000 m with --loop"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
 TEST(SimulateCommand, FinishesTheFramesInProgressWhenInterrupted) {

@@ -12,6 +12,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "lab/sim/alignment.hpp"
+#include "lab/sim/cross_lines.hpp"
+
 namespace flagstone::sim {
 
 namespace {
@@ -28,19 +31,25 @@ std::size_t cell_of(const std::vector<double>& lines, double value) noexcept {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
+}  // namespace
+
 // A quantity that changes linearly along a ray.
-struct Along {
+struct Ground::Along {
   double begin = 0, rate = 0;
   // The distance at which it reaches 0; never if it does not decrease.
   [[nodiscard]] double zero() const noexcept { return rate < 0 ? -begin / rate : never; }
-};
-Along operator+(double a, Along b) noexcept { return {a + b.begin, b.rate}; }
-Along operator+(Along a, Along b) noexcept { return {a.begin + b.begin, a.rate + b.rate}; }
-Along operator*(double a, Along b) noexcept { return {a * b.begin, a * b.rate}; }
-Along operator-(Along a) noexcept { return -1 * a; }
-Along operator-(Along a, Along b) noexcept { return a + -b; }
 
-}  // namespace
+  friend Along operator+(double a, Along b) noexcept { return {a + b.begin, b.rate}; }
+  friend Along operator+(Along a, Along b) noexcept { return {a.begin + b.begin, a.rate + b.rate}; }
+  friend Along operator*(double a, Along b) noexcept { return {a * b.begin, a * b.rate}; }
+  friend Along operator-(Along a) noexcept { return -1 * a; }
+  friend Along operator-(Along a, Along b) noexcept { return a + -b; }
+};
+
+// The position of a ray in a cell.
+struct Ground::CellPlace {
+  Along u, v;
+};
 
 Ground::Ground(GroundGrid grid, std::vector<double> heights, std::vector<Surface> surfaces)
     : grid_(std::move(grid)), heights_(std::move(heights)), surfaces_(std::move(surfaces)) {
@@ -58,7 +67,66 @@ Ground::Ground(GroundGrid grid, std::vector<double> heights, std::vector<Surface
   }
 }
 
+namespace {
+
+// Half of a cell whose sides are not parallel: a corner, and the sides along x and t.
+struct HalfCell {
+  Vector3 corner, along, across;
+  [[nodiscard]] double twice_area() const noexcept {
+    return along.x * across.y - along.y * across.x;
+  }
+};
+
+HalfCell half_cell(const CrossLine& line, const CrossLine& next, double t, double next_t,
+                   bool is_lower) noexcept {
+  const Vector3 corner = line.at(t);
+  return is_lower ? HalfCell{corner, next.at(t) - corner, next.at(next_t) - next.at(t)}
+                  : HalfCell{corner, next.at(next_t) - line.at(next_t), line.at(next_t) - corner};
+}
+
+}  // namespace
+
+// Each half of a cell is a linear image of half a square.
+Ground::Place Ground::place_on_bend(double x, double y) const noexcept {
+  Place at{};
+  at.i = bend_.before(x, y);
+  const CrossLine& line = bend_[at.i];
+  const CrossLine& next = bend_[at.i + 1];
+  const double from_line = line.ahead(x, y);
+  const double to_next = -next.ahead(x, y);
+  const double t =
+      (to_next * line.aside(x, y) + from_line * next.aside(x, y)) / (from_line + to_next);
+  at.j = cell_of(grid_.t, t);
+  const auto in_half = [&](bool is_lower) {
+    const HalfCell half = half_cell(line, next, grid_.t[at.j], grid_.t[at.j + 1], is_lower);
+    const double dx = x - half.corner.x;
+    const double dy = y - half.corner.y;
+    at.u = (dx * half.across.y - dy * half.across.x) / half.twice_area();
+    at.v = (half.along.x * dy - half.along.y * dx) / half.twice_area();
+  };
+  const auto in_cell = [&] {
+    in_half(true);
+    if (at.u < at.v) in_half(false);
+  };
+  in_cell();
+  // The lines along the road are not quite in the ratio of the distances: t may be of a neighbour.
+  while (at.v < 0 && at.j > 0) {
+    --at.j;
+    in_cell();
+  }
+  while (at.v > 1 && at.j + 2 < grid_.t.size()) {
+    ++at.j;
+    in_cell();
+  }
+  return at;
+}
+
 Ground::Place Ground::place(double x, double y) const noexcept {
+  if (!bend_.empty()) return place_on_bend(x, y);
+  if (grid_.closed) {
+    const double length = grid_.x.back() - grid_.x.front();
+    x -= length * std::floor((x - grid_.x.front()) / length);
+  }
   Place at{};
   at.i = cell_of(grid_.x, x);
   at.u = (x - grid_.x[at.i]) / (grid_.x[at.i + 1] - grid_.x[at.i]);
@@ -89,6 +157,24 @@ bool Ground::covers(double x, double y) const noexcept {
   return at.u >= 0 && at.u <= 1 && at.v >= 0 && at.v <= 1;
 }
 
+Ground::CellPlace Ground::along_straight(std::size_t i, std::size_t j, const Along& x,
+                                         const Along& y) const noexcept {
+  const double bend = grid_.offset[i + 1] - grid_.offset[i];
+  const Along u = 1 / (grid_.x[i + 1] - grid_.x[i]) * (-grid_.x[i] + x);
+  const Along t = -grid_.offset[i] + (y - bend * u);
+  return {.u = u, .v = 1 / (grid_.t[j + 1] - grid_.t[j]) * (-grid_.t[j] + t)};
+}
+
+Ground::CellPlace Ground::along_bend(std::size_t i, std::size_t j, bool is_lower, const Along& x,
+                                     const Along& y) const noexcept {
+  const HalfCell half = half_cell(bend_[i], bend_[i + 1], grid_.t[j], grid_.t[j + 1], is_lower);
+  const Along dx = -half.corner.x + x;
+  const Along dy = -half.corner.y + y;
+  const double scale = 1 / half.twice_area();
+  return {.u = scale * (half.across.y * dx - half.across.x * dy),
+          .v = scale * (half.along.x * dy - half.along.y * dx)};
+}
+
 std::optional<double> Ground::first_crossing(Vector3 origin, Vector3 direction) const noexcept {
   if (!covers(origin.x, origin.y)) return std::nullopt;
   const double gap = origin.z - height(origin.x, origin.y);
@@ -101,11 +187,8 @@ std::optional<double> Ground::first_crossing(Vector3 origin, Vector3 direction) 
   double way = 0;
   // Walks from triangle to triangle. Within a triangle, every quantity is linear.
   while (true) {
-    const double bend = grid_.offset[i + 1] - grid_.offset[i];
-    const Along u = 1 / (grid_.x[i + 1] - grid_.x[i]) * (-grid_.x[i] + x);
-    const Along t = -grid_.offset[i] + (y - bend * u);
-    const Along v = 1 / (grid_.t[j + 1] - grid_.t[j]) * (-grid_.t[j] + t);
-
+    const auto [u, v] =
+        bend_.empty() ? along_straight(i, j, x, y) : along_bend(i, j, is_lower, x, y);
     const double h00 = grid_height(i, j);
     const double h11 = grid_height(i + 1, j + 1);
     const double corner = is_lower ? grid_height(i + 1, j) : grid_height(i, j + 1);
@@ -122,7 +205,10 @@ std::optional<double> Ground::first_crossing(Vector3 origin, Vector3 direction) 
     way = std::max(way, leaves);
 
     if (leaves == over_u) {
-      if (is_lower ? ++i == grid_.x.size() - 1 : i-- == 0) return std::nullopt;
+      const std::size_t strips = grid_.x.size() - 1;
+      const bool at_end = is_lower ? i + 1 == strips : i == 0;
+      if (at_end && !bend_.closed()) return std::nullopt;
+      i = (i + (is_lower ? 1 : strips - 1)) % strips;
     } else if (leaves == over_v) {
       if (is_lower ? j-- == 0 : ++j == grid_.t.size() - 1) return std::nullopt;
     }
@@ -130,17 +216,49 @@ std::optional<double> Ground::first_crossing(Vector3 origin, Vector3 direction) 
   }
 }
 
-void Ground::add_to(Mesh& mesh) const {
-  const std::size_t columns = grid_.t.size();
-  const auto first = static_cast<std::uint32_t>(mesh.vertices().size());
+Ground Ground::along(const Alignment& line) const {
+  Ground bent = *this;
+  // Land that is wider than the alignment allows would overlap in its curves.
+  const auto is_far = [](double t) { return std::abs(t) > alignment_half_width; };
+  if (std::ranges::any_of(grid_.t, is_far)) {
+    throw std::invalid_argument("ground grid: too wide for an alignment");
+  }
+  std::vector<CrossLine> lines;
   for (std::size_t i = 0; i < grid_.x.size(); ++i) {
-    for (std::size_t j = 0; j < columns; ++j) {
-      mesh.add_vertex({grid_.x[i], grid_.offset[i] + grid_.t[j], grid_height(i, j)});
+    const Stop at = line.at(grid_.x[i]);
+    const double left_x = -std::sin(at.yaw);
+    const double left_y = std::cos(at.yaw);
+    lines.push_back({.x = at.x + grid_.offset[i] * left_x,
+                     .y = at.y + grid_.offset[i] * left_y,
+                     .left_x = left_x,
+                     .left_y = left_y});
+    const double height = line.height(grid_.x[i]);
+    for (std::size_t j = 0; j < grid_.t.size(); ++j) {
+      bent.heights_[i * grid_.t.size() + j] += height;
     }
   }
-  for (std::size_t i = 0; i + 1 < grid_.x.size(); ++i) {
+  bent.bend_ = CrossLines(std::move(lines), {grid_.t.front(), grid_.t.back()}, grid_.closed);
+  return bent;
+}
+
+void Ground::add_to(Mesh& mesh, Interval x) const {
+  const std::size_t columns = grid_.t.size();
+  const auto first = static_cast<std::uint32_t>(mesh.vertices().size());
+  const auto row_at = [&](double at) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(grid_.x, at) - grid_.x.begin());
+  };
+  const std::size_t begin = row_at(x.low);
+  const std::size_t end = std::min(row_at(x.high), grid_.x.size() - 1);
+  for (std::size_t i = begin; i <= end; ++i) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      const Vector3 corner = bend_.empty() ? Vector3{grid_.x[i], grid_.offset[i] + grid_.t[j], 0}
+                                           : bend_[i].at(grid_.t[j]);
+      mesh.add_vertex({corner.x, corner.y, grid_height(i, j)});
+    }
+  }
+  for (std::size_t i = begin; i < end; ++i) {
     for (std::size_t j = 0; j + 1 < columns; ++j) {
-      const auto p00 = first + static_cast<std::uint32_t>(i * columns + j);
+      const auto p00 = first + static_cast<std::uint32_t>((i - begin) * columns + j);
       const auto p10 = p00 + static_cast<std::uint32_t>(columns);
       const Surface& surface = surfaces_[i * (columns - 1) + j];
       mesh.add_triangle({p00, p10, p10 + 1}, surface);
@@ -178,7 +296,8 @@ void finish_lines(std::vector<double>& lines) {
 }
 
 Ground cut_ground(GroundPlan plan) {
-  GroundGrid grid{.x = std::move(plan.x), .offset = {}, .t = std::move(plan.t)};
+  GroundGrid grid{
+      .x = std::move(plan.x), .offset = {}, .t = std::move(plan.t), .closed = plan.closed};
   std::vector<double> heights;
   std::vector<Surface> surfaces;
   heights.reserve(grid.x.size() * grid.t.size());
@@ -195,22 +314,23 @@ Ground cut_ground(GroundPlan plan) {
   return {std::move(grid), std::move(heights), std::move(surfaces)};
 }
 
+float true_ground(const Ground& ground, const Frame& pose, Vector3 up, const float* xyz) {
+  const Vector3 point{xyz[0], xyz[1], xyz[2]};
+  if (point.x == 0 && point.y == 0 && point.z == 0) return std::numeric_limits<float>::quiet_NaN();
+  const Vector3 world = pose.to_world(point);
+  const double to_ground = world.z > ground.height(world.x, world.y) ? -1 : 1;
+  const std::optional<double> way = ground.first_crossing(world, to_ground * up);
+  return way ? static_cast<float>(point.z + to_ground * *way)
+             : std::numeric_limits<float>::quiet_NaN();
+}
+
 std::vector<float> true_ground(const Ground& ground, const Frame& pose, Vector3 up,
                                std::span<const float> xyzi) {
   constexpr std::size_t columns = 4;
   std::vector<float> heights;
   heights.reserve(xyzi.size() / columns);
   for (std::size_t i = 0; i + columns <= xyzi.size(); i += columns) {
-    const Vector3 point{xyzi[i], xyzi[i + 1], xyzi[i + 2]};
-    if (point.x == 0 && point.y == 0 && point.z == 0) {
-      heights.push_back(std::numeric_limits<float>::quiet_NaN());
-      continue;
-    }
-    const Vector3 world = pose.to_world(point);
-    const double to_ground = world.z > ground.height(world.x, world.y) ? -1 : 1;
-    const std::optional<double> way = ground.first_crossing(world, to_ground * up);
-    heights.push_back(way ? static_cast<float>(point.z + to_ground * *way)
-                          : std::numeric_limits<float>::quiet_NaN());
+    heights.push_back(true_ground(ground, pose, up, &xyzi[i]));
   }
   return heights;
 }

@@ -8,10 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "lab/sim/cross_lines.hpp"
 #include "lab/sim/geometry.hpp"
 #include "lab/sim/mesh.hpp"
 
 namespace flagstone::sim {
+
+class Alignment;
 
 /// The lines of a ground grid. Grid point (i, j) is at x[i], offset[i] + t[j]. Lines across the
 /// road are straight; lines along it bend together, so that kerbs and markings of a winding road
@@ -20,6 +23,7 @@ struct GroundGrid {
   std::vector<double> x;       ///< ascending, metres; at least 2
   std::vector<double> offset;  ///< y of t = 0, one per x, metres
   std::vector<double> t;       ///< ascending, metres; at least 2
+  bool closed = false;         ///< the last x is the first one again: the ground repeats along x
 };
 
 /// The ground: one height and one surface at every position. The mesh for ray casting and the
@@ -47,20 +51,36 @@ class Ground {
   [[nodiscard]] std::optional<double> first_crossing(Vector3 origin,
                                                      Vector3 direction) const noexcept;
 
+  /// This ground, in road coordinates, along a line in the world frame. All heights remain exact:
+  /// its corners are moved, and the triangles between them are flat. It covers at most
+  /// alignment_half_width on either side of the line.
+  [[nodiscard]] Ground along(const Alignment& line) const;
+
   /// Adds the triangles of the ground.
-  void add_to(Mesh& mesh) const;
+  void add_to(Mesh& mesh) const { add_to(mesh, {grid_.x.front(), grid_.x.back()}); }
+
+  /// Adds the triangles of the cells that begin in this part of the x axis of the grid.
+  void add_to(Mesh& mesh, Interval x) const;
 
  private:
   struct Place {
     std::size_t i, j;  // cell
     double u, v;       // 0..1 along x and t within the cell
   };
+  struct Along;
+  struct CellPlace;
   [[nodiscard]] Place place(double x, double y) const noexcept;
+  [[nodiscard]] Place place_on_bend(double x, double y) const noexcept;
+  [[nodiscard]] CellPlace along_straight(std::size_t i, std::size_t j, const Along& x,
+                                         const Along& y) const noexcept;
+  [[nodiscard]] CellPlace along_bend(std::size_t i, std::size_t j, bool is_lower, const Along& x,
+                                     const Along& y) const noexcept;
   [[nodiscard]] double grid_height(std::size_t i, std::size_t j) const noexcept {
     return heights_[i * grid_.t.size() + j];
   }
 
   GroundGrid grid_;
+  CrossLines bend_;  // one per x; empty if the lines across are along y
   std::vector<double> heights_;
   std::vector<Surface> surfaces_;
 };
@@ -83,6 +103,7 @@ struct GroundPlan {
   std::function<double(double x)> offset;              ///< y of t = 0
   std::function<double(double x, double t)> height;    ///< at the intersections of the lines
   std::function<Surface(double x, double t)> surface;  ///< in the middle of every cell
+  bool closed = false;                                 ///< see GroundGrid
 };
 
 /// Converts the plan to triangles.
@@ -98,6 +119,9 @@ Ground cut_ground(GroundPlan plan);
 /// does not cover the point or the line, and for (0, 0, 0), which is a missing return.
 std::vector<float> true_ground(const Ground& ground, const Frame& pose, Vector3 up,
                                std::span<const float> xyzi);
+
+/// As above, for one point of a scan.
+float true_ground(const Ground& ground, const Frame& pose, Vector3 up, const float* xyz);
 
 /// As above, for a sensor that is mounted upright.
 std::vector<float> true_ground(const Ground& ground, const Frame& pose,

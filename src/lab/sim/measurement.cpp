@@ -11,7 +11,7 @@ namespace flagstone::sim {
 
 Air::Air(const Noise& noise, const Sensor& sensor, const Surroundings& surroundings,
          const Frame& pose, std::uint64_t seed)
-    : noise_(noise), sensor_(sensor), surroundings_(surroundings), origin_(pose.origin) {
+    : noise_(noise), sensor_(sensor), surroundings_(surroundings) {
   constexpr double spread = 25;  // metres from the sensor
   constexpr double clear = 2;    // metres, so that the sensor is not in a cloud
   Random random(seed);
@@ -22,23 +22,23 @@ Air::Air(const Noise& noise, const Sensor& sensor, const Surroundings& surroundi
       const double behind = radius + clear + random.uniform(0, 4);
       from_sensor = -behind * pose.forward + random.uniform(-1, 1) * pose.left;
     }
-    Vector3 centre = origin_ + from_sensor;
+    Vector3 centre = pose.origin + from_sensor;
     centre.z = surroundings.ground().height(centre.x, centre.y) + random.uniform(0, 0.6) * radius;
-    if (length(centre - origin_) < radius + clear) continue;
+    if (length(centre - pose.origin) < radius + clear) continue;
     clouds_.push_back({.centre = centre, .radius = radius});
   }
 }
 
-std::optional<Echo> Air::echo(Vector3 direction, double way, Random& random) const {
-  const auto rain = drop(direction, way, random);
-  const auto cloud = dust(direction, rain ? rain->range : way, random);
+std::optional<Echo> Air::echo(Vector3 origin, Vector3 direction, double way, Random& random) const {
+  const auto rain = drop(origin, direction, way, random);
+  const auto cloud = dust(origin, direction, rain ? rain->range : way, random);
   return cloud ? cloud : rain;
 }
 
-double Air::transmission(Vector3 direction, double way) const {
+double Air::transmission(Vector3 origin, Vector3 direction, double way) const {
   double depth = 2 * noise_.rain_extinction * way;
   for (const Cloud& cloud : clouds_) {
-    depth += noise_.dust_extinction * within(cloud, direction, way).depth();
+    depth += noise_.dust_extinction * within(cloud, origin, direction, way).depth();
   }
   return depth == 0 ? 1 : exponential(-depth);
 }
@@ -56,8 +56,9 @@ double Air::Stretch::depth() const noexcept {
   return begin < end ? (up_to(end) - up_to(begin)) / (radius * radius) : 0;
 }
 
-Air::Stretch Air::within(const Cloud& cloud, Vector3 direction, double way) const noexcept {
-  const Vector3 to_centre = cloud.centre - origin_;
+Air::Stretch Air::within(const Cloud& cloud, Vector3 origin, Vector3 direction,
+                         double way) const noexcept {
+  const Vector3 to_centre = cloud.centre - origin;
   const double middle = dot(to_centre, direction);
   const double half_squared =
       cloud.radius * cloud.radius - (dot(to_centre, to_centre) - middle * middle);
@@ -72,7 +73,7 @@ Air::Stretch Air::within(const Cloud& cloud, Vector3 direction, double way) cons
 
 // The light returned by a drop decreases with the square of its range, and so does the probability
 // of its detection.
-std::optional<Echo> Air::drop(Vector3 direction, double way, Random& random) const {
+std::optional<Echo> Air::drop(Vector3 origin, Vector3 direction, double way, Random& random) const {
   if (!random.chance(noise_.rain_rate)) return std::nullopt;
   constexpr double nearest = 1;  // metres; the receiver does not see closer drops
   constexpr double farthest = 20;
@@ -81,7 +82,7 @@ std::optional<Echo> Air::drop(Vector3 direction, double way, Random& random) con
   if (begin >= end) return std::nullopt;
   const double range = 1 / (1 / begin - random.uniform() * (1 / begin - 1 / end));
   const double intensity = random.uniform(0, 0.1);
-  if (range >= way || !surroundings_.is_clear_of_ground(origin_ + range * direction)) {
+  if (range >= way || !surroundings_.is_clear_of_ground(origin + range * direction)) {
     return std::nullopt;
   }
   return Echo{.range = range,
@@ -90,17 +91,17 @@ std::optional<Echo> Air::drop(Vector3 direction, double way, Random& random) con
               .kind = EchoKind::rain};
 }
 
-std::optional<Echo> Air::dust(Vector3 direction, double way, Random& random) const {
+std::optional<Echo> Air::dust(Vector3 origin, Vector3 direction, double way, Random& random) const {
   constexpr double step = 0.2;  // metres
   std::optional<double> first;
   for (const Cloud& cloud : clouds_) {
-    const Stretch stretch = within(cloud, direction, first.value_or(way));
+    const Stretch stretch = within(cloud, origin, direction, first.value_or(way));
     for (double begin = stretch.begin; begin < stretch.end; begin += step) {
       const double end = std::min(begin + step, stretch.end);
       const double density = stretch.density((begin + end) / 2);
       if (!random.chance(noise_.dust_extinction * density * (end - begin))) continue;
       const double range = random.uniform(begin, end);
-      if (!surroundings_.is_clear_of_ground(origin_ + range * direction)) continue;
+      if (!surroundings_.is_clear_of_ground(origin + range * direction)) continue;
       first = range;
       break;
     }
@@ -202,54 +203,57 @@ constexpr double lost_in_mirror = 0.3;
 
 }  // namespace
 
-Measurement::Measurement(const Surroundings& surroundings, const Sensor& sensor, const Noise& noise,
-                         const Beams& beams, const Frame& pose, std::uint64_t seed)
-    : surroundings_(surroundings),
+Measurement::Measurement(std::span<const Instant> instants, const Sensor& sensor,
+                         const Noise& noise, const Beams& beams, std::uint64_t seed)
+    : instants_(instants),
       sensor_(sensor),
       noise_(noise),
       beams_(beams),
-      pose_(pose),
       seed_(seed),
       bursts_(noise, sensor, beams, Random::stream(~seed, beams.size()).bits()),
-      air_(noise, sensor, surroundings, pose, Random::stream(~seed, beams.size() + 1).bits()) {}
+      air_(noise, sensor, instants.front().surroundings, instants.front().pose,
+           Random::stream(~seed, beams.size() + 1).bits()) {}
 
 std::optional<Echo> Measurement::operator()(std::size_t beam) const {
   if (bursts_.is_lost(beam)) return std::nullopt;
   // A second stream for weather and edges, so that they do not change range, loss and intensity.
   Random extra = Random::stream(~seed_, beam);
-  const Vector3 direction = pose_.direction_to_world(beams_[beam]);
+  const Instant& instant = instants_[instants_.size() == 1 ? 0 : beam % beams_.row_length()];
+  const auto& [pose, surroundings] = instant;
+  const Vector3 direction = pose.direction_to_world(beams_[beam]);
   if (const auto range = bursts_.crosstalk(beam)) {
-    if (surroundings_.is_clear_of_ground(pose_.origin + *range * direction)) {
+    if (surroundings.is_clear_of_ground(pose.origin + *range * direction)) {
       return Echo{.range = *range,
                   .intensity = extra.uniform(),
                   .semantic = SemanticClass::outlier,
                   .kind = EchoKind::crosstalk};
     }
   }
-  const auto met =
-      surroundings_.cast(pose_.origin, direction, sensor_.min_range, sensor_.max_range);
-  if (const auto air = air_.echo(direction, met ? met->range : sensor_.max_range, extra)) {
+  const auto met = surroundings.cast(pose.origin, direction, sensor_.min_range, sensor_.max_range);
+  if (const auto air =
+          air_.echo(pose.origin, direction, met ? met->range : sensor_.max_range, extra)) {
     return air;
   }
   if (!met) return std::nullopt;
-  return echo_of_surface(direction, *met, Random::stream(seed_, beam), extra);
+  return echo_of_surface(instant, direction, *met, Random::stream(seed_, beam), extra);
 }
 
-std::optional<Echo> Measurement::echo_of_surface(Vector3 direction, const Meeting& met,
-                                                 Random random, Random& extra) const {
+std::optional<Echo> Measurement::echo_of_surface(const Instant& instant, Vector3 direction,
+                                                 const Meeting& met, Random random,
+                                                 Random& extra) const {
   if (const double share = share_mirrored(met); share > 0 && extra.chance(share)) {
-    return seen_in_mirror(direction, met, extra);
+    return seen_in_mirror(instant, direction, met, extra);
   }
   if (is_ground(met.surface->semantic)) {
-    if (const auto ghost = ghost_below(direction, met, random)) return ghost;
+    if (const auto ghost = ghost_below(instant, direction, met, random)) return ghost;
   }
   if (noise_.mixed_rate > 0 && extra.chance(noise_.mixed_rate)) {
-    if (const auto mixed = mixed_at_edge(direction, met, extra)) return mixed;
+    if (const auto mixed = mixed_at_edge(instant, direction, met, extra)) return mixed;
   }
   double reflectivity = met.surface->reflectivity;
   constexpr double darker_when_wet = 0.5;
   if (gets_wet(met.surface->semantic)) reflectivity *= 1 - darker_when_wet * noise_.wetness;
-  reflectivity *= air_.transmission(direction, met.range);
+  reflectivity *= air_.transmission(instant.pose.origin, direction, met.range);
   if (!is_detected(noise_, met.range, reflectivity, met.incidence, random)) return std::nullopt;
   auto echo = reported(met.range, reflectivity, met.incidence, labelled_class(*met.surface),
                        EchoKind::surface, random);
@@ -272,20 +276,21 @@ double Measurement::share_mirrored(const Meeting& met) const noexcept {
 // The beam is reflected specularly and returns along the same path, but the sensor reports the
 // point straight ahead, behind the surface. No point is reported on the ground, where its
 // ground-truth label would be ambiguous. If the reflected beam hits nothing, there is no return.
-std::optional<Echo> Measurement::seen_in_mirror(Vector3 direction, const Meeting& mirror,
-                                                Random& random) const {
+std::optional<Echo> Measurement::seen_in_mirror(const Instant& instant, Vector3 direction,
+                                                const Meeting& mirror, Random& random) const {
   constexpr double clear_of_mirror = 0.05;
-  const auto object = surroundings_.cast(pose_.origin + mirror.range * direction,
-                                         mirrored(direction, mirror.normal), clear_of_mirror,
-                                         sensor_.max_range - mirror.range);
+  const auto object = instant.surroundings.cast(instant.pose.origin + mirror.range * direction,
+                                                mirrored(direction, mirror.normal), clear_of_mirror,
+                                                sensor_.max_range - mirror.range);
   if (!object) return std::nullopt;
   const double path = mirror.range + object->range;
-  const Vector3 point = pose_.origin + path * direction;
-  const bool stands = is_ground(mirror.surface->semantic) ? !is_ground(object->surface->semantic) &&
-                                                                surroundings_.is_below_ground(point)
-                                                          : surroundings_.is_clear_of_ground(point);
-  const double reflectivity =
-      lost_in_mirror * object->surface->reflectivity * air_.transmission(direction, mirror.range);
+  const Vector3 point = instant.pose.origin + path * direction;
+  const bool stands =
+      is_ground(mirror.surface->semantic)
+          ? !is_ground(object->surface->semantic) && instant.surroundings.is_below_ground(point)
+          : instant.surroundings.is_clear_of_ground(point);
+  const double reflectivity = lost_in_mirror * object->surface->reflectivity *
+                              air_.transmission(instant.pose.origin, direction, mirror.range);
   if (!stands || !is_detected(noise_, path, reflectivity, object->incidence, random)) {
     return std::nullopt;
   }
@@ -294,34 +299,38 @@ std::optional<Echo> Measurement::seen_in_mirror(Vector3 direction, const Meeting
 }
 
 // A ghost point on dry ground, which is rare: the specular reflection of an object on the ground.
-std::optional<Echo> Measurement::ghost_below(Vector3 direction, const Meeting& mirror,
-                                             Random& random) const {
+std::optional<Echo> Measurement::ghost_below(const Instant& instant, Vector3 direction,
+                                             const Meeting& mirror, Random& random) const {
   if (!is_mirrored(noise_, mirror.range, random)) return std::nullopt;
   constexpr double clear_of_mirror = 0.05;
-  const auto object = surroundings_.cast(pose_.origin + mirror.range * direction,
-                                         mirrored(direction, mirror.normal), clear_of_mirror,
-                                         noise_.ghost_max_range - mirror.range);
+  const auto object = instant.surroundings.cast(instant.pose.origin + mirror.range * direction,
+                                                mirrored(direction, mirror.normal), clear_of_mirror,
+                                                noise_.ghost_max_range - mirror.range);
   if (!object || is_ground(object->surface->semantic)) return std::nullopt;
   const double path = mirror.range + object->range;
-  if (!surroundings_.is_below_ground(pose_.origin + path * direction)) return std::nullopt;
+  if (!instant.surroundings.is_below_ground(instant.pose.origin + path * direction))
+    return std::nullopt;
   return reported(path, lost_in_mirror * object->surface->reflectivity, object->incidence,
                   SemanticClass::outlier, EchoKind::ghost, random);
 }
 
 // A beam has a width. If part of it hits another surface, closer or farther by less than the length
 // of a pulse, the sensor merges both returns and reports a range between them.
-std::optional<Echo> Measurement::mixed_at_edge(Vector3 direction, const Meeting& met,
-                                               Random& random) const {
+std::optional<Echo> Measurement::mixed_at_edge(const Instant& instant, Vector3 direction,
+                                               const Meeting& met, Random& random) const {
   constexpr double least_gap = 0.3;  // metres; smaller gaps are within the range noise
   constexpr double pulse_length = 3;
   constexpr double straight_up = 0.9;
-  const Vector3 axis = std::abs(dot(direction, pose_.up)) < straight_up ? pose_.up : pose_.forward;
+  const Vector3 axis = std::abs(dot(direction, instant.pose.up)) < straight_up
+                           ? instant.pose.up
+                           : instant.pose.forward;
   const Vector3 across = normalized(cross(direction, axis));
   const Vector3 upward = cross(across, direction);
   const double half_width = noise_.beam_width / 2;
   const Vector3 beside = normalized(direction + half_width * random.uniform(-1, 1) * across +
                                     half_width * random.uniform(-1, 1) * upward);
-  const auto other = surroundings_.cast(pose_.origin, beside, sensor_.min_range, sensor_.max_range);
+  const auto other =
+      instant.surroundings.cast(instant.pose.origin, beside, sensor_.min_range, sensor_.max_range);
   if (!other) return std::nullopt;
 
   // There is no edge if one hit is on the plane of the other: that is one surface at grazing
@@ -338,9 +347,10 @@ std::optional<Echo> Measurement::mixed_at_edge(Vector3 direction, const Meeting&
   }
   const double share = random.uniform(0.15, 0.85);  // outside, the return is of one surface
   const double range = met.range + share * gap;
-  if (!surroundings_.is_clear_of_ground(pose_.origin + range * direction)) return std::nullopt;
+  if (!instant.surroundings.is_clear_of_ground(instant.pose.origin + range * direction))
+    return std::nullopt;
   const double reflectivity =
-      air_.transmission(direction, range) *
+      air_.transmission(instant.pose.origin, direction, range) *
       ((1 - share) * met.surface->reflectivity + share * other->surface->reflectivity);
   const double incidence = (1 - share) * met.incidence + share * other->incidence;
   if (!is_detected(noise_, range, reflectivity, incidence, random)) return std::nullopt;

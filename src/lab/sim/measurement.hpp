@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "flagstone/sensor.hpp"
@@ -49,15 +50,16 @@ class Surroundings {
   [[nodiscard]] std::optional<Meeting> cast(Vector3 origin, Vector3 direction, double near,
                                             double far) const noexcept {
     std::optional<Meeting> nearest;
-    for (const RayCaster* caster : {&scene_->caster(), moving_}) {
-      if (caster == nullptr) continue;
-      const auto hit = caster->cast(origin, direction, near, nearest ? nearest->range : far);
-      if (!hit) continue;
+    const auto cast_in = [&](const RayCaster& caster) {
+      const auto hit = caster.cast(origin, direction, near, nearest ? nearest->range : far);
+      if (!hit) return;
       nearest = Meeting{.range = hit->range,
                         .incidence = hit->incidence,
                         .normal = hit->normal,
-                        .surface = &caster->mesh().surface(hit->triangle)};
-    }
+                        .surface = &caster.mesh().surface(hit->triangle)};
+    };
+    for (std::size_t part = 0; part < scene_->parts(); ++part) cast_in(scene_->caster(part));
+    if (moving_ != nullptr) cast_in(*moving_);
     return nearest;
   }
 
@@ -84,13 +86,14 @@ class Air {
   Air(const Noise& noise, const Sensor& sensor, const Surroundings& surroundings, const Frame& pose,
       std::uint64_t seed);
 
-  /// The return from the air within `way` metres, if there is one.
-  [[nodiscard]] std::optional<Echo> echo(Vector3 direction, double way, Random& random) const;
+  /// The return from the air within `way` metres of `origin`, if there is one.
+  [[nodiscard]] std::optional<Echo> echo(Vector3 origin, Vector3 direction, double way,
+                                         Random& random) const;
 
   /// Fraction of the light that is transmitted from `way` metres away. Through dust this counts
   /// only the return path, because `echo()` already let the outward path pass; through rain, both
   /// paths.
-  [[nodiscard]] double transmission(Vector3 direction, double way) const;
+  [[nodiscard]] double transmission(Vector3 origin, Vector3 direction, double way) const;
 
  private:
   struct Cloud {
@@ -110,14 +113,16 @@ class Air {
     [[nodiscard]] double depth() const noexcept;
   };
 
-  [[nodiscard]] Stretch within(const Cloud& cloud, Vector3 direction, double way) const noexcept;
-  [[nodiscard]] std::optional<Echo> drop(Vector3 direction, double way, Random& random) const;
-  [[nodiscard]] std::optional<Echo> dust(Vector3 direction, double way, Random& random) const;
+  [[nodiscard]] Stretch within(const Cloud& cloud, Vector3 origin, Vector3 direction,
+                               double way) const noexcept;
+  [[nodiscard]] std::optional<Echo> drop(Vector3 origin, Vector3 direction, double way,
+                                         Random& random) const;
+  [[nodiscard]] std::optional<Echo> dust(Vector3 origin, Vector3 direction, double way,
+                                         Random& random) const;
 
   const Noise& noise_;
   const Sensor& sensor_;
   const Surroundings& surroundings_;
-  Vector3 origin_;
   std::vector<Cloud> clouds_;
 };
 
@@ -145,12 +150,20 @@ class Bursts {
   std::vector<double> crosstalk_;  // one per beam, 0 without crosstalk; or empty
 };
 
+/// The sensor and the objects around it when beams are fired.
+struct Instant {
+  Frame pose;
+  Surroundings surroundings;
+};
+
 /// Measures single beams of one scan. Each beam has separate random streams, so several threads can
 /// measure beams in any order with the same result. Keeps references to its arguments.
 class Measurement {
  public:
-  Measurement(const Surroundings& surroundings, const Sensor& sensor, const Noise& noise,
-              const Beams& beams, const Frame& pose, std::uint64_t seed);
+  /// `instants` has one element for each firing of a row, or one for all of them. The air is as at
+  /// the first one.
+  Measurement(std::span<const Instant> instants, const Sensor& sensor, const Noise& noise,
+              const Beams& beams, std::uint64_t seed);
 
   /// The return that the sensor reports for a beam, if there is one.
   [[nodiscard]] std::optional<Echo> operator()(std::size_t beam) const;
@@ -158,24 +171,24 @@ class Measurement {
  private:
   using Meeting = Surroundings::Meeting;
 
-  [[nodiscard]] std::optional<Echo> echo_of_surface(Vector3 direction, const Meeting& met,
-                                                    Random random, Random& extra) const;
+  [[nodiscard]] std::optional<Echo> echo_of_surface(const Instant& instant, Vector3 direction,
+                                                    const Meeting& met, Random random,
+                                                    Random& extra) const;
   [[nodiscard]] double share_mirrored(const Meeting& met) const noexcept;
-  [[nodiscard]] std::optional<Echo> seen_in_mirror(Vector3 direction, const Meeting& mirror,
-                                                   Random& random) const;
-  [[nodiscard]] std::optional<Echo> ghost_below(Vector3 direction, const Meeting& mirror,
-                                                Random& random) const;
-  [[nodiscard]] std::optional<Echo> mixed_at_edge(Vector3 direction, const Meeting& met,
-                                                  Random& random) const;
+  [[nodiscard]] std::optional<Echo> seen_in_mirror(const Instant& instant, Vector3 direction,
+                                                   const Meeting& mirror, Random& random) const;
+  [[nodiscard]] std::optional<Echo> ghost_below(const Instant& instant, Vector3 direction,
+                                                const Meeting& mirror, Random& random) const;
+  [[nodiscard]] std::optional<Echo> mixed_at_edge(const Instant& instant, Vector3 direction,
+                                                  const Meeting& met, Random& random) const;
   [[nodiscard]] std::optional<Echo> reported(double range, double reflectivity, double incidence,
                                              SemanticClass semantic, EchoKind kind,
                                              Random& random) const;
 
-  const Surroundings& surroundings_;
+  std::span<const Instant> instants_;
   const Sensor& sensor_;
   const Noise& noise_;
   const Beams& beams_;
-  const Frame& pose_;
   std::uint64_t seed_;
   Bursts bursts_;
   Air air_;

@@ -72,6 +72,10 @@ void Mesh::add_triangle(Triangle corners, Surface surface) {
   surfaces_.push_back(surface);
 }
 
+void Mesh::move(const std::function<Vector3(Vector3)>& to) {
+  for (Vector3& vertex : vertices_) vertex = to(vertex);
+}
+
 void Mesh::set_motion(std::size_t first, Motion motion) {
   for (std::size_t i = first; i < surfaces_.size(); ++i) surfaces_[i].motion = motion;
 }

@@ -106,6 +106,9 @@ class Mesh {
   /// Adds the triangles abc and acd; a, b, c, d are in order around the quad.
   void add_quad(Vector3 a, Vector3 b, Vector3 c, Vector3 d, Surface surface);
 
+  /// Replaces the position of every vertex.
+  void move(const std::function<Vector3(Vector3)>& to);
+
   /// Sets the motion of all triangles from `first` on.
   void set_motion(std::size_t first, Motion motion);
 

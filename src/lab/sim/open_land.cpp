@@ -34,6 +34,10 @@ void draw_waves(std::vector<Wave>& waves, int count, Interval amplitude, Interva
   }
 }
 
+void close_waves(std::vector<Wave>& waves, const Extent& extent) {
+  for (Wave& wave : waves) wave.along = extent.fitted(wave.along);
+}
+
 double smooth_step(double begin, double end, double value) noexcept {
   const double share = std::clamp((value - begin) / (end - begin), 0.0, 1.0);
   return share * share * (3 - 2 * share);

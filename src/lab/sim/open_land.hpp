@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "lab/sim/extent.hpp"
 #include "lab/sim/geometry.hpp"
 #include "lab/sim/route.hpp"
 #include "library/core/random.hpp"
@@ -28,6 +29,9 @@ double sum_at(std::span<const Wave> waves, double x, double t) noexcept;
 /// Adds waves in random directions; amplitude and wavelength in metres.
 void draw_waves(std::vector<Wave>& waves, int count, Interval amplitude, Interval length,
                 Random& random);
+
+/// Adapts waves to an environment: they close on a circuit.
+void close_waves(std::vector<Wave>& waves, const Extent& extent);
 
 /// A round rise of the land, or a dip if its height is negative. Its maximum slope is 1.54 times
 /// height / radius.

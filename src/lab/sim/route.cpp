@@ -9,13 +9,16 @@
 
 namespace flagstone::sim {
 
-std::vector<Stop> wander_along(const std::function<Stop(double x)>& path, Random& random) {
+std::vector<Stop> wander_along(const std::function<Stop(double x)>& path, Random& random,
+                               const Extent& extent) {
   constexpr double along = 0.5;
   constexpr double across = 0.25;
   constexpr double turn = 2 * std::numbers::pi / 180;
+  const std::size_t last = extent.stretches_of_run() * stops_per_stretch;
   std::vector<Stop> stops;
-  for (int frame = 0; frame < frames_per_drive; ++frame) {
-    Stop stop = path(-half_drive + frame * frame_spacing + random.uniform(-along, along));
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double x = -half_drive + static_cast<double>(i) * frame_spacing;
+    Stop stop = path(x + random.uniform(-along, along));
     const double aside = random.uniform(-across, across);
     stop.x -= aside * std::sin(stop.yaw);
     stop.y += aside * std::cos(stop.yaw);

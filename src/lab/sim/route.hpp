@@ -6,18 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "lab/sim/extent.hpp"
 #include "library/core/random.hpp"
 
 namespace flagstone::sim {
-
-/// Number of frames of one scene.
-inline constexpr int frames_per_drive = 10;
-
-/// Distance between frames, metres: far enough that the scans of a run differ.
-inline constexpr double frame_spacing = 8;
-
-/// Half of the length of a run, metres: from x = -half_drive to half_drive.
-inline constexpr double half_drive = (frames_per_drive - 1) * frame_spacing / 2;
 
 /// Position and heading of a vehicle: metres, and radians counter-clockwise from the x axis.
 struct Stop {
@@ -26,7 +18,8 @@ struct Stop {
 
 /// The stops of a run along a path, given by its position and direction at x. As in real driving,
 /// every stop deviates from the path by up to 0.5 m along, 0.25 m across and 2 degrees.
-std::vector<Stop> wander_along(const std::function<Stop(double x)>& path, Random& random);
+std::vector<Stop> wander_along(const std::function<Stop(double x)>& path, Random& random,
+                               const Extent& extent = {});
 
 /// The pose on the way through `stops`, a curve that passes each stop in its direction. `at` counts
 /// stops: 0 is the first one, 0.5 halfway to the next. Beyond the last stop it is the last one.

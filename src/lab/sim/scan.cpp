@@ -3,7 +3,11 @@
 #include "lab/sim/scan.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "lab/sim/beams.hpp"
 #include "lab/sim/measurement.hpp"
@@ -19,10 +23,12 @@ SimulatedScan collect(const Beams& beams, const std::vector<std::optional<Echo>>
   scan.classes.reserve(beams.size());
   scan.echoes.reserve(beams.size());
   scan.motions.reserve(beams.size());
+  scan.firings.reserve(beams.size());
   for (std::size_t beam = 0; beam < beams.size(); ++beam) {
     const std::optional<Echo>& echo = echoes[beam];
+    if (!echo && !keep_no_returns) continue;
+    scan.firings.push_back(static_cast<std::uint32_t>(beam % beams.row_length()));
     if (!echo) {
-      if (!keep_no_returns) continue;
       scan.xyzi.insert(scan.xyzi.end(), 4, 0.0F);
       scan.classes.push_back(0);
       scan.echoes.push_back(EchoKind::none);
@@ -44,10 +50,20 @@ SimulatedScan collect(const Beams& beams, const std::vector<std::optional<Echo>>
 
 SimulatedScan simulate(const Scene& scene, const Sensor& sensor, const Noise& noise,
                        const Frame& pose, std::uint64_t seed, const ScanOptions& options) {
+  const Firing always{.pose = pose, .moving = options.moving};
+  return simulate(scene, sensor, noise, std::span(&always, 1), seed, options);
+}
+
+SimulatedScan simulate(const Scene& scene, const Sensor& sensor, const Noise& noise,
+                       std::span<const Firing> firings, std::uint64_t seed,
+                       const ScanOptions& options) {
   const unsigned threads = std::max(1U, options.threads);
   const Beams beams(sensor, options.number);
-  const Surroundings surroundings(scene, options.moving);
-  const Measurement measure(surroundings, sensor, noise, beams, pose, seed);
+  std::vector<Instant> instants;
+  for (const Firing& firing : firings) {
+    instants.push_back({.pose = firing.pose, .surroundings = {scene, firing.moving}});
+  }
+  const Measurement measure(instants, sensor, noise, beams, seed);
   std::vector<std::optional<Echo>> echoes(beams.size());
   ThreadPool(threads).run(
       beams.size(), [&](std::size_t, std::size_t beam) noexcept { echoes[beam] = measure(beam); });

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -35,10 +36,17 @@ struct SimulatedScan {
       xyzi;  ///< 4 floats per point: x, y, z in metres, sensor frame, and intensity 0..1
   std::vector<std::uint32_t>
       classes;  ///< SemanticKITTI id of each point, see SemanticClass; 0 for missing returns
-  std::vector<EchoKind> echoes;  ///< kind of each return
-  std::vector<Motion> motions;   ///< of the object at each point
+  std::vector<EchoKind> echoes;        ///< kind of each return
+  std::vector<Motion> motions;         ///< of the object at each point
+  std::vector<std::uint32_t> firings;  ///< number of the firing of each point within its row
 
   [[nodiscard]] std::size_t size() const noexcept { return classes.size(); }
+};
+
+/// The sensor when it fires, and the moving objects at that time; null: none.
+struct Firing {
+  Frame pose;
+  const RayCaster* moving = nullptr;
 };
 
 /// Options of one scan, in addition to scene and sensor.
@@ -52,5 +60,11 @@ struct ScanOptions {
 /// Casts every beam of one scan. Deterministic.
 SimulatedScan simulate(const Scene& scene, const Sensor& sensor, const Noise& noise,
                        const Frame& pose, std::uint64_t seed, const ScanOptions& options = {});
+
+/// The same while the sensor moves: `firings` has an element for each of sensor.firings, instead of
+/// one pose and options.moving. Every point is relative to the pose at its own firing.
+SimulatedScan simulate(const Scene& scene, const Sensor& sensor, const Noise& noise,
+                       std::span<const Firing> firings, std::uint64_t seed,
+                       const ScanOptions& options = {});
 
 }  // namespace flagstone::sim

@@ -76,11 +76,12 @@ Plot plan_plot(Random& random, Side side, double x_begin) {
 
 }  // namespace
 
-StreetPlan plan_street(Random& random) {
-  StreetPlan plan{.shape = plan_shape(random), .plots = {}, .furnishing = {}};
+StreetPlan plan_street(Random& random, const Extent& extent) {
+  StreetPlan plan{.shape = plan_shape(random), .plots = {}, .furnishing = {}, .extent = extent};
+  plan.shape.extend(extent);
   for (const Side side : {Side::right, Side::left}) {
-    double x = -plan.shape.half_length + random.uniform(5, 15);
-    while (x < plan.shape.half_length - 25) {
+    double x = plan.shape.length.low + random.uniform(5, 15);
+    while (x < plan.shape.length.high - 25) {
       const Plot plot = plan_plot(random, side, x);
       const double gap = random.uniform(3, 9);
       plan.plots.push_back(plot);
@@ -102,9 +103,16 @@ constexpr double half_turn = std::numbers::pi;
 // side.
 class Furnisher {
  public:
-  Furnisher(const StreetPlan& plan, const Ground& ground, Random& random)
-      : shape_(plan.shape), furnishing_(plan.furnishing), ground_(ground), random_(random) {
+  Furnisher(const StreetPlan& plan, const Ground& ground, const Stretch& stretch, Random& random)
+      : shape_(plan.shape),
+        furnishing_(plan.furnishing),
+        ground_(ground),
+        stretch_(stretch),
+        random_(random) {
+    constexpr double everything = 200;
+    const Interval here = stretch.reach(everything);
     for (const Plot& plot : plan.plots) {
+      if (plot.x_begin < here.low || plot.x_begin >= here.high) continue;
       if (plot.built) build_house(plot);
       plant_garden(plot);
       bound_garden(plot);
@@ -197,9 +205,9 @@ class Furnisher {
     const bool bays = furnishing_.parking[static_cast<std::size_t>(side)] == Parking::bays;
     const double place = bays ? widest_car : longest_car;
     const double quarter = bays ? (side == Side::left ? 1 : -1) * half_turn / 2 : 0;
-    const double end = shape_.half_length - 30;
-    double x = -end + random_.uniform(0, 5);
-    while (x < end) {
+    const Interval row = stretch_.reach(44, place / 2);
+    double x = row.low + random_.uniform(0, 5);
+    while (x < row.high) {
       if (random_.chance(furnishing_.occupied) && !on_driveway(side, x, place / 2)) {
         const double out = shape_.half_width + width / 2 + random_.uniform(-0.1, 0.1);
         const double askew = random_.uniform(-0.03, 0.03);
@@ -211,14 +219,14 @@ class Furnisher {
   }
 
   void line_sidewalk(Side side) {
-    const double end = shape_.half_length - 20;
-    double x = -end + random_.uniform(0, 20);
-    while (x < end) {
+    const Interval row = stretch_.reach(54, 2);
+    double x = row.low + random_.uniform(0, 20);
+    while (x < row.high) {
       if (!on_driveway(side, x, 0.5)) stand_at_kerb(x, side);
       x += random_.uniform(8, 14);
     }
     for (int person = 0; person < 3; ++person) {
-      const double at = random_.uniform(-25, 30);
+      const double at = random_.uniform(stretch_.x.low + 11, stretch_.x.high - 6);
       const double out = shape_.sidewalk_begin(side) +
                          random_.uniform(0.4, 0.7) * shape_.side(side).sidewalk_width;
       add_person(mesh_, upright_at(at, side, out, random_.chance(0.5) ? 0 : half_turn), random_);
@@ -246,8 +254,9 @@ class Furnisher {
   // Trees behind the houses fill the view through the gaps.
   void plant_behind(Side side) {
     constexpr double behind_houses = 20;
-    double x = -shape_.half_length + 5;
-    while (x < shape_.half_length - 5) {
+    const Interval row = stretch_.reach(69);
+    double x = row.low;
+    while (x < row.high) {
       const double out = shape_.land_begin(side) + random_.uniform(behind_houses, 35);
       add_tree(mesh_, ground_, x, y_at(x, side, out), random_);
       x += random_.uniform(5, 11);
@@ -265,14 +274,15 @@ class Furnisher {
   const StreetShape& shape_;
   const Furnishing& furnishing_;
   const Ground& ground_;
+  const Stretch& stretch_;
   Random& random_;
   Mesh mesh_;
 };
 
 }  // namespace
 
-Mesh furnish(const StreetPlan& plan, const Ground& ground, Random& random) {
-  return Furnisher(plan, ground, random).take();
+Mesh furnish(const StreetPlan& plan, const Ground& ground, const Stretch& stretch, Random& random) {
+  return Furnisher(plan, ground, stretch, random).take();
 }
 
 Landscape drive_street(StreetPlan plan, Random random) {
@@ -285,12 +295,12 @@ Landscape drive_street(StreetPlan plan, Random random) {
         const double y = shape.centre_line(x) + plan.furnishing.path;
         return Stop{.x = x, .y = y, .yaw = shape.heading(x)};
       },
-      random);
+      random, plan.extent);
   return {.ground = std::move(ground),
           .route = std::move(route),
-          .furnish = [plan = std::move(plan), random](const Ground& on) {
-            Random own = random;
-            return furnish(plan, on, own);
+          .furnish = [plan = std::move(plan), random](const Ground& on, const Stretch& stretch) {
+            Random own = stretch.stream(random);
+            return furnish(plan, on, stretch, own);
           }};
 }
 
@@ -298,7 +308,7 @@ Scene make_street(std::uint64_t seed) {
   Random random = Random::stream(seed, 0);
   const StreetPlan plan = plan_street(random);
   Ground ground = make_ground(plan.shape);
-  Mesh objects = furnish(plan, ground, random);
+  Mesh objects = furnish(plan, ground, {}, random);
   return {std::move(ground), std::move(objects)};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lab/sim/buildings.hpp"
+#include "lab/sim/extent.hpp"
 #include "lab/sim/geometry.hpp"
 #include "lab/sim/mesh.hpp"
 #include "lab/sim/scene.hpp"
@@ -60,11 +61,12 @@ struct StreetPlan {
   StreetShape shape;
   std::vector<Plot> plots;
   Furnishing furnishing;
+  Extent extent;
 };
 
 /// Draws the plan of a residential street: slope, cross-fall, kerbs, parking strips, houses with
 /// gaps and driveways.
-StreetPlan plan_street(Random& random);
+StreetPlan plan_street(Random& random, const Extent& extent = {});
 
 /// A random residential street: houses, gardens with fences, hedges, trees and tufts, parked and
 /// moving cars, lamp posts, traffic signs, people. Around x = 0 the lane in the direction +x is
@@ -75,7 +77,7 @@ Scene make_street(std::uint64_t seed);
 /// crowns.
 Landscape drive_street(StreetPlan plan, Random random);
 
-/// The objects on the ground of a plan.
-Mesh furnish(const StreetPlan& plan, const Ground& ground, Random& random);
+/// The objects on the ground of a plan, on one of its stretches.
+Mesh furnish(const StreetPlan& plan, const Ground& ground, const Stretch& stretch, Random& random);
 
 }  // namespace flagstone::sim

@@ -127,7 +127,7 @@ std::vector<double> lines_across(const StreetShape& shape) {
 std::vector<double> lines_along(const StreetShape& shape) {
   constexpr double step = 0.5;  // divides half of the dash period
   std::vector<double> lines;
-  add_lines(lines, -shape.half_length, shape.half_length, step);
+  add_lines(lines, shape.length.low, shape.length.high, step);
   const auto add_ends = [&](double middle, double width) {
     for (const double end : {-1.0, 1.0}) {
       lines.push_back(middle + end * width / 2);
@@ -146,6 +146,17 @@ std::vector<double> lines_along(const StreetShape& shape) {
 
 double StreetShape::sidewalk_begin(Side which) const noexcept {
   return kerb(which) + kerb_face_width;
+}
+
+void StreetShape::extend(const Extent& extent) {
+  constexpr double beyond = 74;  // metres
+  length = extent.reach(beyond);
+  closed = extent.closed;
+  if (!extent.is_long()) return;
+  grade = 0;
+  grade_changes.clear();
+  bend_length = extent.fitted_length(bend_length);
+  for (Undulation& wave : undulations) wave.wave_x = extent.fitted(wave.wave_x);
 }
 
 double StreetShape::centre_line(double x) const noexcept {
@@ -185,7 +196,8 @@ Ground make_ground(const StreetShape& shape) {
                      .t = lines_across(shape),
                      .offset = [&](double x) { return shape.centre_line(x); },
                      .height = [&](double x, double t) { return shape.height(x, t); },
-                     .surface = [&](double x, double t) { return shape.surface(x, t); }});
+                     .surface = [&](double x, double t) { return shape.surface(x, t); },
+                     .closed = shape.closed});
 }
 
 }  // namespace flagstone::sim

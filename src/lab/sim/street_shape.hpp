@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "lab/sim/extent.hpp"
+#include "lab/sim/geometry.hpp"
 #include "lab/sim/ground.hpp"
 #include "lab/sim/mesh.hpp"
 
@@ -54,9 +56,10 @@ inline constexpr double crossing_width = 3.5;
 /// All parameters of the ground of a street. The road is along x, with traffic on the right; t is
 /// measured to the left of its centre line.
 struct StreetShape {
-  double half_length = 110;  ///< the ground covers x from -half_length to half_length
-  double half_width = 3.2;   ///< of the carriageway
-  double land_width = 40;    ///< behind each sidewalk
+  Interval length{-110, 110};  ///< part of the x axis that the ground covers
+  bool closed = false;         ///< see GroundGrid
+  double half_width = 3.2;     ///< of the carriageway
+  double land_width = 40;      ///< behind each sidewalk
 
   double grade = 0;                        ///< before all changes, m/m
   std::vector<GradeChange> grade_changes;  ///< in any order
@@ -89,6 +92,10 @@ struct StreetShape {
     return land_begin(which) + land_width;
   }
   /// @}
+
+  /// Adapts the shape to an environment. In a long one, the Alignment has the grades, and all
+  /// that repeats along a circuit closes on it.
+  void extend(const Extent& extent);
 
   /// y of the centre line at x, metres.
   [[nodiscard]] double centre_line(double x) const noexcept;

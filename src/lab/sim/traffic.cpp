@@ -58,7 +58,6 @@ bool meet(const Stop& one, Footprint one_size, const Stop& other, Footprint othe
 }
 
 constexpr double checked_every = 0.2;  // seconds
-constexpr int checks = static_cast<int>((frames_per_drive - 1) * stop_interval / checked_every) + 1;
 
 Stop on_route(const std::vector<Stop>& route, double seconds) noexcept {
   const double stops = seconds / stop_interval;
@@ -98,42 +97,88 @@ std::function<Stop(double seconds)> along(Path path, double t, double x_begin, d
   };
 }
 
-std::function<Stop(double seconds)> straight(Stop begin, double speed, double way) {
-  return [begin, speed, way](double seconds) {
-    const double gone = std::min(speed * seconds, way);
+std::function<Stop(double seconds)> straight(Stop begin, double speed, double way, double start,
+                                             double lead) {
+  return [begin, speed, way, start, lead](double seconds) {
+    const double gone = std::min(speed * std::max(seconds - start, -lead), way);
     return Stop{.x = begin.x + gone * std::cos(begin.yaw),
                 .y = begin.y + gone * std::sin(begin.yaw),
                 .yaw = begin.yaw};
   };
 }
 
-bool Traffic::join(Mover mover) {
+Traffic::Traffic(std::vector<Stop> route, double view)
+    : route_(std::move(route)),
+      view_(view),
+      checks_(
+          static_cast<int>(static_cast<double>(route_.size() - 1) * stop_interval / checked_every) +
+          1) {}
+
+bool Traffic::is_in_view(const Stop& stop, double seconds) const noexcept {
+  return std::abs(stop.x - on_route(route_, seconds).x) < view_;
+}
+
+Traffic::Visit Traffic::visit_of(const Mover& mover) const {
+  Visit visit;
+  for (int check = 0; check < checks_; ++check) {
+    const double seconds = check * checked_every;
+    const Stop stop = mover.at(seconds);
+    if (!is_in_view(stop, seconds)) continue;
+    if (visit.last < 0) visit = {.first = check, .last = check, .x = {stop.x, stop.x}};
+    visit.last = check;
+    visit.x = {std::min(visit.x.low, stop.x), std::max(visit.x.high, stop.x)};
+  }
+  return visit;
+}
+
+bool Traffic::meets_sensor(const Mover& mover, const Visit& visit) const {
   const Footprint size = footprint(mover.kind);
   const bool wide = mover.kind == RoadUser::truck || mover.kind == RoadUser::bus;
   const double from_sensor = wide ? 2.5 : 3;
   constexpr Footprint own_size{.length = 10,
                                .width = 2};  // including the distance to the car ahead
-  const bool walks = mover.kind == RoadUser::person;
-  for (int check = 0; check < checks; ++check) {
+  for (int check = visit.first; check <= visit.last; ++check) {
     const double seconds = check * checked_every;
     const Stop own = on_route(route_, seconds);
     const Stop stop = mover.at(seconds);
     if (distance_to(stop, size, own.x, own.y) < from_sensor ||
         meet(own, own_size, stop, size, 0.2)) {
-      return false;
+      return true;
     }
-    const auto meets = [&](const Mover& other) {
-      const double gap = walks && other.kind == RoadUser::person ? 0.1 : 0.4;
-      return meet(stop, size, other.at(seconds), footprint(other.kind), gap);
-    };
-    if (std::ranges::any_of(movers_, meets)) return false;
   }
+  return false;
+}
+
+bool Traffic::meets_others(const Mover& mover, const Visit& visit) const {
+  constexpr double longest_reach = 25;  // metres, more than meet() looks
+  const Footprint size = footprint(mover.kind);
+  const bool walks = mover.kind == RoadUser::person;
+  for (std::size_t i = 0; i < movers_.size(); ++i) {
+    const Mover& other = movers_[i];
+    const Visit& known = visits_[i];
+    if (known.x.high < visit.x.low - longest_reach || known.x.low > visit.x.high + longest_reach) {
+      continue;
+    }
+    const double gap = walks && other.kind == RoadUser::person ? 0.1 : 0.4;
+    const int last = std::min(visit.last, known.last);
+    for (int check = std::max(visit.first, known.first); check <= last; ++check) {
+      const double seconds = check * checked_every;
+      if (meet(mover.at(seconds), size, other.at(seconds), footprint(other.kind), gap)) return true;
+    }
+  }
+  return false;
+}
+
+bool Traffic::join(Mover mover) {
+  const Visit visit = visit_of(mover);
+  if (visit.last < 0 || meets_sensor(mover, visit) || meets_others(mover, visit)) return false;
   movers_.push_back(std::move(mover));
+  visits_.push_back(visit);
   return true;
 }
 
 void Traffic::fill(const Lane& lane, const std::function<RoadUser(Random&)>& draw, Random& random) {
-  const double way = lane.speed * (frames_per_drive - 1) * stop_interval;
+  const double way = lane.speed * static_cast<double>(route_.size() - 1) * stop_interval;
   const double end = lane.x.high - std::min(way, 0.0);
   double x = lane.x.low - std::max(way, 0.0) + random.uniform(0, lane.gap.high);
   while (x < end) {
@@ -145,7 +190,7 @@ void Traffic::fill(const Lane& lane, const std::function<RoadUser(Random&)>& dra
   }
 }
 
-Motion Traffic::motion(const Mover& mover, double seconds) {
+Motion Traffic::motion(const Mover& mover, double seconds) const {
   constexpr double slowest = 0.1;  // m/s; a slower object stands still
   constexpr double interval = 0.1;
   const auto moves_at = [&](double time) {
@@ -154,7 +199,7 @@ Motion Traffic::motion(const Mover& mover, double seconds) {
     return std::hypot(after.x - before.x, after.y - before.y) > slowest * interval;
   };
   if (moves_at(seconds)) return Motion::now;
-  for (int check = 0; check < checks; ++check) {
+  for (int check = 0; check < checks_; ++check) {
     if (moves_at(check * checked_every)) return Motion::later;
   }
   return Motion::none;
@@ -165,6 +210,7 @@ Mesh Traffic::at(const Ground& ground, double seconds) const {
   Mesh mesh;
   for (const Mover& mover : movers_) {
     const Stop now = mover.at(seconds);
+    if (!is_in_view(now, seconds)) continue;
     if (!ground.covers(now.x - margin, now.y) || !ground.covers(now.x + margin, now.y)) continue;
     Random random(mover.look);
     const std::size_t first = mesh.triangles().size();

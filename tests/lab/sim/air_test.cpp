@@ -41,12 +41,12 @@ TEST(Air, DustReturnsTheLightThatItDoesNotTransmit) {
   constexpr int draws = 2'000;
   int through_dust = 0;
   for (int degrees = 0; degrees < 360; degrees += 5) {
-    const double let_through = air.transmission(level(degrees), way);
+    const double let_through = air.transmission(place.pose.origin, level(degrees), way);
     through_dust += let_through < 0.99;
     Random random(static_cast<std::uint64_t>(degrees));
     double sent_back = 0;
     for (int i = 0; i < draws; ++i) {
-      const auto echo = air.echo(level(degrees), way, random);
+      const auto echo = air.echo(place.pose.origin, level(degrees), way, random);
       sent_back += echo.has_value();
       if (echo) {
         ASSERT_EQ(echo->kind, EchoKind::dust);
@@ -64,8 +64,8 @@ TEST(Air, DustCloudIsBehindTheVehicle) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Air air(noise, place.sensor, place.surroundings, place.pose, seed);
 
-    EXPECT_EQ(air.transmission(level(0), 60), 1);
-    EXPECT_LT(air.transmission(level(180), 60), 0.9);
+    EXPECT_EQ(air.transmission(place.pose.origin, level(0), 60), 1);
+    EXPECT_LT(air.transmission(place.pose.origin, level(180), 60), 0.9);
   }
 }
 
@@ -75,8 +75,8 @@ TEST(Air, ClearAirHasNoEffect) {
   const Air air(noise, place.sensor, place.surroundings, place.pose, 1);
   Random random(1);
   for (int degrees = 0; degrees < 360; ++degrees) {
-    EXPECT_EQ(air.transmission(level(degrees), 60), 1);
-    EXPECT_FALSE(air.echo(level(degrees), 60, random));
+    EXPECT_EQ(air.transmission(place.pose.origin, level(degrees), 60), 1);
+    EXPECT_FALSE(air.echo(place.pose.origin, level(degrees), 60, random));
   }
 }
 
@@ -88,7 +88,7 @@ TEST(Air, ReturnsAreNoFartherThanTheEndOfTheBeam) {
   Random random(7);
   for (int degrees = 0; degrees < 360; ++degrees) {
     for (const double way : {1.2, 4.0, 11.0, 40.0}) {
-      const auto echo = air.echo(level(degrees), way, random);
+      const auto echo = air.echo(place.pose.origin, level(degrees), way, random);
       if (echo) {
         ASSERT_LT(echo->range, way);
       }

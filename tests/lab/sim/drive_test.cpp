@@ -114,7 +114,7 @@ Landscape lorry_before_a_house(std::uint64_t /*seed*/) {
   Landscape landscape{.ground = flat_ground(),
                       .route = std::vector<Stop>(frames_per_drive),
                       .furnish =
-                          [](const Ground&) {
+                          [](const Ground&, const Stretch&) {
                             Mesh mesh;
                             add_wall(mesh, 20, house);
                             return mesh;
@@ -156,6 +156,88 @@ TEST(Moving, ObjectsAreWhereTheyAreBetweenTwoStops) {
   ASSERT_EQ(scan.size(), 500U);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     ASSERT_NEAR(point_of(scan, i).x, first_gap + step * 1.5, 1e-4);
+  }
+}
+
+TEST(Distortion, IsNothingWhileTheVehicleStands) {
+  // The vehicle does not move; the lorry is removed.
+  const SceneKind kind{"house", "", [](std::uint64_t seed) {
+                         Landscape landscape = lorry_before_a_house(seed);
+                         landscape.moving = nullptr;
+                         return landscape;
+                       }};
+  const Sensor sensor = sensor_ahead(10, 50);
+  const Drive still(kind, sensor, {.height = 1.5}, 1);
+  const Drive distorted(kind, sensor, {.height = 1.5}, 1, {.distortion = true});
+
+  const SimulatedScan expected = still.scan(still.scene(), Noise{}, 2);
+  const SimulatedScan scan = distorted.scan(distorted.scene(), Noise{}, 2);
+
+  EXPECT_EQ(scan.xyzi, expected.xyzi);
+  EXPECT_EQ(scan.classes, expected.classes);
+  EXPECT_EQ(distorted.ground_of(scan, 2), still.ground_of(expected, 2));
+}
+
+TEST(Distortion, TimesIncreaseWithTheFiringsOverOnePeriod) {
+  const Sensor& sensor = Sensor::named("vlp-16");
+  const Drive drive(*find_scene_kind("highway"), sensor, {.height = sensor.height}, 1,
+                    {.rate = 10, .distortion = true});
+
+  const SimulatedScan scan = drive.scan(drive.scene(), no_noise(), 5);
+  const std::vector<float> times = drive.times_of(scan);
+
+  ASSERT_EQ(times.size(), scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Vector3 point = point_of(scan, i);
+    double turn = std::atan2(point.y, point.x) / (2 * std::numbers::pi);
+    if (turn < -1e-6) turn += 1;
+    ASSERT_NEAR(times[i], 0.1 * turn, 1e-5) << "azimuth over the period, point " << i;
+  }
+}
+
+TEST(Distortion, TruePosesUndoIt) {
+  const Sensor& sensor = Sensor::named("vlp-16");
+  for (const Extent& extent : {Extent{}, Extent{.stretches = 3}}) {
+    constexpr int frame = 20;
+    const Pace pace{.rate = 10, .speed = 20, .distortion = true};
+    const Drive drive(*find_scene_kind("forest_track"), sensor, {.height = sensor.height}, 1, pace,
+                      extent);
+    const SimulatedScan scan = drive.scan(drive.scene(frame), no_noise(), frame);
+    const std::vector<float> times = drive.times_of(scan);
+    const std::vector<float> ground = drive.ground_of(scan, frame);
+    double farthest = 0;
+    double farthest_as_measured = 0;
+    std::size_t points = 0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      if (!is_ground(class_of(scan, i))) continue;
+      const auto above = [&](const Frame& pose) {
+        const Vector3 world = pose.to_world(point_of(scan, i));
+        return std::abs(world.z - drive.ground().height(world.x, world.y));
+      };
+      const double scans = frame + static_cast<double>(times[i]) * pace.rate;
+      farthest = std::max(farthest, above(drive.pose_at(scans)));
+      farthest_as_measured = std::max(farthest_as_measured, above(drive.poses()[frame]));
+      ASSERT_NEAR(scan.xyzi[4 * i + 2], ground[i], 0.001F) << "true ground of a distorted point";
+      ++points;
+    }
+    EXPECT_GT(points, 1'000U);
+    EXPECT_LT(farthest, 0.001);
+    EXPECT_GT(farthest_as_measured, 0.05) << "the sensor moves by 2 m in this scan";
+  }
+}
+
+TEST(Distortion, MovingObjectsMoveDuringTheScan) {
+  const SceneKind kind{"lorry", "", lorry_before_a_house};
+  const Drive drive(kind, sensor_ahead(1, 64), {.height = 1.5}, 1, {.distortion = true});
+
+  const SimulatedScan scan = drive.scan(drive.scene(), no_noise(), 1);
+  const std::vector<float> times = drive.times_of(scan);
+
+  ASSERT_EQ(scan.size(), 64U);
+  constexpr double jump = step / 16;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double gap = first_gap + step * (1 + static_cast<double>(times[i]));
+    EXPECT_NEAR(point_of(scan, i).x, gap, jump / 2 + 1e-4);
   }
 }
 

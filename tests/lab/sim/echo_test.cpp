@@ -69,7 +69,7 @@ struct GlassStreet {
 
  private:
   [[nodiscard]] Mesh objects() const {
-    Mesh mesh = landscape.furnish(landscape.ground);
+    Mesh mesh = landscape.furnish(landscape.ground, {});
     const Vector3 middle{stop.x, stop.y + 4, landscape.ground.height(stop.x, stop.y)};
     const Vector3 along{9, 0, 0};
     const Vector3 top{0, 0, 3};

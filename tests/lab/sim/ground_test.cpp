@@ -64,7 +64,7 @@ TEST(Ground, RejectsAMissingHeight) {
 // A street with all parameters that bend its ground.
 StreetShape hilly_street() {
   StreetShape shape;
-  shape.half_length = 40;
+  shape.length = {-40, 40};
   shape.grade = 0.03;
   shape.grade_changes = {{.change = -0.06, .x = 15}};
   shape.bend_amplitude = 3;

@@ -15,6 +15,7 @@
 
 #include "lab/sim/drive.hpp"
 #include "lab/sim/scene.hpp"
+#include "lab/sim/stands_clear.hpp"
 
 namespace flagstone::sim {
 namespace {
@@ -84,20 +85,6 @@ TEST_P(EveryScene, GroundTruthIsExact) {
   }
 }
 
-// Whether nothing is within `aside` metres of the sensor, or `above` metres above it. Casts beams
-// in all directions, along a spiral from pole to pole.
-bool stands_clear(const RayCaster& world, const Frame& pose, double aside, double above) {
-  constexpr int beams = 400;
-  for (int i = 0; i < beams; ++i) {
-    const double up = -1 + (2.0 * i + 1) / beams;
-    const double across = std::sqrt(1 - up * up);
-    const Vector3 beam{across * std::cos(2.4 * i), across * std::sin(2.4 * i), up};
-    const double reach = up > 0 ? std::min(aside, above / up) : aside;
-    if (world.cast(pose.origin, pose.direction_to_world(beam), 0, reach)) return false;
-  }
-  return true;
-}
-
 TEST_P(EveryScene, SensorIsClearOfObjectsAndSeesGroundAheadAndBehind) {
   const World world(GetParam(), 2);
   for (int frame = 0; frame < frames_per_drive; ++frame) {
@@ -138,7 +125,7 @@ TEST_P(EveryScene, StopsAreOneFrameSpacingApartAtTheSensorHeight) {
 TEST_P(EveryScene, DiffersBetweenSeeds) {
   const auto things = [](std::uint64_t seed) {
     const Landscape land = kind_named(GetParam()).make(seed);
-    return land.furnish(land.ground).vertices();
+    return land.furnish(land.ground, {}).vertices();
   };
   const std::vector<Vector3> one = things(1);
 

@@ -152,11 +152,12 @@ Landscape bumpy_field(std::uint64_t seed) {
   Field field = draw_field(random);
   Ground ground = make_field(field);
   std::vector<Stop> route = wander_along([&](double x) { return field.path.at(x); }, random);
-  return {.ground = std::move(ground),
-          .route = std::move(route),
-          .furnish = [field = std::move(field), random](const Ground& on) {
-            return furnish_field(field, on, random);
-          }};
+  return {
+      .ground = std::move(ground),
+      .route = std::move(route),
+      .furnish = [field = std::move(field), random](const Ground& on, const Stretch& /*whole*/) {
+        return furnish_field(field, on, random);
+      }};
 }
 
 }  // namespace flagstone::sim

@@ -296,7 +296,9 @@ Landscape construction_site(std::uint64_t seed) {
   const WindingPath path = site.path;
   return {.ground = std::move(ground),
           .route = std::move(route),
-          .furnish = [site, random](const Ground& on) { return furnish_site(site, on, random); },
+          .furnish = [site, random](
+                         const Ground& on,
+                         const Stretch& /*whole*/) { return furnish_site(site, on, random); },
           .moving =
               [path, digging, workers = std::move(workers)](const Ground& on, double seconds) {
                 Mesh mesh = workers.at(on, seconds);

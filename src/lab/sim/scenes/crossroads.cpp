@@ -21,12 +21,15 @@ namespace flagstone::sim {
 namespace {
 
 // Two crowned roads that cross at the origin, one along x and one along y. Lengths in metres;
-// opposite arms are equal.
+// opposite arms are equal. In a long environment, further roads of the same shape cross the first.
 struct CrossroadsShape {
   static constexpr double half_length = 105;  // of the road along x
+  static constexpr std::size_t period = 3;    // stretches from one junction to the next
   static constexpr double half_width = 70;    // of the road along y
   static constexpr double crossing_width = 3.5;
   static constexpr double island_half_width = 0.9;
+
+  Extent extent;
 
   // One of the roads.
   struct Road {
@@ -53,6 +56,10 @@ struct CrossroadsShape {
   [[nodiscard]] double crossing_begin(const Road& other) const noexcept {
     return other.half_width + corner + 0.5;
   }
+  // Middles of all junctions.
+  [[nodiscard]] std::vector<double> junctions() const;
+  // x relative to the nearest junction.
+  [[nodiscard]] double from_junction(double x) const noexcept;
   // Signed distance to the kerb, positive behind it.
   [[nodiscard]] double behind_kerb(double x, double y) const noexcept;
 
@@ -147,6 +154,26 @@ CrossroadsShape::Road draw_road(Interval half_width, Random& random) {
           .island = {}};
 }
 
+std::vector<double> CrossroadsShape::junctions() const {
+  const std::size_t whole = extent.stretches / period;
+  const std::size_t count = extent.closed ? whole : (extent.stretches + period - 1) / period;
+  std::vector<double> all;
+  all.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    all.push_back(static_cast<double>(i * period) * stretch_length);
+  }
+  return all;
+}
+
+double CrossroadsShape::from_junction(double x) const noexcept {
+  if (!extent.is_long()) return x;
+  constexpr double apart = period * stretch_length;
+  const double last = junctions().back();
+  const double next = extent.closed ? x - extent.length() : x;  // to the first one, after a lap
+  const double here = x - std::clamp(std::round(x / apart) * apart, 0.0, last);
+  return std::abs(next) < std::abs(here) ? next : here;
+}
+
 double CrossroadsShape::behind_kerb(double x, double y) const noexcept {
   const double from_side = std::abs(x) - side.half_width;
   const double from_own = std::abs(y) - own.half_width;
@@ -199,8 +226,9 @@ Surface CrossroadsShape::surface(double x, double y) const noexcept {
   return centre_of_own || centre_of_side ? paint : asphalt;
 }
 
-CrossroadsShape draw_crossroads(Random& random) {
-  CrossroadsShape shape{.own = draw_road({4, 7}, random),
+CrossroadsShape draw_crossroads(const Extent& extent, Random& random) {
+  CrossroadsShape shape{.extent = extent,
+                        .own = draw_road({4, 7}, random),
                         .side = draw_road({3.4, 6.5}, random),
                         .corner = random.uniform(3, 6.5),
                         .kerb_height = random.uniform(0.09, 0.16),
@@ -226,16 +254,42 @@ CrossroadsShape draw_crossroads(Random& random) {
     height = random.chance(0.75) ? random.uniform(0.1, 0.3) : 0;
   }
   for (bool& lawn : shape.lawn) lawn = random.chance(0.4);
+  if (extent.is_long()) {  // its Alignment has the grades
+    shape.own.grade = 0;
+    shape.own.sag = 0;
+  }
   return shape;
+}
+
+// Grid lines across the road along x, with all its junctions.
+std::vector<double> lines_along(const CrossroadsShape& shape) {
+  std::vector<double> one =
+      lines(shape, shape.side, shape.own, shape.bed_x, CrossroadsShape::half_length);
+  const Extent& extent = shape.extent;
+  if (!extent.is_long()) return one;
+  constexpr double beyond = CrossroadsShape::half_length - half_drive;
+  const Interval reach = extent.reach(beyond);
+  std::vector<double> all;
+  add_lines(all, reach.low, reach.high, 1);
+  for (const double junction : shape.junctions()) {
+    for (const double line : one) {
+      const double x = junction + line;
+      if (x > reach.low && x < reach.high) all.push_back(x);
+      if (extent.closed && x < reach.low) all.push_back(x + extent.length());
+    }
+  }
+  finish_lines(all);
+  return all;
 }
 
 Ground make_ground(const CrossroadsShape& shape) {
   return cut_ground(
-      {.x = lines(shape, shape.side, shape.own, shape.bed_x, CrossroadsShape::half_length),
+      {.x = lines_along(shape),
        .t = lines(shape, shape.own, shape.side, shape.bed_y, CrossroadsShape::half_width),
        .offset = [](double) { return 0.0; },
-       .height = [&](double x, double y) { return shape.height(x, y); },
-       .surface = [&](double x, double y) { return shape.surface(x, y); }});
+       .height = [&](double x, double y) { return shape.height(shape.from_junction(x), y); },
+       .surface = [&](double x, double y) { return shape.surface(shape.from_junction(x), y); },
+       .closed = shape.extent.closed});
 }
 
 constexpr double half_turn = std::numbers::pi;
@@ -246,11 +300,12 @@ double lane_of(const CrossroadsShape::Road& road) noexcept {
   return (begin + road.half_width) / 2;
 }
 
-// Adds objects to a junction. The quadrant is given by signs: +1 or -1 along x and along y.
+// Adds objects to a junction, at positions relative to its middle. The quadrant is given by signs:
+// +1 or -1 along x and along y.
 class Furnisher {
  public:
-  Furnisher(const CrossroadsShape& shape, const Ground& ground, Random& random)
-      : shape_(shape), ground_(ground), random_(random) {
+  Furnisher(const CrossroadsShape& shape, const Ground& ground, double junction, Random& random)
+      : shape_(shape), ground_(ground), junction_(junction), random_(random) {
     for (const double sx : {-1.0, 1.0}) {
       for (const double sy : {-1.0, 1.0}) {
         const bool lawn = shape.lawn[CrossroadsShape::quadrant(sx, sy)];
@@ -271,7 +326,8 @@ class Furnisher {
 
  private:
   [[nodiscard]] Frame upright(double x, double y, double yaw) const {
-    return upright_frame({x, y, ground_.height(x, y)}, yaw);
+    const double road_x = junction_ + x;
+    return upright_frame({road_x, y, ground_.height(road_x, y)}, yaw);
   }
 
   TerraceHouse draw_house() {
@@ -307,7 +363,7 @@ class Furnisher {
     const double begin_y = shape_.own.half_width + shape_.sidewalk + 1;
     const auto scatter = [&](int count, double margin, auto plant) {
       for (int i = 0; i < count; ++i) {
-        plant(mesh_, ground_, sx * random_.uniform(begin_x + margin, 80),
+        plant(mesh_, ground_, junction_ + sx * random_.uniform(begin_x + margin, 80),
               sy * random_.uniform(begin_y + margin, 50), random_);
       }
     };
@@ -317,7 +373,10 @@ class Furnisher {
     scatter(10, 1, add_ground_cover);
     if (random_.chance(0.5)) {
       add_hedge(mesh_, ground_,
-                {.x0 = sx * (begin_x + 4), .y0 = sy * begin_y, .x1 = sx * 60, .y1 = sy * begin_y},
+                {.x0 = junction_ + sx * (begin_x + 4),
+                 .y0 = sy * begin_y,
+                 .x1 = junction_ + sx * 60,
+                 .y1 = sy * begin_y},
                 random_);
     }
   }
@@ -328,7 +387,7 @@ class Furnisher {
     const Interval y = shape_.bed_y;
     constexpr double margin = 0.3;
     for (int tuft = 0; tuft < 40; ++tuft) {
-      add_tuft(mesh_, ground_, sx * random_.uniform(x.low + margin, x.high - margin),
+      add_tuft(mesh_, ground_, junction_ + sx * random_.uniform(x.low + margin, x.high - margin),
                sy * random_.uniform(y.low + margin, y.high - margin), random_);
     }
   }
@@ -337,7 +396,7 @@ class Furnisher {
     const Interval reach = shape_.own.island;
     if (reach.high == 0) return;
     for (int tuft = 0; tuft < 25; ++tuft) {
-      add_tuft(mesh_, ground_, sx * random_.uniform(reach.low + 0.3, reach.high - 0.3),
+      add_tuft(mesh_, ground_, junction_ + sx * random_.uniform(reach.low + 0.3, reach.high - 0.3),
                random_.uniform(-0.6, 0.6), random_);
     }
     add_traffic_sign(mesh_, upright(sx * (reach.low + 0.4), 0, sx > 0 ? 0 : half_turn));
@@ -386,6 +445,7 @@ class Furnisher {
 
   const CrossroadsShape& shape_;
   const Ground& ground_;
+  double junction_;  // x of its middle
   Random& random_;
   Mesh mesh_;
 };
@@ -398,9 +458,12 @@ RoadUser draw_vehicle(Random& random) {
 }
 
 // Vehicles on the side road wait at the crossing, or cross the junction while it is free.
-void send_crossing_traffic(Traffic& traffic, const CrossroadsShape& shape, Random& random) {
+void send_crossing_traffic(Traffic& traffic, const CrossroadsShape& shape, double junction,
+                           Random& random) {
+  constexpr double lead = 12;  // seconds
+  const double start = arrival_at(shape.extent, junction);
   for (const double from : {-1.0, 1.0}) {
-    const double x = -from * lane_of(shape.side);
+    const double x = junction - from * lane_of(shape.side);
     const double yaw = -from * half_turn / 2;
     const double stop_line = shape.crossing_begin(shape.own) + CrossroadsShape::crossing_width + 1;
     const bool waits = random.chance(0.5);
@@ -409,18 +472,22 @@ void send_crossing_traffic(Traffic& traffic, const CrossroadsShape& shape, Rando
       const RoadUser kind = draw_vehicle(random);
       const double half = kind == RoadUser::truck || kind == RoadUser::bus ? 7.8 : 2.7;
       y += half;
-      traffic.join({.kind = kind,
-                    .at = straight({.x = x, .y = from * y, .yaw = yaw}, waits ? 0 : 9, 120),
-                    .look = random.bits()});
+      traffic.join(
+          {.kind = kind,
+           .at = straight({.x = x, .y = from * y, .yaw = yaw}, waits ? 0 : 9, 120, start, lead),
+           .look = random.bits()});
       y += half + (waits ? random.uniform(1, 2) : random.uniform(6, 20));
     }
   }
 }
 
-void send_pedestrians(Traffic& traffic, const CrossroadsShape& shape, Random& random) {
+void send_pedestrians(Traffic& traffic, const CrossroadsShape& shape, double junction,
+                      Random& random) {
+  const double start = arrival_at(shape.extent, junction);
   const auto walk = [&](double x, double y, double yaw, double way) {
     traffic.join({.kind = RoadUser::person,
-                  .at = straight({.x = x, .y = y, .yaw = yaw}, random.uniform(0.7, 1.6), way),
+                  .at = straight({.x = junction + x, .y = y, .yaw = yaw}, random.uniform(0.7, 1.6),
+                                 way, start),
                   .look = random.bits()});
   };
   const auto either = [&] { return random.chance(0.5) ? 1.0 : -1.0; };
@@ -451,32 +518,41 @@ void send_pedestrians(Traffic& traffic, const CrossroadsShape& shape, Random& ra
 Traffic send_traffic(const CrossroadsShape& shape, const std::vector<Stop>& route, Random& random) {
   const Path middle = [](double x) { return Stop{.x = x, .y = 0, .yaw = 0}; };
   const double lane = lane_of(shape.own);
-  Traffic traffic(route);
-  traffic.fill({.path = middle, .t = -lane, .speed = own_speed, .x = {-85, 85}, .gap = {12, 40}},
-               draw_vehicle, random);
+  Traffic traffic(route, shape.extent.view());
   traffic.fill(
-      {.path = middle, .t = lane, .speed = random.uniform(-11, -7), .x = {-90, 90}, .gap = {8, 30}},
+      {.path = middle, .t = -lane, .speed = own_speed, .x = shape.extent.run(49), .gap = {12, 40}},
       draw_vehicle, random);
-  send_crossing_traffic(traffic, shape, random);
-  send_pedestrians(traffic, shape, random);
+  traffic.fill({.path = middle,
+                .t = lane,
+                .speed = random.uniform(-11, -7),
+                .x = shape.extent.run(54),
+                .gap = {8, 30}},
+               draw_vehicle, random);
+  for (const double junction : shape.extent.each_lap(shape.junctions())) {
+    send_crossing_traffic(traffic, shape, junction, random);
+    send_pedestrians(traffic, shape, junction, random);
+  }
   return traffic;
 }
 
 }  // namespace
 
-Landscape crossroads(std::uint64_t seed) {
+Landscape crossroads(std::uint64_t seed, const Extent& extent) {
   Random random = Random::stream(seed, 0);
-  const CrossroadsShape shape = draw_crossroads(random);
+  const CrossroadsShape shape = draw_crossroads(extent, random);
   const double lane = -lane_of(shape.own);
   std::vector<Stop> route =
-      wander_along([&](double x) { return Stop{.x = x, .y = lane, .yaw = 0}; }, random);
+      wander_along([&](double x) { return Stop{.x = x, .y = lane, .yaw = 0}; }, random, extent);
   Traffic traffic = send_traffic(shape, route, random);
   return {.ground = make_ground(shape),
           .route = std::move(route),
           .furnish =
-              [shape, random](const Ground& on) {
-                Random own = random;
-                return Furnisher(shape, on, own).take();
+              [shape, random](const Ground& on, const Stretch& stretch) {
+                if (stretch.index % CrossroadsShape::period != 0) return Mesh();
+                const double junction = static_cast<double>(stretch.index) * stretch_length;
+                if (junction > shape.junctions().back()) return Mesh();
+                Random own = stretch.stream(random);
+                return Furnisher(shape, on, junction, own).take();
               },
           .moving = moving(std::move(traffic))};
 }

@@ -229,12 +229,14 @@ Landscape embankment(std::uint64_t seed) {
   std::vector<GroundStep> known = road->side(-1).steps(-1);
   std::ranges::copy(road->side(1).steps(1), std::back_inserter(known));
   Traffic traffic = draw_traffic(lane, route, random);
-  return {
-      .ground = make_road(*road),
-      .route = std::move(route),
-      .furnish = [road, random](const Ground& on) { return furnish_embankment(*road, on, random); },
-      .steps = std::move(known),
-      .moving = moving(std::move(traffic))};
+  return {.ground = make_road(*road),
+          .route = std::move(route),
+          .furnish =
+              [road, random](const Ground& on, const Stretch& /*whole*/) {
+                return furnish_embankment(*road, on, random);
+              },
+          .steps = std::move(known),
+          .moving = moving(std::move(traffic))};
 }
 
 }  // namespace flagstone::sim

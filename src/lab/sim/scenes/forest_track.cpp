@@ -22,7 +22,6 @@ constexpr Surface moss{.semantic = SemanticClass::terrain, .reflectivity = 0.4F}
 constexpr Surface puddle{
     .semantic = SemanticClass::other_ground, .reflectivity = 0.05F, .mirror = 0.8F};
 
-constexpr double half_length = 112;  // of the ground, metres
 constexpr double half_width = 60;
 constexpr double rut = 0.78;  // from the middle of the track to the middle of a rut, metres
 
@@ -41,6 +40,7 @@ struct Root {
 // The track is cut into a hillside, with a bank on the upper side and a shoulder on the lower side.
 // t is measured to the left of the middle of the track, along y.
 struct Track {
+  Extent extent;
   WindingPath path;
   double uphill = 1;                   // +1: the hill rises to the left
   double side_slope = 0.05;            // of the hill, m/m
@@ -69,7 +69,9 @@ struct Track {
       land -=
           0.25 * smooth_step(half_width, half_width + 0.8, -up) + side_slope * (-up - half_width);
     }
-    for (const Root& root : roots) land += root.at(x, t);
+    constexpr double root_reach = 2;  // along x, on either side of its middle
+    auto root = std::ranges::lower_bound(roots, x - root_reach, {}, &Root::x);
+    for (; root != roots.end() && root->x < x + root_reach; ++root) land += root->at(x, t);
     return land - rut_depth_at(x, t) + 0.05 * std::max(0.0, 1 - t * t / 0.16);
   }
   [[nodiscard]] Surface surface(double x, double t) const noexcept {
@@ -78,8 +80,9 @@ struct Track {
   }
 };
 
-Track draw_track(Random& random) {
+Track draw_track(const Extent& extent, Random& random) {
   Track track;
+  track.extent = extent;
   track.path = {.swing = random.uniform(-5, 5), .swing_length = random.uniform(60, 100)};
   track.uphill = random.chance(0.5) ? 1 : -1;
   track.side_slope = random.uniform(0.02, 0.1);
@@ -93,7 +96,8 @@ Track draw_track(Random& random) {
   draw_waves(track.bumps, 6, {0.004, 0.01}, {0.8, 1.8}, random);
   draw_waves(track.tilts, 3, {0.02, 0.045}, {9, 25}, random);
   draw_waves(track.litter, 5, {0.5, 1}, {3, 12}, random);
-  for (double x = -55; x < 55; x += random.uniform(1.2, 5)) {
+  const Interval rooted = extent.reach(19, 3);
+  for (double x = rooted.low; x < rooted.high; x += random.uniform(1.2, 5)) {
     const bool whole = random.chance(0.3);
     const double side = random.chance(0.5) ? 1 : -1;
     const double begin = whole ? -2.2 : std::min(side * 0.2, side * 2.4);
@@ -103,24 +107,33 @@ Track draw_track(Random& random) {
                            .t_end = whole ? 2.2 : begin + 2.2,
                            .height = random.uniform(0.03, 0.07)});
   }
+  track.path.swing_length = extent.fitted_length(track.path.swing_length);
+  track.rut_wave = extent.fitted(track.rut_wave);
+  for (auto* waves : {&track.hills, &track.bumps, &track.tilts, &track.litter}) {
+    close_waves(*waves, extent);
+  }
   return track;
 }
 
 Ground make_track(const Track& track) {
+  const Interval all = track.extent.reach(76);
+  const Interval fine = track.extent.reach(19);
   return cut_ground(
-      {.x = lines_in_bands(-half_length, std::array{LineBand{-55, 0.8}, LineBand{55, 0.22},
-                                                    LineBand{half_length, 0.8}}),
+      {.x = lines_in_bands(all.low, std::array{LineBand{fine.low, 0.8}, LineBand{fine.high, 0.22},
+                                               LineBand{all.high, 0.8}}),
        .t = mirrored_lines(std::array{LineBand{0.4, 0.2}, LineBand{1.2, 0.1}, LineBand{3.2, 0.2},
                                       LineBand{14, 0.5}, LineBand{half_width, 1.5}}),
        .offset = [&](double x) { return track.path.y(x); },
        .height = [&](double x, double t) { return track.height(x, t); },
-       .surface = [&](double x, double t) { return track.surface(x, t); }});
+       .surface = [&](double x, double t) { return track.surface(x, t); },
+       .closed = track.extent.closed});
 }
 
-Mesh furnish_forest(const Track& track, const Ground& ground, Random random) {
+Mesh furnish_forest(const Track& track, const Ground& ground, const Stretch& stretch,
+                    Random random) {
   Mesh mesh;
   const auto grow = [&](double per_square_metre, Interval from_path, auto plant) {
-    scatter(track.path, {.from_path = from_path}, per_square_metre, random,
+    scatter(track.path, {.x = stretch.reach(54), .from_path = from_path}, per_square_metre, random,
             [&](double x, double y) { plant(x, y); });
   };
   const auto turned = [&] { return random.uniform(0, 2 * std::numbers::pi); };
@@ -135,7 +148,8 @@ Mesh furnish_forest(const Track& track, const Ground& ground, Random random) {
        [&](double x, double y) { add_fallen_log(mesh, ground, x, y, turned(), random); });
   grow(0.01, {2.6, 18}, [&](double x, double y) { add_stump(mesh, ground, x, y, random); });
   // Boughs that reach over the edges of the track.
-  for (double x = -60; x < 60; x += random.uniform(5, 14)) {
+  const Interval row = stretch.reach(24);
+  for (double x = row.low; x < row.high; x += random.uniform(5, 14)) {
     const double side = random.chance(0.5) ? 1 : -1;
     const double y = track.path.y(x) + side * random.uniform(3.8, 4.6);
     add_low_branch(mesh, ground, x, y, -side * std::numbers::pi / 2 + random.uniform(-0.4, 0.4),
@@ -145,31 +159,37 @@ Mesh furnish_forest(const Track& track, const Ground& ground, Random random) {
 }
 
 // People walk next to the track.
-Traffic draw_walkers(const WindingPath& path, std::vector<Stop> route, Random& random) {
-  Traffic walkers(std::move(route));
-  for (int i = 0; i < 3; ++i) {
+Traffic draw_walkers(const Track& track, std::vector<Stop> route, Random& random) {
+  Traffic walkers(std::move(route), track.extent.view());
+  const WindingPath path = track.path;
+  const Interval walked = track.extent.run(4);
+  const int count = count_of(3, 80, walked);
+  for (int i = 0; i < count; ++i) {
     const double t = (random.chance(0.5) ? 1 : -1) * random.uniform(4.3, 6);
     const double speed = (random.chance(0.5) ? 1 : -1) * random.uniform(0.8, 1.8);
-    walkers.join(
-        {.kind = RoadUser::person,
-         .at = along([path](double x) { return path.at(x); }, t, random.uniform(-40, 40), speed),
-         .look = random.bits()});
+    walkers.join({.kind = RoadUser::person,
+                  .at = along([path](double x) { return path.at(x); }, t,
+                              random.uniform(walked.low, walked.high), speed),
+                  .look = random.bits()});
   }
   return walkers;
 }
 
 }  // namespace
 
-Landscape forest_track(std::uint64_t seed) {
+Landscape forest_track(std::uint64_t seed, const Extent& extent) {
   Random random = Random::stream(seed, 0);
-  Track track = draw_track(random);
+  Track track = draw_track(extent, random);
   Ground ground = make_track(track);
-  std::vector<Stop> route = wander_along([&](double x) { return track.path.at(x); }, random);
-  Traffic walkers = draw_walkers(track.path, route, random);
+  std::vector<Stop> route =
+      wander_along([&](double x) { return track.path.at(x); }, random, extent);
+  Traffic walkers = draw_walkers(track, route, random);
   return {.ground = std::move(ground),
           .route = std::move(route),
-          .furnish = [track = std::move(track),
-                      random](const Ground& on) { return furnish_forest(track, on, random); },
+          .furnish =
+              [track = std::move(track), random](const Ground& on, const Stretch& stretch) {
+                return furnish_forest(track, on, stretch, stretch.stream(random));
+              },
           .moving = moving(std::move(walkers))};
 }
 

@@ -20,7 +20,6 @@
 namespace flagstone::sim {
 namespace {
 
-constexpr double half_length = 200;  // of the ground, metres
 constexpr double half_width = 75;
 constexpr int lanes = 3;
 constexpr double lane_width = 3.75;
@@ -42,15 +41,17 @@ constexpr Surface sign_plate{.semantic = SemanticClass::traffic_sign, .reflectiv
 struct Roadside {
   double height, swell, phase;  // mean height, and its variation along the road
   double steepness;             // m/m
-  double noise_barrier;         // height; 0 for none
-  Interval barrier_reach;       // x
+  double swell_length;
+  double noise_barrier;                 // height; 0 for none
+  std::vector<Interval> barrier_reach;  // x
   bool guard_rail;
   [[nodiscard]] double height_at(double x) const noexcept {
-    return height + swell * std::sin(2 * std::numbers::pi * x / 180 + phase);
+    return height + swell * std::sin(2 * std::numbers::pi * x / swell_length + phase);
   }
 };
 
 struct Highway {
+  Extent extent;
   RoadCurve curve;
   double half_median, inner_shoulder, outer_shoulder;
   double grade, sag;              // height along the road: grade x + sag x^2 / 2
@@ -58,7 +59,7 @@ struct Highway {
   bool concrete;                  // material of the barrier in the median
   std::array<Roadside, 2> sides;  // indexed by Side
   int own_lane;                   // 0 is next to the median
-  double gantry;                  // x
+  std::vector<double> gantries;   // x
 
   [[nodiscard]] double lanes_begin() const noexcept { return half_median + inner_shoulder; }
   [[nodiscard]] double lanes_end() const noexcept { return lanes_begin() + lanes * lane_width; }
@@ -106,34 +107,59 @@ Surface Highway::surface(double x, double t) const noexcept {
   return asphalt;
 }
 
-Roadside draw_side(Random& random) {
+// Barriers and gantries are this many stretches apart.
+constexpr std::size_t furniture_period = 5;
+
+std::vector<double> repeated(double x, const Extent& extent) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < extent.stretches; i += furniture_period) {
+    all.push_back(x + static_cast<double>(i) * stretch_length);
+  }
+  return all;
+}
+
+Roadside draw_side(const Extent& extent, Random& random) {
   const bool barrier = random.chance(0.4);
   const double begin = random.uniform(-120, -10);
   const double drawn = random.uniform(-1, 1);
-  return {.height = 6 * drawn,
-          .swell = random.uniform(0, 2),
-          .phase = random.uniform(0, 2 * std::numbers::pi),
-          .steepness = random.uniform(0.35, 0.65),
-          .noise_barrier = barrier ? random.uniform(2.5, 4.5) : 0,
-          .barrier_reach = {begin, begin + random.uniform(60, 160)},
-          .guard_rail = drawn < 0 || random.chance(0.4)};
+  Roadside side{.height = 6 * drawn,
+                .swell = random.uniform(0, 2),
+                .phase = random.uniform(0, 2 * std::numbers::pi),
+                .steepness = random.uniform(0.35, 0.65),
+                .swell_length = extent.fitted_length(180),
+                .noise_barrier = barrier ? random.uniform(2.5, 4.5) : 0,
+                .barrier_reach = {},
+                .guard_rail = false};
+  const double length = random.uniform(60, 160);
+  for (const double x : repeated(begin, extent)) side.barrier_reach.push_back({x, x + length});
+  side.guard_rail = drawn < 0 || random.chance(0.4);
+  return side;
 }
 
-Highway draw_highway(Random& random) {
+Highway draw_highway(const Extent& extent, Random& random) {
+  constexpr double half_length = 200;  // of the curve, metres
   const double turn = random.chance(0.5) ? 1 : -1;
   const double curvature = turn / random.uniform(600, 1400);
-  return {.curve = {half_length, curvature, random.uniform(-120, 60), random.uniform(60, 120)},
-          .half_median = random.uniform(1.2, 2.2),
-          .inner_shoulder = random.uniform(0.75, 1.1),
-          .outer_shoulder = random.uniform(2.3, 3),
-          .grade = random.uniform(-0.04, 0.04),
-          .sag = random.uniform(-2.5e-4, 2.5e-4),
-          .cross_fall = 0.025,
-          .bank = -turn * random.uniform(0.03, 0.07),
-          .concrete = random.chance(0.5),
-          .sides = {draw_side(random), draw_side(random)},
-          .own_lane = static_cast<int>(random.uniform(0, lanes)),
-          .gantry = random.uniform(-30, 60)};
+  Highway road{.extent = extent,
+               .curve = {half_length, curvature, random.uniform(-120, 60), random.uniform(60, 120)},
+               .half_median = random.uniform(1.2, 2.2),
+               .inner_shoulder = random.uniform(0.75, 1.1),
+               .outer_shoulder = random.uniform(2.3, 3),
+               .grade = random.uniform(-0.04, 0.04),
+               .sag = random.uniform(-2.5e-4, 2.5e-4),
+               .cross_fall = 0.025,
+               .bank = -turn * random.uniform(0.03, 0.07),
+               .concrete = random.chance(0.5),
+               .sides = {draw_side(extent, random), draw_side(extent, random)},
+               .own_lane = static_cast<int>(random.uniform(0, lanes)),
+               .gantries = repeated(random.uniform(-30, 60), extent)};
+  if (extent.is_long()) {  // its Alignment has the curves and grades
+    constexpr double never = 1e9;
+    road.curve = {half_length, 0, never, 1};
+    road.grade = 0;
+    road.sag = 0;
+  }
+  return road;
 }
 
 Ground make_highway(const Highway& highway) {
@@ -141,8 +167,10 @@ Ground make_highway(const Highway& highway) {
                   .t = {},
                   .offset = [&](double x) { return highway.curve.at(x).y; },
                   .height = [&](double x, double t) { return highway.height(x, t); },
-                  .surface = [&](double x, double t) { return highway.surface(x, t); }};
-  add_lines(plan.x, -half_length, half_length, 2);  // a divisor of the dash length
+                  .surface = [&](double x, double t) { return highway.surface(x, t); },
+                  .closed = highway.extent.closed};
+  const Interval all = highway.extent.reach(164);
+  add_lines(plan.x, all.low, all.high, 2);  // a divisor of the dash length
   std::vector<double> outward;
   add_lines(outward, 0, highway.half_median, 1);
   add_lines(outward, highway.half_median, highway.paved(), 1);
@@ -165,9 +193,8 @@ Ground make_highway(const Highway& highway) {
 }
 
 // A gantry over one carriageway, between the median and the verge.
-void add_gantry(Mesh& mesh, const Highway& highway, double side, const RoadPlace& place,
+void add_gantry(Mesh& mesh, const Highway& highway, double x, double side, const RoadPlace& place,
                 Random& random) {
-  const double x = highway.gantry;
   const double far = highway.paved() + 1.3;
   const double low = random.uniform(5.8, 6.4);
   for (const double out : {0.0, far}) {
@@ -197,8 +224,9 @@ void add_gantry(Mesh& mesh, const Highway& highway, double side, const RoadPlace
   }
 }
 
-void line_road(Mesh& mesh, const Highway& highway, const RoadPlace& place, Random& random) {
-  constexpr Interval all{-half_length + 5, half_length - 5};
+void line_road(Mesh& mesh, const Highway& highway, const RoadPlace& place, const Stretch& stretch,
+               Random& random) {
+  const Interval all = stretch.reach(159);
   if (highway.concrete) {
     add_concrete_barrier(mesh, 0, all, place);
   } else {
@@ -209,8 +237,11 @@ void line_road(Mesh& mesh, const Highway& highway, const RoadPlace& place, Rando
     const double edge = highway.paved();
     if (side.guard_rail) add_guard_rail(mesh, sign(which) * (edge + 0.5), all, place);
     if (side.noise_barrier > 0) {
-      add_noise_barrier(mesh, sign(which) * (edge + 1.8), side.noise_barrier, side.barrier_reach,
-                        place);
+      for (const Interval& barrier : side.barrier_reach) {
+        const Interval here{std::max(barrier.low, all.low), std::min(barrier.high, all.high)};
+        if (here.low >= here.high) continue;
+        add_noise_barrier(mesh, sign(which) * (edge + 1.8), side.noise_barrier, here, place);
+      }
     }
     for (double x = all.low; x < all.high; x += 50) {
       const double t = sign(which) * (edge + 0.9);
@@ -218,16 +249,22 @@ void line_road(Mesh& mesh, const Highway& highway, const RoadPlace& place, Rando
       add_beam(mesh, {.t = {t - 0.06, t + 0.06}, .z = {-0.2, 1.05}}, {x - 0.06, x + 0.06}, 1, place,
                post);
     }
-    if (which == Side::right || random.chance(0.5)) {
-      add_gantry(mesh, highway, sign(which), place, random);
+    for (const double gantry : highway.gantries) {
+      if (gantry < all.low || gantry >= all.high) continue;
+      if (which == Side::right || random.chance(0.5)) {
+        add_gantry(mesh, highway, gantry, sign(which), place, random);
+      }
     }
   }
 }
 
-void plant_slopes(Mesh& mesh, const Highway& highway, const Ground& ground, Random& random) {
-  const auto scatter = [&](int count, double from_edge, double to_edge, auto plant) {
+void plant_slopes(Mesh& mesh, const Highway& highway, const Ground& ground, const Stretch& stretch,
+                  Random& random) {
+  const Interval row = stretch.reach(94);
+  const auto scatter = [&](int per_260_metres, double from_edge, double to_edge, auto plant) {
+    const int count = count_of(per_260_metres, 260, row);
     for (int i = 0; i < count; ++i) {
-      const double x = random.uniform(-130, 130);
+      const double x = random.uniform(row.low, row.high);
       const double out = highway.paved() + random.uniform(from_edge, to_edge);
       plant(mesh, ground, x, highway.curve.at(x).y + (random.chance(0.5) ? out : -out), random);
     }
@@ -240,7 +277,7 @@ void plant_slopes(Mesh& mesh, const Highway& highway, const Ground& ground, Rand
 
 Traffic send_traffic(const Highway& highway, const std::vector<Stop>& route, Random& random) {
   const Path middle = [curve = highway.curve](double x) { return curve.at(x); };
-  Traffic traffic(route);
+  Traffic traffic(route, highway.extent.view());
   for (const double side : {-1.0, 1.0}) {
     for (int lane = 0; lane < lanes; ++lane) {
       const double trucks = lane == lanes - 1 ? 0.6 : lane == 1 ? 0.2 : 0;
@@ -253,7 +290,11 @@ Traffic send_traffic(const Highway& highway, const std::vector<Stop>& route, Ran
         if (std::abs(inward) == 1) t += 0.52 * inward;  // keeps clear of the lane of the sensor
       }
       traffic.fill(
-          {.path = middle, .t = t, .speed = speed, .x = {-160, 180}, .gap = {10, 55}},
+          {.path = middle,
+           .t = t,
+           .speed = speed,
+           .x = {highway.extent.run(124).low, highway.extent.run(144).high},
+           .gap = {10, 55}},
           [trucks](Random& draw) { return draw.chance(trucks) ? RoadUser::truck : RoadUser::car; },
           random);
     }
@@ -261,31 +302,34 @@ Traffic send_traffic(const Highway& highway, const std::vector<Stop>& route, Ran
   return traffic;
 }
 
-Mesh furnish_highway(const Highway& highway, const Ground& ground, Random random) {
+Mesh furnish_highway(const Highway& highway, const Ground& ground, const Stretch& stretch,
+                     Random random) {
   Mesh mesh;
-  line_road(mesh, highway, highway.place(ground), random);
-  plant_slopes(mesh, highway, ground, random);
+  line_road(mesh, highway, highway.place(ground), stretch, random);
+  plant_slopes(mesh, highway, ground, stretch, random);
   return mesh;
 }
 
 }  // namespace
 
-Landscape highway(std::uint64_t seed) {
+Landscape highway(std::uint64_t seed, const Extent& extent) {
   Random random = Random::stream(seed, 0);
-  Highway road = draw_highway(random);
+  Highway road = draw_highway(extent, random);
   std::vector<Stop> route = wander_along(
       [&](double x) {
         Stop stop = road.curve.at(x);
         stop.y -= road.lane(road.own_lane);
         return stop;
       },
-      random);
+      random, extent);
   Traffic traffic = send_traffic(road, route, random);
   Ground ground = make_highway(road);
   return {.ground = std::move(ground),
           .route = std::move(route),
-          .furnish = [road = std::move(road),
-                      random](const Ground& on) { return furnish_highway(road, on, random); },
+          .furnish =
+              [road = std::move(road), random](const Ground& on, const Stretch& stretch) {
+                return furnish_highway(road, on, stretch, stretch.stream(random));
+              },
           .moving = moving(std::move(traffic))};
 }
 

@@ -283,7 +283,7 @@ Landscape indoor_hall(std::uint64_t seed) {
   return {.ground = make_floor(hall),
           .route = std::move(route),
           .furnish =
-              [hall, random](const Ground& on) {
+              [hall, random](const Ground& on, const Stretch& /*whole*/) {
                 Random own = random;
                 return Furnisher(hall, on, own).take();
               },

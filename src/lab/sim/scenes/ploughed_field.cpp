@@ -232,8 +232,9 @@ Landscape ploughed_field(std::uint64_t seed) {
   const Ploughing ploughing = draw_ploughing(field, random);
   return {.ground = std::move(ground),
           .route = std::move(route),
-          .furnish = [field = std::move(field),
-                      random](const Ground& on) { return furnish_field(field, on, random); },
+          .furnish = [field = std::move(field), random](
+                         const Ground& on,
+                         const Stretch& /*whole*/) { return furnish_field(field, on, random); },
           .moving = [ploughing](const Ground& on,
                                 double seconds) { return tractor_at(ploughing, on, seconds); }};
 }

@@ -308,7 +308,7 @@ Landscape ramp(std::uint64_t seed) {
   return {.ground = make_car_park(park),
           .route = std::move(route),
           .furnish =
-              [park, random](const Ground& on) {
+              [park, random](const Ground& on, const Stretch& /*whole*/) {
                 Random own = random;
                 return Builder(park, on, own).take();
               },

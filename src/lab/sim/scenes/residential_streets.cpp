@@ -19,7 +19,7 @@ void draw_profile(StreetShape& shape, Random& random) {
   shape.grade = grade;
   shape.grade_changes.clear();
   double x = random.uniform(-75, -40);
-  while (x < shape.half_length) {
+  while (x < shape.length.high) {
     if (random.chance(0.6)) direction = -direction;
     const double next = direction * steep();
     shape.grade_changes.push_back(
@@ -77,9 +77,9 @@ Landscape steep_street(std::uint64_t seed) {
   return drive_street(std::move(plan), random);
 }
 
-Landscape parked_cars(std::uint64_t seed) {
+Landscape parked_cars(std::uint64_t seed, const Extent& extent) {
   Random random = Random::stream(seed, 0);
-  StreetPlan plan = plan_street(random);
+  StreetPlan plan = plan_street(random, extent);
   plan.shape.half_width = random.uniform(2.2, 2.5);  // one way, without a marking
   plan.shape.marking_width = 0;
   plan.furnishing.path = 0;

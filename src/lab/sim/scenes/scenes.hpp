@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "lab/sim/extent.hpp"
 #include "lab/sim/scene.hpp"
 
 namespace flagstone::sim {
@@ -18,7 +19,7 @@ Landscape steep_street(std::uint64_t seed);
 
 /// A narrow street between two nearly closed rows of parked cars, along the kerb or in bays. They
 /// hide most of the ground next to the road.
-Landscape parked_cars(std::uint64_t seed);
+Landscape parked_cars(std::uint64_t seed, const Extent& extent);
 
 /// A lane through wavy greens with few houses: many bushes, hedges, tufts and patches of low
 /// vegetation, starting at the edge of the lane.
@@ -34,12 +35,12 @@ Landscape steps(std::uint64_t seed);
 
 /// A winding gravel path through gently wavy lawns: patches of grass 30 to 80 cm high, bushes,
 /// trees, benches, lamp posts, a reflective pond, people on a path next to it.
-Landscape park(std::uint64_t seed);
+Landscape park(std::uint64_t seed, const Extent& extent);
 
 /// A track of two ruts along a wooded hillside: roots across it, leaf litter, puddles, a bank above
 /// and a slope below, many trunks, ferns, fallen logs, boughs at the height of a person. The
 /// vehicle pitches and rolls.
-Landscape forest_track(std::uint64_t seed);
+Landscape forest_track(std::uint64_t seed, const Extent& extent);
 
 /// Furrows 15 to 25 cm deep and 40 to 80 cm apart, which the vehicle crosses at an angle: clods,
 /// wheel tracks, a headland at their end, a ditch and a hedge along one side, a ploughing tractor.
@@ -58,19 +59,19 @@ Landscape construction_site(std::uint64_t seed);
 /// A street of terraced houses with three to six storeys and shop windows directly behind wide
 /// sidewalks: zebra crossings, bus stops, trees, traffic of cars, buses, trucks and cyclists, many
 /// pedestrians.
-Landscape urban_street(std::uint64_t seed);
+Landscape urban_street(std::uint64_t seed, const Extent& extent);
 
 /// A highway of two by three lanes, 400 m long, that enters a superelevated curve: median barrier,
 /// shoulders, guard rails, cuttings with a ditch or embankments, noise barriers, a gantry, trucks
 /// and cars.
-Landscape highway(std::uint64_t seed);
+Landscape highway(std::uint64_t seed, const Extent& extent);
 /// The road of steps() with deep edges: quays of 1.5 to 3 m, ditches of 1 and 1.5 m, embankments of
 /// 1.5 and 3 m.
 Landscape drops(std::uint64_t seed);
 
 /// Two crowned roads that cross: round kerbs, islands, raised flower beds, zebra crossings, traffic
 /// lights, houses or parks at the corners, vehicles that wait or cross, pedestrians.
-Landscape crossroads(std::uint64_t seed);
+Landscape crossroads(std::uint64_t seed, const Extent& extent);
 
 /// A multi-storey car park: a ramp of 12 to 15 % from one storey to the next, ceilings 2.35 to 2.8
 /// m high, columns, beams, parapets, parked cars. The ground is the storey of the vehicle: the

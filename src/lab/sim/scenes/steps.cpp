@@ -235,8 +235,9 @@ Landscape road_along(const std::vector<PlacedKind>& kinds, std::uint64_t seed) {
   const double half_road = road.half_road;
   return {.ground = std::move(ground),
           .route = std::move(route),
-          .furnish = [half_road,
-                      random](const Ground& on) { return furnish_road(half_road, on, random); },
+          .furnish = [half_road, random](
+                         const Ground& on,
+                         const Stretch& /*whole*/) { return furnish_road(half_road, on, random); },
           .steps = std::move(known)};
 }
 

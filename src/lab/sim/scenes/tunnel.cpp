@@ -319,8 +319,9 @@ Landscape tunnel(std::uint64_t seed) {
   Ground ground = make_tunnel(drawn);
   return {.ground = std::move(ground),
           .route = std::move(route),
-          .furnish = [drawn = std::move(drawn),
-                      random](const Ground& on) { return furnish_tunnel(drawn, on, random); },
+          .furnish = [drawn = std::move(drawn), random](
+                         const Ground& on,
+                         const Stretch& /*whole*/) { return furnish_tunnel(drawn, on, random); },
           .moving = moving(std::move(traffic))};
 }
 

@@ -21,7 +21,6 @@ namespace flagstone::sim {
 namespace {
 
 constexpr double half_turn = std::numbers::pi;
-constexpr double built = 104;          // half of the length with houses, metres
 constexpr double furniture_row = 0.6;  // metres from the kerb
 constexpr double walk_begin = 2.4;     // metres from the kerb, behind shelters and trees
 
@@ -34,7 +33,7 @@ StreetSide draw_side(Random& random) {
           .driveways = {}};
 }
 
-StreetShape draw_shape(Random& random) {
+StreetShape draw_shape(const Extent& extent, Random& random) {
   StreetShape shape{
       .half_width = random.uniform(3.6, 4.3),
       .land_width = 16,
@@ -47,15 +46,19 @@ StreetShape draw_shape(Random& random) {
       .undulations = {},
       .crossings = {},
       .paved_land = true};
-  for (double x = random.uniform(-70, -40); x < 80; x += random.uniform(35, 60)) {
+  const Interval reach = extent.reach(44, 8);
+  for (double x = random.uniform(reach.low + 10, reach.low + 40); x < reach.high;
+       x += random.uniform(35, 60)) {
     shape.crossings.push_back(std::round(x));
   }
+  shape.extend(extent);
   return shape;
 }
 
 struct Town {
+  Extent extent;
   StreetShape shape;
-  std::array<double, 2> bus_stops;  // x, indexed by Side
+  std::array<std::vector<double>, 2> bus_stops;  // x, indexed by Side
 
   [[nodiscard]] bool at_crossing(double x, double margin) const {
     return std::ranges::any_of(shape.crossings, [&](double crossing) {
@@ -63,7 +66,8 @@ struct Town {
     });
   }
   [[nodiscard]] bool at_bus_stop(Side side, double x, double margin) const {
-    return std::abs(x - bus_stops[static_cast<std::size_t>(side)]) < margin;
+    return std::ranges::any_of(bus_stops[static_cast<std::size_t>(side)],
+                               [&](double stop) { return std::abs(x - stop) < margin; });
   }
   [[nodiscard]] double y_at(double x, Side side, double out) const {
     return shape.centre_line(x) + sign(side) * out;
@@ -80,9 +84,11 @@ struct Town {
   }
 };
 
-void build_row(Mesh& mesh, const Town& town, const Ground& ground, Side side, Random& random) {
-  double x = -built + random.uniform(0, 5);
-  while (x < built) {
+void build_row(Mesh& mesh, const Town& town, const Ground& ground, Side side,
+               const Stretch& stretch, Random& random) {
+  const Interval row = stretch.reach(68, 3);
+  double x = row.low + random.uniform(0, 5);
+  while (x < row.high) {
     const TerraceHouse house{.width = random.uniform(6, 13),
                              .depth = random.uniform(9, 13),
                              .storeys = 2 + static_cast<int>(random.uniform(0, 4)),
@@ -96,10 +102,12 @@ void build_row(Mesh& mesh, const Town& town, const Ground& ground, Side side, Ra
   }
 }
 
-void park_cars(Mesh& mesh, const Town& town, const Ground& ground, Side side, Random& random) {
+void park_cars(Mesh& mesh, const Town& town, const Ground& ground, Side side,
+               const Stretch& stretch, Random& random) {
   const double width = town.shape.side(side).parking_width;
   if (width == 0) return;
-  for (double x = -80; x < 80; x += longest_car + random.uniform(0.6, 1.6)) {
+  const Interval row = stretch.reach(44, 0.5 * longest_car);
+  for (double x = row.low; x < row.high; x += longest_car + random.uniform(0.6, 1.6)) {
     if (!random.chance(0.8) || town.at_crossing(x, 3.2) || town.at_bus_stop(side, x, 12)) continue;
     const double y = town.y_at(x, side, town.shape.half_width + width / 2);
     const double turn = side == Side::left ? half_turn : 0;
@@ -108,10 +116,11 @@ void park_cars(Mesh& mesh, const Town& town, const Ground& ground, Side side, Ra
 }
 
 void line_kerb(Mesh& mesh, const Town& town, const Ground& ground, Side side, double path,
-               Random& random) {
+               const Stretch& stretch, Random& random) {
   const double out = town.shape.sidewalk_begin(side) + furniture_row;
   const bool room_for_crowns = std::abs(sign(side) * out - path) > 3.4;
-  for (double x = -95 + random.uniform(0, 5); x < 95; x += random.uniform(3, 9)) {
+  const Interval row = stretch.reach(59, 1.5);
+  for (double x = row.low + random.uniform(0, 5); x < row.high; x += random.uniform(3, 9)) {
     if (town.at_crossing(x, 1.5) || town.at_bus_stop(side, x, 4)) continue;
     const double drawn = random.uniform();
     if (drawn < 0.2) {
@@ -131,16 +140,20 @@ void line_kerb(Mesh& mesh, const Town& town, const Ground& ground, Side side, do
       }
     }
   }
-  const double stop = town.bus_stops[static_cast<std::size_t>(side)];
-  add_bus_shelter(mesh, town.facing_road(ground, stop, side, out + 1.5));
+  for (const double stop : town.bus_stops[static_cast<std::size_t>(side)]) {
+    const Interval here = stretch.reach(59);
+    if (stop < here.low || stop >= here.high) continue;
+    add_bus_shelter(mesh, town.facing_road(ground, stop, side, out + 1.5));
+  }
 }
 
-Mesh furnish_town(const Town& town, const Ground& ground, double path, Random random) {
+Mesh furnish_town(const Town& town, const Ground& ground, double path, const Stretch& stretch,
+                  Random random) {
   Mesh mesh;
   for (const Side side : {Side::right, Side::left}) {
-    build_row(mesh, town, ground, side, random);
-    park_cars(mesh, town, ground, side, random);
-    line_kerb(mesh, town, ground, side, path, random);
+    build_row(mesh, town, ground, side, stretch, random);
+    park_cars(mesh, town, ground, side, stretch, random);
+    line_kerb(mesh, town, ground, side, path, stretch, random);
   }
   return mesh;
 }
@@ -156,24 +169,29 @@ void send_pedestrians(Traffic& traffic, const Town& town, const Path& centre, Ra
   const StreetShape& shape = town.shape;
   for (const Side side : {Side::right, Side::left}) {
     const double begin = shape.sidewalk_begin(side);
-    for (int person = 0; person < 36; ++person) {
+    const Interval walked = town.extent.run(39);
+    const int walkers = count_of(36, 150, walked);
+    for (int person = 0; person < walkers; ++person) {
       const double out = begin + random.uniform(walk_begin, shape.side(side).sidewalk_width - 0.4);
       const double speed = (random.chance(0.5) ? 1 : -1) * random.uniform(0.8, 1.7);
-      traffic.join({.kind = RoadUser::person,
-                    .at = along(centre, sign(side) * out, random.uniform(-75, 75), speed),
-                    .look = random.bits()});
-    }
-    for (int waiting = 0; waiting < 4; ++waiting) {
-      const double x = town.bus_stops[static_cast<std::size_t>(side)] + random.uniform(-1.7, 1.7);
-      const double out = begin + random.uniform(0.5, 1.3);
       traffic.join(
           {.kind = RoadUser::person,
-           .at = straight(
-               {.x = x, .y = town.y_at(x, side, out), .yaw = random.uniform(0, 2 * half_turn)}, 0,
-               0),
+           .at = along(centre, sign(side) * out, random.uniform(walked.low, walked.high), speed),
            .look = random.bits()});
     }
-    for (const double crossing : shape.crossings) {
+    for (const double stop : town.extent.each_lap(town.bus_stops[static_cast<std::size_t>(side)])) {
+      for (int waiting = 0; waiting < 4; ++waiting) {
+        const double x = stop + random.uniform(-1.7, 1.7);
+        const double out = begin + random.uniform(0.5, 1.3);
+        traffic.join(
+            {.kind = RoadUser::person,
+             .at = straight(
+                 {.x = x, .y = town.y_at(x, side, out), .yaw = random.uniform(0, 2 * half_turn)}, 0,
+                 0),
+             .look = random.bits()});
+      }
+    }
+    for (const double crossing : town.extent.each_lap(shape.crossings)) {
       for (int person = 0; person < 3; ++person) {
         const double x = crossing + random.uniform(-1.3, 1.3);
         const double out = shape.kerb(side) + random.uniform(-6, 2.2);
@@ -182,7 +200,8 @@ void send_pedestrians(Traffic& traffic, const Town& town, const Path& centre, Ra
             {.kind = RoadUser::person,
              .at = straight(
                  {.x = x, .y = town.y_at(x, side, out), .yaw = -sign(side) * half_turn / 2},
-                 random.uniform(0.6, 1), out + shape.kerb(other) + 1.5),
+                 random.uniform(0.6, 1), out + shape.kerb(other) + 1.5,
+                 arrival_at(town.extent, crossing)),
              .look = random.bits()});
       }
     }
@@ -195,13 +214,14 @@ Traffic send_traffic(const Town& town, const std::vector<Stop>& route, double pa
   const Path centre = [shape](double x) {
     return Stop{.x = x, .y = shape.centre_line(x), .yaw = shape.heading(x)};
   };
-  Traffic traffic(route);
-  traffic.fill({.path = centre, .t = path, .speed = own_speed, .x = {-90, 90}, .gap = {8, 35}},
-               draw_vehicle, random);
+  Traffic traffic(route, town.extent.view());
+  traffic.fill(
+      {.path = centre, .t = path, .speed = own_speed, .x = town.extent.run(54), .gap = {8, 35}},
+      draw_vehicle, random);
   traffic.fill({.path = centre,
                 .t = -path,
                 .speed = random.uniform(-12, -6),
-                .x = {-100, 100},
+                .x = town.extent.run(64),
                 .gap = {8, 30}},
                draw_vehicle, random);
   send_pedestrians(traffic, town, centre, random);
@@ -210,25 +230,33 @@ Traffic send_traffic(const Town& town, const std::vector<Stop>& route, double pa
 
 }  // namespace
 
-Landscape urban_street(std::uint64_t seed) {
+Landscape urban_street(std::uint64_t seed, const Extent& extent) {
   Random random = Random::stream(seed, 0);
-  Town town{.shape = draw_shape(random), .bus_stops = {}};
-  for (double& stop : town.bus_stops) {
-    do stop = random.uniform(-35, 45);
-    while (town.at_crossing(stop, 8));
+  Town town{.extent = extent, .shape = draw_shape(extent, random), .bus_stops = {}};
+  constexpr std::size_t stretches_per_stop = 4;
+  for (std::vector<double>& stops : town.bus_stops) {
+    for (std::size_t i = 0; i < extent.stretches; i += stretches_per_stop) {
+      const Interval x = extent.stretch(i).x;
+      double stop = 0;
+      do stop = random.uniform(x.low + 1, x.high + 9);
+      while (town.at_crossing(stop, 8));
+      stops.push_back(stop);
+    }
   }
   const double path = -town.shape.half_width / 2;
   std::vector<Stop> route = wander_along(
       [&](double x) {
         return Stop{.x = x, .y = town.shape.centre_line(x) + path, .yaw = town.shape.heading(x)};
       },
-      random);
+      random, extent);
   Traffic traffic = send_traffic(town, route, path, random);
   Ground ground = make_ground(town.shape);
   return {.ground = std::move(ground),
           .route = std::move(route),
-          .furnish = [town = std::move(town), path,
-                      random](const Ground& on) { return furnish_town(town, on, path, random); },
+          .furnish =
+              [town = std::move(town), path, random](const Ground& on, const Stretch& stretch) {
+                return furnish_town(town, on, path, stretch, stretch.stream(random));
+              },
           .moving = moving(std::move(traffic))};
 }
 
