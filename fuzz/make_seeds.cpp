@@ -18,6 +18,7 @@
 #include "files/io/pcd.hpp"
 #include "files/io/ply.hpp"
 #include "files/ros/messages.hpp"
+#include "library/ground_map/state_bytes.hpp"
 
 namespace {
 
@@ -181,6 +182,34 @@ void add_messages(SeedFolder& seeds) {
   }
 }
 
+/// The states of a map with one tile and of votes, without their checksums, which the fuzzer adds.
+void add_map_states(SeedFolder& seeds) {
+  Bytes map;
+  flagstone::StateWriter writer(map);
+  writer.start("fsgmap01");
+  for (const double number : {0.5, 1.7}) writer.add(number);       // cell, base
+  for (const std::uint64_t number : {3U, 1U}) writer.add(number);  // scans, tiles
+  for (const std::int64_t index : {-1, 2}) writer.add(index);
+  writer.add(std::uint64_t{1} << 9U);  // one cell
+  for (int word = 1; word < 64; ++word) writer.add(std::uint64_t{0});
+  for (int height = 0; height < 2; ++height) {
+    for (const float number : {-1.7F, 900.0F, 0.5F}) writer.add(number);
+    writer.add(std::uint16_t{2});
+  }
+  writer.add(std::uint32_t{3});
+  seeds.add("map_state", "map", map);
+
+  Bytes votes;
+  flagstone::StateWriter voxels(votes);
+  voxels.start("fsvote01");
+  for (const double number : {0.25, 0.06}) voxels.add(number);
+  voxels.add(std::uint64_t{1});
+  for (const std::int64_t index : {-1, 2}) voxels.add(index);
+  voxels.add(std::uint64_t{2});
+  for (const std::int32_t number : {5, -2048, 1 << 20, 7}) voxels.add(number);
+  seeds.add("map_state", "votes", votes);
+}
+
 /// A few hundred ground points, as input for the fuzzer of segmenters, for the settings of each
 /// method.
 void add_segment(SeedFolder& seeds) {
@@ -232,6 +261,20 @@ void add_texts(SeedFolder& seeds) {
   seeds.add("sensor", "listed",
             bytes_of("name = \"mine\"\nbeams = 3\nelevations = [2, 0, -10.5]\nheight = 1.5\n"
                      "azimuth_begin = -60\nazimuth_end = 60\nmin_range = 0.5\nmax_range = 90\n"));
+  seeds.add("poses", "kitti",
+            bytes_of("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n"
+                     "nan nan nan nan nan nan nan nan nan nan nan nan\n"));
+  seeds.add("poses", "tum",
+            bytes_of("# time x y z qx qy qz qw\n0 0 0 0 0 0 0 1\n0.1 1 0 0 0 0 0.1 0.995\n"
+                     "0.2 9 0 0 0 0 0.2 0.98\n0.3 3 0 0 0 0 0.3 0.954\n"));
+  seeds.add(
+      "poses", "csv",
+      bytes_of("time [ns],x,y,z,roll,pitch,yaw [deg]\n0,0,0,0,0,0,0\n100000000,1,0,0,,0,1\n"));
+  seeds.add("poses", "odometry",
+            bytes_of("#sec,nsec,pose.position.x,pose.position.y,pose.position.z,orientation.x,"
+                     "orientation.y,orientation.z,orientation.w\n1,0,0,0,0,0,0,0,1\n"));
+  seeds.add("poses", "calibration", bytes_of("P0: 1 0\nTr: 0 -1 0 0 0 0 -1 0 1 0 0 -0.3\n"));
+  seeds.add("poses", "times", bytes_of("0.0\n0.1\n"));
   const std::string counts = "[1,2,3,4]";
   std::string method = R"({"points":)" + counts + R"(,"area":)" + counts + R"(,"range":[)";
   for (int band = 0; band < 6; ++band) method += counts + (band < 5 ? "," : "");
@@ -256,6 +299,7 @@ int main(int argc, char** argv) {
   add_raw(seeds);
   add_labels(seeds);
   add_messages(seeds);
+  add_map_states(seeds);
   add_segment(seeds);
   add_texts(seeds);
   return seeds.failed() ? 1 : 0;

@@ -5,15 +5,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <new>
+#include <optional>
 #include <span>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "library/core/floating_point_mode.hpp"
 #include "library/core/setting.hpp"
 #include "library/ground_map/level_fit.hpp"
 #include "library/ground_map/poses.hpp"
 #include "library/ground_map/scan_heights.hpp"
+#include "library/ground_map/state_bytes.hpp"
+#include "library/ground_map/tile_archive.hpp"
+#include "library/ground_map/tile_bytes.hpp"
 #include "library/ground_map/tiles.hpp"
 
 namespace flagstone {
@@ -27,6 +35,10 @@ void GroundMapConfig::check() const {
                  {.low = 50, .high = 1e6, .unit = "m", .remark = ", or 0 to keep everything"});
   }
   check_number(name, "max_correction", max_correction, {.low = 0, .high = 100, .unit = "m"});
+  if (window != 0 && max_memory != 0) {
+    throw std::invalid_argument(
+        "ground map: window and max_memory exclude each other (expected at most one of them)");
+  }
 }
 
 namespace {
@@ -53,13 +65,70 @@ void add_height(MapCell& cell, float height, float variance) noexcept {
 
 }  // namespace
 
+namespace {
+
+// Expected error of the height of a cell that has one, metres. Variances are added for: levelling;
+// the measurements, as if they were independent; how much they differ, since errors of scans from
+// nearby are alike and do not average out; and, in proportion to its weight, the distance to the
+// height that contradicts.
+float deviation_of(const MapCell& cell) noexcept {
+  constexpr float levelling = 0.005F;  // metres
+  const HeightEvidence& best = cell.best;
+  const HeightEvidence& other = cell.other;
+  const float between = other.height - best.height;
+  return std::sqrt(levelling * levelling + (1 + best.scatter) / best.weight +
+                   other.weight / (best.weight + other.weight) * between * between);
+}
+
+}  // namespace
+
 class GroundMap::Tiles {
  public:
   GroundMapConfig config;
   CellTiles cells;
+  std::unique_ptr<TileArchive> archive;  // of a map with a TileStore, otherwise null
   double base = 0;  // z of the sensor in the first scan; stored heights are relative to it
   std::size_t scans = 0;
+
+  /// Reads those tiles of the heights that are in the store.
+  Status recall(std::span<const MeasuredHeight> heights);
+
+  /// Stores the tiles beyond the memory limit.
+  Status unload();
+
+  /// A cell in memory or in the store; without heights if the map does not have it.
+  [[nodiscard]] MapCell cell(CellIndex index) const noexcept {
+    if (const MapCell* const found = cells.find(index); found != nullptr) return *found;
+    return archive ? archive->cell(index) : MapCell();
+  }
 };
+
+Status GroundMap::Tiles::recall(std::span<const MeasuredHeight> heights) {
+  if (!archive) return {};
+  for (const MeasuredHeight& measured : heights) {
+    const TileIndex index = CellTiles::tile_of(measured.cell);
+    if (!archive->contains(index)) continue;
+    if (Status status = archive->read(index, cells.allocate(index, scans)); !status.ok()) {
+      cells.remove(index);
+      return status;
+    }
+    archive->forget(index);
+  }
+  return {};
+}
+
+Status GroundMap::Tiles::unload() {
+  if (!archive) return {};
+  for (const TileIndex index : cells.least_used(config.max_memory / sizeof(CellTiles::Tile))) {
+    const CellTiles::Tile& tile = *cells.tile(index);
+    // A tile that was only allocated has nothing to store.
+    if (std::ranges::any_of(tile, has_height)) {
+      if (Status status = archive->put(index, tile); !status.ok()) return status;
+    }
+    cells.remove(index);
+  }
+  return {};
+}
 
 /// Working memory for one scan.
 class GroundMap::Builder {
@@ -69,10 +138,17 @@ class GroundMap::Builder {
   std::vector<double> memory;
 };
 
-GroundMap::GroundMap(const GroundMapConfig& config)
+GroundMap::GroundMap(const GroundMapConfig& config) : GroundMap(config, nullptr) {}
+
+GroundMap::GroundMap(const GroundMapConfig& config, std::shared_ptr<TileStore> store)
     : tiles_(std::make_unique<Tiles>()), builder_(std::make_unique<Builder>()) {
   config.check();
+  if ((config.max_memory > 0) != (store != nullptr)) {
+    throw std::invalid_argument(
+        "ground map: max_memory and a store need each other (expected both or neither)");
+  }
   tiles_->config = config;
+  if (store != nullptr) tiles_->archive = std::make_unique<TileArchive>(std::move(store));
 }
 
 GroundMap::~GroundMap() = default;
@@ -92,15 +168,22 @@ Status GroundMap::fit(CloudView cloud, const Segmentation& result, const Pose& p
   if (!is_valid(pose)) return invalid_pose();
   constexpr float max_range_for_level = 30;  // metres
   heights = builder_->heights.measure(cloud, result, pose, tiles_->config);
+  if (Status status = tiles_->recall(heights); !status.ok()) return status;
   builder_->differences.clear();
+  TileIndex last;  // most cells are in the same tile as the one before
+  const CellTiles::Tile* tile = nullptr;
   for (const MeasuredHeight& measured : heights) {
     if (measured.range > max_range_for_level) continue;
-    const MapCell* cell = tiles_->cells.find(measured.cell);
-    if (cell == nullptr || cell->best.weight == 0) continue;
+    const TileIndex index = CellTiles::tile_of(measured.cell);
+    if (tile == nullptr || !(index == last)) tile = tiles_->cells.tile(index);
+    last = index;
+    if (tile == nullptr) continue;
+    const MapCell& cell = (*tile)[CellTiles::offset_in_tile(measured.cell)];
+    if (!has_height(cell)) continue;
     builder_->differences.push_back(
         {.dx = measured.dx,
          .dy = measured.dy,
-         .difference = measured.height - tiles_->base - double{cell->best.height}});
+         .difference = measured.height - tiles_->base - double{cell.best.height}});
   }
   levelling = fit_level(builder_->differences, tiles_->config.max_correction, builder_->memory);
   return {};
@@ -108,9 +191,11 @@ Status GroundMap::fit(CloudView cloud, const Segmentation& result, const Pose& p
 
 Status GroundMap::level(CloudView cloud, const Segmentation& result, const Pose& pose,
                         Levelling& levelling) {
+  const ScopedFloatingPointMode mode;
   try {
     std::span<const MeasuredHeight> heights;
-    return fit(cloud, result, pose, heights, levelling);
+    if (Status status = fit(cloud, result, pose, heights, levelling); !status.ok()) return status;
+    return tiles_->unload();
   } catch (const std::bad_alloc&) {
     return Status(StatusCode::out_of_memory);
   }
@@ -118,23 +203,32 @@ Status GroundMap::level(CloudView cloud, const Segmentation& result, const Pose&
 
 Status GroundMap::add(CloudView cloud, const Segmentation& result, const Pose& pose,
                       Levelling& levelling) {
+  const ScopedFloatingPointMode mode;
   Tiles& map = *tiles_;
   try {
     std::span<const MeasuredHeight> heights;
     if (const Status status = fit(cloud, result, pose, heights, levelling); !status.ok()) {
       return status;
     }
-    for (const MeasuredHeight& measured : heights) map.cells.allocate(measured.cell);
+    for (const MeasuredHeight& measured : heights) {
+      map.cells.allocate(CellTiles::tile_of(measured.cell), map.scans);
+    }
     if (map.scans == 0) map.base = pose.position[2];
     ++map.scans;
+    TileIndex last;
+    CellTiles::Tile* tile = nullptr;
     for (const MeasuredHeight& measured : heights) {
       const double correction = levelling.offset + levelling.slope_x * double{measured.dx} +
                                 levelling.slope_y * double{measured.dy};
-      MapCell& cell = *map.cells.find(measured.cell);
+      const TileIndex index = CellTiles::tile_of(measured.cell);
+      if (tile == nullptr || !(index == last)) tile = map.cells.tile(index);
+      last = index;
+      MapCell& cell = (*tile)[CellTiles::offset_in_tile(measured.cell)];
       add_height(cell, static_cast<float>(measured.height - map.base - correction),
                  measured.variance);
       cell.last_scan = static_cast<std::uint32_t>(map.scans);
     }
+    if (Status status = map.unload(); !status.ok()) return status;
   } catch (const std::bad_alloc&) {
     return Status(StatusCode::out_of_memory);
   }
@@ -151,10 +245,11 @@ namespace {
 
 /// The four cells around a position, with their weights.
 struct Corners {
-  std::array<const MapCell*, 4> cells{};  // null: unknown; x ascending, then y
-  double u = 0, v = 0;                    // 0..1 between the centres
+  std::array<MapCell, 4> cells{};  // x ascending, then y
+  double u = 0, v = 0;             // 0..1 between the centres
 
-  Corners(const CellTiles& tiles, double x, double y, double size) noexcept {
+  template <class Cells>  // cells.cell(index) is a cell
+  Corners(const Cells& map, double x, double y, double size) noexcept {
     const double column = x / size - 0.5;
     const double row = y / size - 0.5;
     if (!(std::abs(x) <= max_world_position) || !(std::abs(y) <= max_world_position)) return;
@@ -163,9 +258,8 @@ struct Corners {
     u = column - std::floor(column);
     v = row - std::floor(row);
     for (std::size_t k = 0; k < 4; ++k) {
-      const MapCell* cell = tiles.find({.x = first_column + static_cast<std::int64_t>(k & 1U),
-                                        .y = first_row + static_cast<std::int64_t>(k >> 1U)});
-      if (cell != nullptr && cell->best.weight > 0) cells[k] = cell;
+      cells[k] = map.cell({.x = first_column + static_cast<std::int64_t>(k & 1U),
+                           .y = first_row + static_cast<std::int64_t>(k >> 1U)});
     }
   }
 
@@ -176,41 +270,39 @@ struct Corners {
     double sum = 0;
     double known = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-      if (cells[k] == nullptr) continue;
-      sum += weight(k) * double{cells[k]->best.height};
+      if (!has_height(cells[k])) continue;
+      sum += weight(k) * double{cells[k].best.height};
       known += weight(k);
     }
     return known > 0.5 ? sum / known : unknown;
   }
-  [[nodiscard]] const MapCell* nearest() const noexcept {
+  [[nodiscard]] const MapCell& nearest() const noexcept {
     return cells[(u >= 0.5 ? 1U : 0U) + (v >= 0.5 ? 2U : 0U)];
   }
-  [[nodiscard]] bool all() const noexcept {
-    return std::ranges::all_of(cells, [](const MapCell* cell) { return cell != nullptr; });
-  }
+  [[nodiscard]] bool all() const noexcept { return std::ranges::all_of(cells, has_height); }
 };
 
 }  // namespace
 
 double GroundMap::height(double x, double y) const noexcept {
-  return tiles_->base + Corners(tiles_->cells, x, y, tiles_->config.cell).height();
+  return tiles_->base + Corners(*tiles_, x, y, tiles_->config.cell).height();
 }
 
 MapSample GroundMap::at(double x, double y) const noexcept {
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
-  const Corners corners(tiles_->cells, x, y, tiles_->config.cell);
+  const Corners corners(*tiles_, x, y, tiles_->config.cell);
   MapSample sample{.height = tiles_->base + corners.height(),
                    .normal = {none, none, none},
                    .slope = none,
                    .deviation = none};
-  if (const MapCell* cell = corners.nearest(); cell != nullptr) {
-    sample.deviation = std::sqrt(1 / cell->best.weight);
-    sample.scans = cell->best.scans;
-    sample.contradictions = cell->other.scans;
-    sample.age = static_cast<std::uint32_t>(tiles_->scans) - cell->last_scan;
+  if (const MapCell& cell = corners.nearest(); has_height(cell)) {
+    sample.deviation = deviation_of(cell);
+    sample.scans = cell.best.scans;
+    sample.contradictions = cell.other.scans;
+    sample.age = static_cast<std::uint32_t>(tiles_->scans) - cell.last_scan;
   }
   if (corners.all()) {
-    const auto z = [&](std::size_t k) { return double{corners.cells[k]->best.height}; };
+    const auto z = [&](std::size_t k) { return double{corners.cells[k].best.height}; };
     const double size = tiles_->config.cell;
     const double rise_x = ((1 - corners.v) * (z(1) - z(0)) + corners.v * (z(3) - z(2))) / size;
     const double rise_y = ((1 - corners.u) * (z(2) - z(0)) + corners.u * (z(3) - z(1))) / size;
@@ -222,9 +314,138 @@ MapSample GroundMap::at(double x, double y) const noexcept {
   return sample;
 }
 
+std::vector<TileIndex> GroundMap::tiles() const {
+  std::vector<TileIndex> indices;
+  tiles_->cells.for_each([&](TileIndex index, const CellTiles::Tile& tile) {
+    if (std::ranges::any_of(tile, has_height)) indices.push_back(index);
+  });
+  if (tiles_->archive)
+    tiles_->archive->for_each([&](TileIndex index) { indices.push_back(index); });
+  std::ranges::sort(indices, [](TileIndex a, TileIndex b) { return is_after(b, a); });
+  return indices;
+}
+
+bool GroundMap::read_tile(TileIndex index, MapTile& tile) const noexcept {
+  const CellTiles::Tile* cells = tiles_->cells.tile(index);
+  std::unique_ptr<CellTiles::Tile> stored;
+  if (cells == nullptr && tiles_->archive && tiles_->archive->contains(index)) {
+    stored.reset(new (std::nothrow) CellTiles::Tile());
+    if (stored == nullptr || !tiles_->archive->read(index, *stored).ok()) return false;
+    cells = stored.get();
+  }
+  if (cells == nullptr || std::ranges::none_of(*cells, has_height)) return false;
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t k = 0; k < MapTile::cells; ++k) {
+    const MapCell& cell = (*cells)[k];
+    const bool known = has_height(cell);
+    tile.height[k] = known ? static_cast<float>(tiles_->base + double{cell.best.height}) : none;
+    tile.deviation[k] = known ? deviation_of(cell) : none;
+    tile.scans[k] = cell.best.scans;
+    tile.contradictions[k] = cell.other.scans;
+    tile.last_scan[k] = cell.last_scan;
+  }
+  return true;
+}
+
+namespace {
+
+constexpr std::string_view map_magic = "fsgmap01";
+
+}  // namespace
+
+Status GroundMap::to_bytes(std::vector<std::byte>& bytes) const {
+  bytes.clear();
+  try {
+    StateWriter writer(bytes);
+    const std::vector<TileIndex> indices = tiles();
+    writer.start(map_magic);
+    writer.add(tiles_->config.cell);
+    writer.add(tiles_->base);
+    writer.add(std::uint64_t{tiles_->scans});
+    writer.add(std::uint64_t{indices.size()});
+    std::vector<std::byte> stored;
+    for (const TileIndex index : indices) {
+      writer.add(index.x);
+      writer.add(index.y);
+      if (const CellTiles::Tile* const tile = tiles_->cells.tile(index); tile != nullptr) {
+        write_cells(*tile, writer);
+        continue;
+      }
+      if (Status status = tiles_->archive->bytes_of(index, stored); !status.ok()) {
+        bytes.clear();
+        return status;
+      }
+      bytes.insert(bytes.end(), stored.begin(), stored.end());
+    }
+    writer.finish();
+    return {};
+  } catch (const std::bad_alloc&) {
+    bytes.clear();
+    return Status(StatusCode::out_of_memory);
+  }
+}
+
+Status GroundMap::from_bytes(std::span<const std::byte> bytes) {
+  try {
+    StateReader reader(bytes);
+    if (Status status = reader.open(map_magic, "the state of a ground map"); !status.ok())
+      return status;
+    const auto cell = reader.read<double>();
+    const auto base = reader.read<double>();
+    const auto scans = reader.read<std::uint64_t>();
+    const auto count = reader.read<std::uint64_t>();
+    if (reader.failed()) return bad_state(reader.offset(), "the header is incomplete", "40 bytes");
+    if (cell != tiles_->config.cell) {
+      return bad_state(map_magic.size(), "the size of the cells differs",
+                       "the setting `cell` of this map");
+    }
+    if (!(std::abs(base) <= max_world_position) ||
+        scans > std::numeric_limits<std::uint32_t>::max()) {
+      return bad_state(map_magic.size() + sizeof cell, "an impossible number in the header",
+                       "a base up to 10,000 km and at most 2^32 - 1 scans");
+    }
+    CellTiles cells;
+    std::optional<TileIndex> last;
+    for (std::uint64_t k = 0; k < count; ++k) {
+      const std::size_t offset = reader.offset();
+      TileIndex index;
+      index.x = reader.read<std::int64_t>();
+      index.y = reader.read<std::int64_t>();
+      const auto is_far = [&](std::int64_t place) {
+        return !(std::abs(static_cast<double>(place)) * tile_width * cell <=
+                 2 * max_world_position);
+      };
+      if (reader.failed() || is_far(index.x) || is_far(index.y) ||
+          (last && !is_after(index, *last))) {
+        return bad_state(offset, "not the index of the next tile",
+                         "as many tiles as in the header, sorted by y, then x");
+      }
+      last = index;
+      CellTiles::Tile& tile = cells.allocate(index, scans);
+      if (Status status = read_cells(reader, tile); !status.ok()) return status;
+      if (std::ranges::any_of(tile, [&](const MapCell& c) { return c.last_scan > scans; })) {
+        return bad_state(offset, "a cell of a later scan", "at most the number of scans");
+      }
+    }
+    if (reader.left() > 0) {
+      return bad_state(reader.offset(), "bytes after the last tile", "the end");
+    }
+    tiles_->cells = std::move(cells);
+    tiles_->base = base;
+    tiles_->scans = static_cast<std::size_t>(scans);
+    if (tiles_->archive) tiles_->archive->clear();
+    return tiles_->unload();
+  } catch (const std::bad_alloc&) {
+    return Status(StatusCode::out_of_memory);
+  }
+}
+
 std::size_t GroundMap::scans() const noexcept { return tiles_->scans; }
 
-std::size_t GroundMap::cells() const noexcept { return tiles_->cells.cells_with_height(); }
+std::size_t GroundMap::cells() const noexcept {
+  return tiles_->cells.cells_with_height() +
+         (tiles_->archive ? tiles_->archive->cells_with_height() : 0);
+}
 
 std::size_t GroundMap::bytes() const noexcept { return tiles_->cells.bytes(); }
 

@@ -3,15 +3,23 @@
 #include "flagstone/label_vote.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <new>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "library/core/floating_point_mode.hpp"
 #include "library/core/setting.hpp"
+#include "library/ground_map/levelled_scan.hpp"
 #include "library/ground_map/poses.hpp"
-#include "library/ground_map/voxel_sums.hpp"
+#include "library/ground_map/scan_voxels.hpp"
+#include "library/ground_map/state_bytes.hpp"
+#include "library/ground_map/voxel_tiles.hpp"
 
 namespace flagstone {
 
@@ -30,67 +38,6 @@ void LabelVoteConfig::check() const {
 
 namespace {
 
-constexpr unsigned horizontal_bits = 25;
-constexpr unsigned vertical_bits = 12;
-
-// The indices wrap around: voxels 245 m above each other, or thousands of kilometres apart, share a
-// key with the default sizes.
-std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) noexcept {
-  constexpr std::uint64_t horizontal = (std::uint64_t{1} << horizontal_bits) - 1;
-  constexpr std::uint64_t vertical = (std::uint64_t{1} << vertical_bits) - 1;
-  return (static_cast<std::uint64_t>(x) & horizontal) << (horizontal_bits + vertical_bits) |
-         (static_cast<std::uint64_t>(y) & horizontal) << vertical_bits |
-         (static_cast<std::uint64_t>(z) & vertical);
-}
-
-// The horizontal index in a key, as the nearest one to `near`.
-std::int64_t index_in(std::uint64_t key, unsigned shift, std::int64_t near) noexcept {
-  constexpr std::int64_t period = std::int64_t{1} << horizontal_bits;
-  const auto wrapped = static_cast<std::int64_t>(key >> shift) & (period - 1);
-  const std::int64_t ahead = (wrapped - near) & (period - 1);
-  return near + (ahead < period / 2 ? ahead : ahead - period);
-}
-
-/// A scan in the world frame after levelling.
-class LevelledScan {
- public:
-  LevelledScan(const LabelVoteConfig& config, CloudView cloud, const Segmentation& result,
-               const Pose& pose, const Levelling& levelling) noexcept
-      : config_(config), cloud_(cloud), result_(result), pose_(pose), levelling_(levelling) {}
-
-  /// The voxel of a point, or nothing if the point does not take part in votes.
-  struct Voxel {
-    std::int64_t x, y, z;
-  };
-  [[nodiscard]] std::optional<Voxel> voxel(std::size_t i) const noexcept {
-    const Label label = result_.labels()[i];
-    if (label != Label::ground && label != Label::nonground) return std::nullopt;
-    const float height = result_.heights()[i];
-    const bool is_near_ground = height > config_.min_height && height < config_.max_height;
-    if (!is_near_ground) return std::nullopt;  // also without a height
-    const Point point = cloud_[i];
-    const auto reach = static_cast<float>(config_.max_range);
-    if (!(point.x * point.x + point.y * point.y < reach * reach)) return std::nullopt;
-    const WorldVector from_sensor = rotated(pose_, point.x, point.y, point.z);
-    const double z = pose_.position[2] + from_sensor.z - levelling_.offset -
-                     levelling_.slope_x * from_sensor.x - levelling_.slope_y * from_sensor.y;
-    return Voxel{.x = index_of(pose_.position[0] + from_sensor.x, config_.voxel),
-                 .y = index_of(pose_.position[1] + from_sensor.y, config_.voxel),
-                 .z = index_of(z, config_.voxel_height)};
-  }
-
-  static std::int64_t index_of(double metres, double size) noexcept {
-    return static_cast<std::int64_t>(std::floor(metres / size));
-  }
-
- private:
-  const LabelVoteConfig& config_;
-  CloudView cloud_;
-  const Segmentation& result_;
-  const Pose& pose_;
-  const Levelling& levelling_;
-};
-
 Status check_scan(CloudView cloud, const Segmentation& result, const Pose& pose) {
   if (cloud.size() != result.labels().size() || result.heights().size() != cloud.size()) {
     return Status(StatusCode::invalid_argument,
@@ -100,54 +47,128 @@ Status check_scan(CloudView cloud, const Segmentation& result, const Pose& pose)
   return is_valid(pose) ? Status() : invalid_pose();
 }
 
+Status check_labels(CloudView cloud, std::span<const Label> labels) {
+  if (labels.size() == cloud.size()) return {};
+  return Status(StatusCode::invalid_argument,
+                "label vote: the number of labels to write differs from the number of points "
+                "(expected one label per point)");
+}
+
+Label winner(std::int32_t sum, Label own) noexcept {
+  if (sum == 0) return own;
+  return sum > 0 ? Label::ground : Label::nonground;
+}
+
+// The vote of the points of one scan in a voxel: w (g - 0.5) with g the fraction of ground and
+// w = 1 / (1 + (r / 15 m)^2), as an integer.
+std::int32_t vote_of(const LevelledScan& scan, const ScanVoxels::Voxel& voxel) noexcept {
+  constexpr double unit = 4096;
+  constexpr double half_weight_range = 15;  // metres
+  const double share = static_cast<double>(voxel.ground) / voxel.all;
+  const double squared = scan.squared_range(voxel.tile, voxel.key);
+  const double weight = 1 / (1 + squared / (half_weight_range * half_weight_range));
+  const double vote = unit * weight * (share - 0.5);
+  return static_cast<std::int32_t>(vote < 0 ? vote - 0.5 : vote + 0.5);  // rounded
+}
+
 }  // namespace
 
 class LabelVote::Votes {
  public:
-  /// Points of one scan in a voxel.
-  struct PointCounts {
-    std::int32_t x = 0, y = 0;  ///< voxel, relative to the sensor's
-    std::uint32_t ground = 0, all = 0;
+  LabelVoteConfig config;
+  VoxelTiles tiles;
+
+  void count(const LevelledScan& scan, CloudView cloud, const Segmentation& result);
+  void add(const LevelledScan& scan);
+  void write(std::span<const Label> own, std::span<Label> labels) const noexcept;
+  void forget_beyond(const Pose& pose) noexcept;
+
+  [[nodiscard]] std::size_t bytes() const noexcept;
+
+ private:
+  struct VotingPoint {
+    std::uint32_t point, voxel;
   };
 
-  LabelVoteConfig config;
-  VoxelSums<std::int32_t> sums;             // of votes
-  VoxelSums<PointCounts> of_scan;           // working memory
-  double forgotten_x = 0, forgotten_y = 0;  // position when voxels were forgotten last
-
-  [[nodiscard]] std::int32_t vote(const PointCounts& counts) const noexcept;
-  void forget_beyond(double x, double y);
+  // Working memory for one scan.
+  ScanVoxels of_scan_;
+  std::vector<VotingPoint> points_;
+  std::vector<VoxelTile*> tile_of_place_;   // null: not looked up yet
+  std::vector<std::int32_t> votes_, sums_;  // of the voxels of the scan
 };
 
-// w (g - 0.5) with g the fraction of ground and w = 1 / (1 + (r / 15 m)^2), as an integer.
-std::int32_t LabelVote::Votes::vote(const PointCounts& counts) const noexcept {
-  constexpr double unit = 4096;
-  constexpr double half_weight_range = 15;  // metres
-  const double share = static_cast<double>(counts.ground) / counts.all;
-  const double dx = (counts.x + 0.5) * config.voxel;
-  const double dy = (counts.y + 0.5) * config.voxel;
-  const double weight = 1 / (1 + (dx * dx + dy * dy) / (half_weight_range * half_weight_range));
-  return static_cast<std::int32_t>(std::lround(unit * weight * (share - 0.5)));
+// Counts the points of a scan in each voxel.
+void LabelVote::Votes::count(const LevelledScan& scan, CloudView cloud,
+                             const Segmentation& result) {
+  of_scan_.clear();
+  points_.resize(cloud.size());
+  std::size_t count = 0;
+  PointVoxels block;
+  for (std::size_t begin = 0; begin < cloud.size(); begin += PointVoxels::capacity) {
+    scan.read(begin, block);
+    for (std::size_t k = 0; k < block.count(); ++k) {
+      if (!block.votes(k)) continue;
+      const bool is_ground = result.labels()[begin + k] == Label::ground;
+      const std::uint32_t voxel = of_scan_.count(block.tile[k], block.key[k], is_ground);
+      points_[count++] = {.point = static_cast<std::uint32_t>(begin + k), .voxel = voxel};
+    }
+  }
+  points_.resize(count);
 }
 
-// Copies the voxels that remain. Done when the sensor has moved a quarter of the window, so that
-// its time is spread over many scans.
-void LabelVote::Votes::forget_beyond(double x, double y) {
-  if (std::hypot(x - forgotten_x, y - forgotten_y) < config.window / 4) return;
-  const std::int64_t centre_x = LevelledScan::index_of(x, config.voxel);
-  const std::int64_t centre_y = LevelledScan::index_of(y, config.voxel);
-  const double reach = config.window / config.voxel;
-  VoxelSums<std::int32_t> remaining;
-  sums.for_each([&](std::uint64_t key, std::int32_t sum) {
-    const std::int64_t dx = index_in(key, horizontal_bits + vertical_bits, centre_x) - centre_x;
-    const std::int64_t dy = index_in(key, vertical_bits, centre_y) - centre_y;
-    if (std::hypot(static_cast<double>(dx), static_cast<double>(dy)) <= reach) {
-      remaining.at(key) = sum;
+// Adds the votes of the counted scan. If memory runs out, it removes them again.
+void LabelVote::Votes::add(const LevelledScan& scan) {
+  const std::vector<ScanVoxels::Voxel>& voxels = of_scan_.voxels();
+  tile_of_place_.assign(scan.tiles(), nullptr);
+  votes_.resize(voxels.size());
+  sums_.resize(voxels.size());
+  for (std::size_t i = 0; i < voxels.size(); ++i) votes_[i] = vote_of(scan, voxels[i]);
+  for (const ScanVoxels::Voxel& voxel : voxels) {
+    VoxelTile*& tile = tile_of_place_[voxel.tile];
+    if (tile == nullptr) tile = &tiles[scan.tile_at(voxel.tile)];
+  }
+  constexpr std::size_t ahead = 16;
+  std::size_t done = 0;
+  try {
+    for (; done < voxels.size(); ++done) {
+      if (done + ahead < voxels.size()) {
+        const ScanVoxels::Voxel& next = voxels[done + ahead];
+        tile_of_place_[next.tile]->prefetch(next.key);
+      }
+      const ScanVoxels::Voxel& voxel = voxels[done];
+      sums_[done] = tile_of_place_[voxel.tile]->add(voxel.key, votes_[done]);
     }
+  } catch (const std::bad_alloc&) {
+    while (done-- > 0) tile_of_place_[voxels[done].tile]->add(voxels[done].key, -votes_[done]);
+    throw;
+  }
+}
+
+// The labels of the scan that was added last.
+void LabelVote::Votes::write(std::span<const Label> own, std::span<Label> labels) const noexcept {
+  std::ranges::copy(own, labels.begin());
+  for (const VotingPoint& each : points_) {
+    labels[each.point] = winner(sums_[each.voxel], own[each.point]);
+  }
+}
+
+void LabelVote::Votes::forget_beyond(const Pose& pose) noexcept {
+  const double width = static_cast<double>(VoxelTile::width) * config.voxel;
+  std::erase_if(tiles, [&](const auto& tile) {
+    const double dx = (static_cast<double>(tile.first.x) + 0.5) * width - pose.position[0];
+    const double dy = (static_cast<double>(tile.first.y) + 0.5) * width - pose.position[1];
+    return std::hypot(dx, dy) > config.window;
   });
-  std::swap(sums, remaining);
-  forgotten_x = x;
-  forgotten_y = y;
+}
+
+std::size_t LabelVote::Votes::bytes() const noexcept {
+  std::size_t sum = tiles.bucket_count() * sizeof(void*) + of_scan_.bytes() +
+                    points_.capacity() * sizeof(VotingPoint) +
+                    (votes_.capacity() + sums_.capacity()) * sizeof(std::int32_t) +
+                    tile_of_place_.capacity() * sizeof(void*);
+  constexpr std::size_t of_node = 32;  // of the table of tiles
+  for (const auto& [index, tile] : tiles) sum += sizeof(tile) + of_node + tile.bytes();
+  return sum;
 }
 
 LabelVote::LabelVote(const LabelVoteConfig& config) : votes_(std::make_unique<Votes>()) {
@@ -161,52 +182,177 @@ LabelVote& LabelVote::operator=(LabelVote&&) noexcept = default;
 
 Status LabelVote::add(CloudView cloud, const Segmentation& result, const Pose& pose,
                       const Levelling& levelling) {
+  return add_scan(cloud, result, pose, levelling, nullptr);
+}
+
+Status LabelVote::add(CloudView cloud, const Segmentation& result, const Pose& pose,
+                      const Levelling& levelling, std::span<Label> labels) {
+  if (Status status = check_labels(cloud, labels); !status.ok()) return status;
+  return add_scan(cloud, result, pose, levelling, &labels);
+}
+
+Status LabelVote::add_scan(CloudView cloud, const Segmentation& result, const Pose& pose,
+                           const Levelling& levelling, const std::span<Label>* labels) {
   if (Status status = check_scan(cloud, result, pose); !status.ok()) return status;
-  Votes& votes = *votes_;
-  const LevelledScan scan(votes.config, cloud, result, pose, levelling);
-  const std::int64_t sensor_x = LevelledScan::index_of(pose.position[0], votes.config.voxel);
-  const std::int64_t sensor_y = LevelledScan::index_of(pose.position[1], votes.config.voxel);
+  const ScopedFloatingPointMode mode;
+  const LevelledScan scan(votes_->config, cloud, result, pose, levelling);
   try {
-    votes.of_scan.clear();
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const auto voxel = scan.voxel(i);
-      if (!voxel) continue;
-      Votes::PointCounts& counts = votes.of_scan.at(key_of(voxel->x, voxel->y, voxel->z));
-      counts.x = static_cast<std::int32_t>(voxel->x - sensor_x);
-      counts.y = static_cast<std::int32_t>(voxel->y - sensor_y);
-      counts.ground += result.labels()[i] == Label::ground ? 1U : 0U;
-      ++counts.all;
-    }
-    votes.sums.reserve_more(votes.of_scan.size());
-    votes.of_scan.for_each([&](std::uint64_t key, const Votes::PointCounts& counts) {
-      votes.sums.at(key) += votes.vote(counts);
-    });
-    if (votes.config.window > 0) votes.forget_beyond(pose.position[0], pose.position[1]);
+    votes_->count(scan, cloud, result);
+    votes_->add(scan);
   } catch (const std::bad_alloc&) {
     return Status(StatusCode::out_of_memory);
   }
+  if (labels != nullptr) votes_->write(result.labels(), *labels);
+  if (votes_->config.window > 0) votes_->forget_beyond(pose);
   return {};
 }
 
 Status LabelVote::relabel(CloudView cloud, const Segmentation& result, const Pose& pose,
                           const Levelling& levelling, std::span<Label> labels) const {
   if (Status status = check_scan(cloud, result, pose); !status.ok()) return status;
-  if (labels.size() != cloud.size()) return Status(StatusCode::invalid_argument);
+  if (Status status = check_labels(cloud, labels); !status.ok()) return status;
+  const ScopedFloatingPointMode mode;
   const LevelledScan scan(votes_->config, cloud, result, pose, levelling);
+  std::vector<const VoxelTile*> tile_of_place;
+  const VoxelTile no_votes;
+  try {
+    tile_of_place.assign(scan.tiles(), &no_votes);
+  } catch (const std::bad_alloc&) {
+    return Status(StatusCode::out_of_memory);
+  }
+  for (std::size_t place = 0; place < tile_of_place.size(); ++place) {
+    const auto tile = votes_->tiles.find(scan.tile_at(place));
+    if (tile != votes_->tiles.end()) tile_of_place[place] = &tile->second;
+  }
   std::ranges::copy(result.labels(), labels.begin());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const auto voxel = scan.voxel(i);
-    if (!voxel) continue;
-    const std::int32_t* const sum = votes_->sums.find(key_of(voxel->x, voxel->y, voxel->z));
-    if (sum != nullptr && *sum != 0) labels[i] = *sum > 0 ? Label::ground : Label::nonground;
+  PointVoxels block;
+  for (std::size_t begin = 0; begin < cloud.size(); begin += PointVoxels::capacity) {
+    scan.read(begin, block);
+    for (std::size_t k = 0; k < block.count(); ++k) {
+      if (block.votes(k)) tile_of_place[block.tile[k]]->prefetch(block.key[k]);
+    }
+    for (std::size_t k = 0; k < block.count(); ++k) {
+      if (!block.votes(k)) continue;
+      Label& label = labels[begin + k];
+      label = winner(tile_of_place[block.tile[k]]->sum(block.key[k]), label);
+    }
   }
   return {};
 }
 
-std::size_t LabelVote::voxels() const noexcept { return votes_->sums.size(); }
+namespace {
 
-std::size_t LabelVote::bytes() const noexcept {
-  return votes_->sums.bytes() + votes_->of_scan.bytes();
+constexpr std::string_view vote_magic = "fsvote01";
+
+}  // namespace
+
+Status LabelVote::to_bytes(std::vector<std::byte>& bytes) const {
+  bytes.clear();
+  try {
+    std::vector<TileIndex> indices;
+    for (const auto& [index, tile] : votes_->tiles) {
+      if (tile.size() > 0) indices.push_back(index);
+    }
+    std::ranges::sort(indices, [](TileIndex a, TileIndex b) { return is_after(b, a); });
+    StateWriter writer(bytes);
+    writer.start(vote_magic);
+    writer.add(votes_->config.voxel);
+    writer.add(votes_->config.voxel_height);
+    writer.add(std::uint64_t{indices.size()});
+    for (const TileIndex index : indices) {
+      const std::vector<VoxelTile::Entry> voxels = votes_->tiles.at(index).sorted();
+      writer.add(index.x);
+      writer.add(index.y);
+      writer.add(std::uint64_t{voxels.size()});
+      for (const VoxelTile::Entry& voxel : voxels) {
+        writer.add(voxel.key);
+        writer.add(voxel.sum);
+      }
+    }
+    writer.finish();
+    return {};
+  } catch (const std::bad_alloc&) {
+    bytes.clear();
+    return Status(StatusCode::out_of_memory);
+  }
 }
+
+namespace {
+
+// Reads the voxels of a tile, sorted by key.
+Status read_voxels(StateReader& reader, VoxelTile& tile) {
+  const auto count = reader.read<std::uint64_t>();
+  constexpr std::size_t bytes_per_voxel = 8;
+  if (reader.failed() || count == 0 || count > reader.left() / bytes_per_voxel) {
+    return bad_state(reader.offset(), "the number of voxels does not fit the size",
+                     "8 bytes per voxel, and at least one voxel");
+  }
+  std::int64_t last = -1;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const std::size_t offset = reader.offset();
+    const auto key = reader.read<std::uint32_t>();
+    const auto sum = static_cast<std::int32_t>(reader.read<std::uint32_t>());
+    if (std::int64_t{key} <= last || key > VoxelKey::largest ||
+        std::abs(std::int64_t{sum}) > VoxelTile::largest_sum) {
+      return bad_state(offset, "an impossible voxel",
+                       "keys in ascending order and sums up to 2^30");
+    }
+    last = key;
+    tile.add(key, sum);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status LabelVote::from_bytes(std::span<const std::byte> bytes) {
+  try {
+    StateReader reader(bytes);
+    if (Status status = reader.open(vote_magic, "the state of a label vote"); !status.ok())
+      return status;
+    const auto voxel = reader.read<double>();
+    const auto voxel_height = reader.read<double>();
+    const auto count = reader.read<std::uint64_t>();
+    if (reader.failed()) return bad_state(reader.offset(), "the header is incomplete", "32 bytes");
+    if (voxel != votes_->config.voxel || voxel_height != votes_->config.voxel_height) {
+      return bad_state(vote_magic.size(), "the size of the voxels differs",
+                       "the settings `voxel` and `voxel_height` of this vote");
+    }
+    VoxelTiles tiles;
+    std::optional<TileIndex> last;
+    for (std::uint64_t k = 0; k < count; ++k) {
+      const std::size_t offset = reader.offset();
+      TileIndex index;
+      index.x = reader.read<std::int64_t>();
+      index.y = reader.read<std::int64_t>();
+      const auto is_far = [&](std::int64_t place) {
+        const double metres = static_cast<double>(place) * VoxelTile::width * voxel;
+        return !(std::abs(metres) <= 2 * max_world_position);
+      };
+      if (reader.failed() || is_far(index.x) || is_far(index.y) ||
+          (last && !is_after(index, *last))) {
+        return bad_state(offset, "not the index of the next tile",
+                         "as many tiles as in the header, sorted by y, then x");
+      }
+      last = index;
+      if (Status status = read_voxels(reader, tiles[index]); !status.ok()) return status;
+    }
+    if (reader.left() > 0) {
+      return bad_state(reader.offset(), "bytes after the last tile", "the end");
+    }
+    votes_->tiles = std::move(tiles);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return Status(StatusCode::out_of_memory);
+  }
+}
+
+std::size_t LabelVote::voxels() const noexcept {
+  std::size_t sum = 0;
+  for (const auto& [index, tile] : votes_->tiles) sum += tile.size();
+  return sum;
+}
+
+std::size_t LabelVote::bytes() const noexcept { return votes_->bytes(); }
 
 }  // namespace flagstone

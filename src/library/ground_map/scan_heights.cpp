@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "library/ground_map/grid_points.hpp"
 #include "library/ground_map/poses.hpp"
 
 namespace flagstone {
@@ -12,8 +13,13 @@ namespace {
 constexpr double fixed_point = 1 << 20;  // units per metre
 constexpr float max_deviation = 0.08F;   // of a point from the surface of its scan, metres
 
-std::int64_t to_fixed(double metres) noexcept {
-  return static_cast<std::int64_t>(std::llround(metres * fixed_point));
+constexpr double rounding = 0.5 / fixed_point;  // so that rounding down gives the nearest number
+
+std::int64_t to_fixed(float metres) noexcept {
+  // Positive, because conversion to an integer rounds towards 0.
+  constexpr double above = 1;
+  constexpr auto units_above = static_cast<std::int64_t>(above * fixed_point);
+  return static_cast<std::int64_t>((double{metres} + above + rounding) * fixed_point) - units_above;
 }
 
 // The variance of a measured height, m^2: of the surface, of the mean of the points, and of what
@@ -38,25 +44,30 @@ std::span<const MeasuredHeight> ScanHeights::measure(CloudView cloud, const Segm
   const auto first_x = static_cast<std::int64_t>(std::floor((sensor_x - reach) / config.cell));
   const auto first_y = static_cast<std::int64_t>(std::floor((sensor_y - reach) / config.cell));
   const auto width = static_cast<std::size_t>(std::ceil(2 * reach / config.cell)) + 2;
+  const PointFilter filter{.min_height = -max_deviation,
+                           .max_height = max_deviation,
+                           .reach = static_cast<float>(reach)};
+  const WorldGrid grid{
+      .rotation = pose.rotation,
+      .to_sensor = {sensor_x - static_cast<double>(first_x) * config.cell,
+                    sensor_y - static_cast<double>(first_y) * config.cell, rounding},
+      .per_metre = 1 / config.cell,
+      .per_metre_up = fixed_point,
+      .width = static_cast<std::uint32_t>(width),
+      .on_ground = true};
   sums_.assign(width * width, {});
-  const std::span<const Label> labels = result.labels();
   const std::span<const float> heights = result.heights();
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (labels[i] != Label::ground || !(std::abs(heights[i]) < max_deviation)) continue;
-    const Point point = cloud[i];
-    if (point.x * point.x + point.y * point.y > static_cast<float>(reach * reach)) continue;
-    // The surface below the point.
-    const WorldVector foot = rotated(pose, point.x, point.y, point.z - heights[i]);
-    const auto column = static_cast<std::int64_t>(std::floor((sensor_x + foot.x) / config.cell));
-    const auto row = static_cast<std::int64_t>(std::floor((sensor_y + foot.y) / config.cell));
-    // A steep pose or rounding can move a point at the rim out of the grid.
-    const auto i_column = static_cast<std::uint64_t>(column - first_x);
-    const auto i_row = static_cast<std::uint64_t>(row - first_y);
-    if (i_column >= width || i_row >= width) continue;
-    Sums& sums = sums_[i_row * width + i_column];
-    sums.height += to_fixed(heights[i]);
-    sums.z += to_fixed(foot.z);
-    ++sums.points;
+  GridPoints points;
+  for (std::size_t begin = 0; begin < cloud.size(); begin += GridPoints::capacity) {
+    find_in_grid(cloud, result, filter, grid, begin, points);
+    for (std::size_t k = 0; k < points.count; ++k) {
+      if (!points.inside(k)) continue;
+      const auto column = static_cast<std::size_t>(points.column[k]);
+      Sums& sums = sums_[static_cast<std::size_t>(points.row[k]) * width + column];
+      sums.height += to_fixed(heights[begin + k]);
+      sums.z += points.level[k] - GridPoints::base_level;
+      ++sums.points;
+    }
   }
 
   heights_.clear();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace flagstone {
 
@@ -16,11 +17,23 @@ void CellTiles::remove_beyond(CellIndex centre, double distance) noexcept {
   });
 }
 
+std::vector<TileIndex> CellTiles::least_used(std::size_t kept) const {
+  if (tiles_.size() <= kept) return {};
+  std::vector<std::tuple<std::uint64_t, std::int64_t, std::int64_t>> uses;
+  uses.reserve(tiles_.size());
+  for (const auto& [index, entry] : tiles_) uses.emplace_back(entry.last_use, index.y, index.x);
+  std::ranges::sort(uses);
+  uses.resize(uses.size() - kept);
+  std::vector<TileIndex> tiles;
+  tiles.reserve(uses.size());
+  for (const auto& [use, y, x] : uses) tiles.push_back({.x = x, .y = y});
+  return tiles;
+}
+
 std::size_t CellTiles::cells_with_height() const noexcept {
   std::size_t count = 0;
-  for (const auto& [index, tile] : tiles_) {
-    count += static_cast<std::size_t>(
-        std::ranges::count_if(*tile, [](const MapCell& cell) { return cell.best.weight > 0; }));
+  for (const auto& [index, entry] : tiles_) {
+    count += static_cast<std::size_t>(std::ranges::count_if(*entry.cells, has_height));
   }
   return count;
 }

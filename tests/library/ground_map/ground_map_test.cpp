@@ -108,21 +108,63 @@ TEST(GroundMap, LevellingRemovesErrorsInHeightAndPitch) {
   EXPECT_LT(worst_error(map, hills, 2, 0), 0.03);
 }
 
-// The rule for loops: the first pass decides.
-TEST(GroundMap, LaterPassesAreLevelledToTheFirst) {
-  GroundMap map;
+// Adds scans along 20 m of x and back, with poses that are `up` metres too high on the way back.
+// Returns the corrections on the way back.
+std::vector<Levelling> run_there_and_back(GroundMap& map, double up) {
   for (double x = 0; x <= 20; x += 5) {
     const Pose pose = upright_pose(hills, x, 0);
     add(map, GroundScan(hills, pose), pose);
   }
+  std::vector<Levelling> levellings;
   for (double x = 20; x >= 0; x -= 5) {
     Pose pose = upright_pose(hills, x, 2, 3.14);
     const GroundScan scan(hills, pose);
-    pose.position[2] += 0.5;
-    EXPECT_NEAR(add(map, scan, pose).offset, 0.5, 0.01);
+    pose.position[2] += up;
+    levellings.push_back(add(map, scan, pose));
+  }
+  return levellings;
+}
+
+// The rule for loops: the first pass decides.
+TEST(GroundMap, LaterPassesAreLevelledToTheFirst) {
+  GroundMap map;
+
+  const std::vector<Levelling> levellings = run_there_and_back(map, 0.5);
+
+  for (const Levelling& levelling : levellings) EXPECT_NEAR(levelling.offset, 0.5, 0.01);
+  EXPECT_LT(worst_error(map, hills, 10, 0), 0.02);
+  EXPECT_EQ(map.at(10, 0).contradictions, 0U);
+}
+
+TEST(GroundMap, APassBeyondTheMaxCorrectionIsAddedAsItIsAndCountsAsContradictions) {
+  GroundMap map({.max_correction = 1});
+
+  const std::vector<Levelling> levellings = run_there_and_back(map, 2);
+
+  for (const Levelling& levelling : levellings) EXPECT_FALSE(levelling.applied);
+  EXPECT_GT(map.at(10, 0).contradictions, 2U);
+  // The same number of scans: the first pass keeps the cells that it saw from as near.
+  EXPECT_LT(std::abs(map.height(10, -3) - hills(10, -3)), 0.02);
+}
+
+// Two runs over one street. The poses of the second one begin elsewhere: 0.3 m higher, tilted.
+TEST(GroundMap, TwoRunsOverOneStreetGiveOneMap) {
+  constexpr double tilt = 0.5 * 3.14159 / 180;
+  GroundMap map;
+  for (const bool second : {false, true}) {
+    for (double x = 0; x <= 40; x += 4) {
+      const Pose pose = upright_pose(hills, x, second ? 3 : 0);
+      const GroundScan scan(hills, pose);
+      const Levelling levelling = add(map, scan, second ? wrong(pose, 0.3, tilt) : pose);
+      if (second) {
+        EXPECT_NEAR(levelling.offset, 0.3, 0.02);
+        EXPECT_NEAR(std::hypot(levelling.slope_x, levelling.slope_y), tilt, 0.001);
+      }
+    }
   }
 
   EXPECT_LT(worst_error(map, hills, 10, 0), 0.02);
+  EXPECT_LT(worst_error(map, hills, 30, 3), 0.02);
 }
 
 TEST(GroundMap, DoesNotLevelToAnotherStorey) {
@@ -214,6 +256,62 @@ TEST(GroundMap, MemoryIsBoundedWithAWindow) {
   EXPECT_TRUE(std::isnan(rolling.height(100, 0)));
   EXPECT_FALSE(std::isnan(rolling.height(980, 0)));
   EXPECT_EQ(rolling.height(980, 3), everything.height(980, 3));
+}
+
+TEST(GroundMap, HasNoTilesAtFirst) {
+  const GroundMap map;
+  MapTile tile;
+
+  EXPECT_TRUE(map.tiles().empty());
+  EXPECT_FALSE(map.read_tile({}, tile));
+}
+
+TEST(GroundMap, TilesAreSortedByYThenX) {
+  GroundMap map;
+  const Pose pose = upright_pose(hills, 0, 0);
+  add(map, GroundScan(hills, pose), pose);
+  const Pose far = upright_pose(hills, -48, 16);
+  add(map, GroundScan(hills, far, 10), far);
+
+  // Scans with a radius of 35 m at (0, 0) and of 10 m at (-48, 16), tiles of 32 m.
+  const std::vector<TileIndex> expected{{-1, -2}, {0, -2}, {-2, -1}, {-1, -1}, {0, -1}, {1, -1},
+                                        {-2, 0},  {-1, 0}, {0, 0},   {1, 0},   {-1, 1}, {0, 1}};
+  EXPECT_EQ(map.tiles(), expected);
+}
+
+TEST(GroundMap, ATileHasTheValuesOfItsCells) {
+  GroundMap map;
+  for (const double x : {0.0, 3.0}) {
+    const Pose pose = upright_pose(hills, x, 0);
+    add(map, GroundScan(hills, pose, 20), pose);
+  }
+  const double size = map.config().cell;
+  MapTile tile;
+  std::size_t known = 0;
+
+  for (const TileIndex index : map.tiles()) {
+    ASSERT_TRUE(map.read_tile(index, tile));
+    for (std::size_t k = 0; k < MapTile::cells; ++k) {
+      const auto column = static_cast<double>(k % GroundMap::tile_width);
+      const auto row = static_cast<double>(k / GroundMap::tile_width);
+      constexpr auto width = static_cast<double>(GroundMap::tile_width);
+      const MapSample sample = map.at((static_cast<double>(index.x) * width + column + 0.5) * size,
+                                      (static_cast<double>(index.y) * width + row + 0.5) * size);
+      ASSERT_EQ(std::isnan(tile.height[k]), std::isnan(sample.height));
+      ASSERT_EQ(tile.scans[k], sample.scans);
+      ASSERT_EQ(tile.contradictions[k], sample.contradictions);
+      if (std::isnan(sample.height)) {
+        ASSERT_TRUE(std::isnan(tile.deviation[k]));
+        ASSERT_EQ(tile.last_scan[k], 0U);
+        continue;
+      }
+      ++known;
+      ASSERT_EQ(tile.height[k], static_cast<float>(sample.height));
+      ASSERT_EQ(tile.deviation[k], sample.deviation);
+      ASSERT_EQ(map.scans() - tile.last_scan[k], sample.age);
+    }
+  }
+  EXPECT_EQ(known, map.cells());
 }
 
 TEST(GroundMap, QueriesAcceptAnyNumber) {

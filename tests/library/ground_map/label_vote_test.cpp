@@ -143,6 +143,27 @@ TEST(LabelVote, UsesPosesAfterLevelling) {
   EXPECT_THAT(relabel({.applied = true, .offset = 0.5}), testing::Each(Label::ground));
 }
 
+TEST(LabelVote, LabelsWrittenWithTheVotesAreThoseOfRelabelAfterwards) {
+  const Pose pose = upright_pose(level_ground, 3, -7, 0.4);
+  GroundScan scan(level_ground, pose, 25);
+  const std::size_t points = scan.view().size();
+  std::mt19937 random(5);
+  LabelVote vote;
+  for (int i = 0; i < 4; ++i) {
+    for (Label& label : scan.result.start(points)) label = static_cast<Label>(random() % 3);
+    for (float& height : scan.result.start_heights()) {
+      height = static_cast<float>(random() % 150) / 100;
+    }
+    std::vector<Label> at_once(points);
+    std::vector<Label> afterwards(points);
+
+    ASSERT_TRUE(vote.add(scan.view(), scan.result, pose, {}, at_once).ok());
+    ASSERT_TRUE(vote.relabel(scan.view(), scan.result, pose, {}, afterwards).ok());
+
+    EXPECT_EQ(at_once, afterwards);
+  }
+}
+
 TEST(LabelVote, DoesNotDependOnTheOrderOfPointsOrScans) {
   constexpr std::size_t scans = 6;
   const Pose pose = upright_pose(level_ground, 0, 0);
@@ -204,6 +225,8 @@ TEST(LabelVote, RejectsOtherSizesAndInvalidPoses) {
   const GroundScan& scan = position.scan();
 
   EXPECT_EQ(position.vote().relabel(scan.view(), scan.result, position.pose(), {}, few).code(),
+            StatusCode::invalid_argument);
+  EXPECT_EQ(position.vote().add(scan.view(), scan.result, position.pose(), {}, few).code(),
             StatusCode::invalid_argument);
   EXPECT_EQ(position.vote().add(scan.view(), scan.result, invalid, {}).code(),
             StatusCode::invalid_argument);
