@@ -7,6 +7,7 @@ set(flagstone_layers
     "library/core"
     "library/plane_fits"
     "library/(patchwork|surface|mount|ground_map)"
+    "library/moving_points"
     "library/methods"
     "files"
     "lab"

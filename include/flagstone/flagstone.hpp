@@ -11,6 +11,7 @@
 #include "flagstone/label.hpp"                      // IWYU pragma: export
 #include "flagstone/label_vote.hpp"                 // IWYU pragma: export
 #include "flagstone/mount.hpp"                      // IWYU pragma: export
+#include "flagstone/moving_points.hpp"              // IWYU pragma: export
 #include "flagstone/patch.hpp"                      // IWYU pragma: export
 #include "flagstone/patchwork.hpp"                  // IWYU pragma: export
 #include "flagstone/patchwork_config.hpp"           // IWYU pragma: export

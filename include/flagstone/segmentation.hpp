@@ -65,6 +65,9 @@ class Segmentation {
     return labels_;
   }
 
+  /// The labels, to change some of them. Call finish() afterwards if the counts change.
+  [[nodiscard]] std::span<Label> mutable_labels() noexcept { return labels_; }
+
   /// The patches to fill.
   [[nodiscard]] std::vector<Patch>& mutable_patches() noexcept { return patches_; }
 

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/moving_points/moving_objects.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace flagstone {
+namespace {
+
+constexpr double object_column_width = 0.4;  // metres
+constexpr int half_width = 256;              // columns
+constexpr int width = 2 * half_width;
+constexpr unsigned min_moving_points = 8;
+
+// From a column to its eight neighbours.
+constexpr std::array<int, 8> neighbours{-width - 1, -width,    -width + 1, -1,
+                                        1,          width - 1, width,      width + 1};
+
+std::uint32_t moved(std::uint32_t column, int by) noexcept {
+  return static_cast<std::uint32_t>(static_cast<int>(column) + by);
+}
+
+void increment(std::uint16_t& count) noexcept {
+  if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
+}
+
+}  // namespace
+
+std::uint32_t MovingObjects::column_of(double x, double y) noexcept {
+  constexpr int edge = 1;  // columns without points, so that every used column has neighbours
+  const double column = x * (1 / object_column_width) + half_width;
+  const double row = y * (1 / object_column_width) + half_width;
+  const auto is_inside = [](double index) { return index >= edge && index < width - edge; };
+  if (!is_inside(column) || !is_inside(row)) return outside;
+  return static_cast<std::uint32_t>(row) * width + static_cast<std::uint32_t>(column);
+}
+
+// Calls `use(points with evidence)` for each connected set of columns that belong; its columns are
+// in component_.
+template <class Belongs, class Use>
+void MovingObjects::for_each_component(const Belongs& belongs, const Use& use) {
+  ++visit_;
+  for (const std::uint32_t start : used_) {
+    if (cells_[start].visit == visit_ || !belongs(cells_[start])) continue;
+    component_.clear();
+    open_.assign(1, start);
+    cells_[start].visit = visit_;
+    unsigned moving = 0;
+    unsigned fixed = 0;
+    while (!open_.empty()) {
+      const std::uint32_t column = open_.back();
+      open_.pop_back();
+      component_.push_back(column);
+      moving += cells_[column].moving;
+      fixed += cells_[column].fixed;
+      for (const int by : neighbours) {
+        Cell& next = cells_[moved(column, by)];
+        if (next.points == 0 || next.visit == visit_ || !belongs(next)) continue;
+        next.visit = visit_;
+        open_.push_back(moved(column, by));
+      }
+    }
+    use(moving, fixed);
+  }
+}
+
+// Connected columns with more moving than fixed points.
+void MovingObjects::mark_seeds() {
+  for_each_component([](const Cell& cell) { return cell.moving > cell.fixed; },
+                     [&](unsigned moving, unsigned) {
+                       if (moving < min_moving_points) return;
+                       for (const std::uint32_t column : component_) {
+                         cells_[column].is_moving = true;
+                       }
+                     });
+}
+
+// Twice by one column, into columns whose points are not mostly fixed.
+void MovingObjects::grow() {
+  for (int round = 0; round < 2; ++round) {
+    grown_.clear();
+    for (const std::uint32_t column : used_) {
+      const Cell& cell = cells_[column];
+      if (cell.is_moving || 2 * cell.fixed > cell.points) continue;
+      if (std::ranges::any_of(neighbours,
+                              [&](int by) { return cells_[moved(column, by)].is_moving; })) {
+        grown_.push_back(column);
+      }
+    }
+    for (const std::uint32_t column : grown_) cells_[column].is_moving = true;
+  }
+}
+
+// Separate objects with more moving than fixed points.
+void MovingObjects::mark_whole_components() {
+  for_each_component([](const Cell&) { return true; },
+                     [&](unsigned moving, unsigned fixed) {
+                       if (moving < min_moving_points || moving <= fixed) return;
+                       for (const std::uint32_t column : component_) {
+                         cells_[column].is_moving = true;
+                       }
+                     });
+}
+
+void MovingObjects::number_objects() {
+  count_ = 0;
+  for_each_component([](const Cell& cell) { return cell.is_moving; },
+                     [&](unsigned, unsigned) {
+                       ++count_;
+                       for (const std::uint32_t column : component_) {
+                         cells_[column].object = static_cast<std::uint32_t>(count_);
+                       }
+                     });
+}
+
+void MovingObjects::find(std::span<const std::uint32_t> columns,
+                         std::span<const Evidence> evidence) {
+  cells_.resize(std::size_t{width} * width);
+  for (const std::uint32_t column : used_) cells_[column] = {};
+  used_.clear();
+  visit_ = 0;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    Cell& cell = cells_[columns[k]];
+    if (cell.points == 0) used_.push_back(columns[k]);
+    increment(cell.points);
+    if (evidence[k] == Evidence::moving) increment(cell.moving);
+    if (evidence[k] == Evidence::fixed) increment(cell.fixed);
+  }
+  std::ranges::sort(used_);
+  mark_seeds();
+  grow();
+  mark_whole_components();
+  number_objects();
+}
+
+}  // namespace flagstone

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace flagstone {
+
+/// Groups the points of one scan into objects, in columns of 0.4 m, and finds those that move.
+class MovingObjects {
+ public:
+  /// The result of all looks, for one point.
+  enum class Evidence : std::uint8_t { none, moving, fixed };
+
+  static constexpr std::uint32_t outside = ~std::uint32_t{0};
+
+  /// The column at (x, y), metres from the sensor along the axes of the world frame; `outside` if
+  /// it is too far away.
+  static std::uint32_t column_of(double x, double y) noexcept;
+
+  /// Finds the moving objects. `columns` and `evidence`: of each point; no column is `outside`. The
+  /// order of the points does not matter. May throw std::bad_alloc.
+  void find(std::span<const std::uint32_t> columns, std::span<const Evidence> evidence);
+
+  /// The number of the moving object in a column, from 1, or 0. Objects are numbered by the first
+  /// of their columns.
+  [[nodiscard]] std::uint32_t object_in(std::uint32_t column) const noexcept {
+    return cells_[column].object;
+  }
+
+  /// Number of moving objects.
+  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+
+ private:
+  struct Cell {
+    std::uint16_t points = 0, moving = 0, fixed = 0;  // saturate
+    bool is_moving = false;
+    std::uint8_t visit = 0;  // of the last search that reached it
+    std::uint32_t object = 0;
+  };
+  using Member = bool (*)(const Cell&);
+
+  template <class Belongs, class Use>
+  void for_each_component(const Belongs& belongs, const Use& use);
+  void mark_seeds();
+  void grow();
+  void mark_whole_components();
+  void number_objects();
+
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> used_;  // ascending
+  std::vector<std::uint32_t> component_, open_, grown_;
+  std::uint8_t visit_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace flagstone

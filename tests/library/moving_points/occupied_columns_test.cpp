@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "library/moving_points/occupied_columns.hpp"
+
+#include <gtest/gtest.h>
+
+namespace flagstone {
+namespace {
+
+void add_scans(OccupiedColumns& columns, int count, bool is_object) {
+  for (int k = 0; k < count; ++k) {
+    columns.start(1, -10);
+    columns.add(2.2, 2.9, false);  // the ground below an object
+    if (is_object) columns.add(2.2, 2.9, true);
+    columns.finish();
+  }
+}
+
+TEST(OccupiedColumns, AnObjectInAllScansOccupiesItsColumn) {
+  OccupiedColumns columns;
+  add_scans(columns, 4, true);
+  EXPECT_TRUE(columns.is_occupied(3.2, -7.1));
+  EXPECT_TRUE(columns.is_occupied(3.4, -7.4));   // the same column of 0.5 m
+  EXPECT_FALSE(columns.is_occupied(3.6, -7.1));  // the next one
+}
+
+TEST(OccupiedColumns, FewScansAreNotEnough) {
+  OccupiedColumns columns;
+  add_scans(columns, 3, true);
+  EXPECT_FALSE(columns.is_occupied(3.2, -7.1));
+}
+
+TEST(OccupiedColumns, AColumnThatWasOftenEmptyIsNotOccupied) {
+  OccupiedColumns columns;
+  add_scans(columns, 18, true);
+  add_scans(columns, 2, false);
+  EXPECT_FALSE(columns.is_occupied(3.2, -7.1));
+  add_scans(columns, 1, true);
+  EXPECT_TRUE(columns.is_occupied(3.2, -7.1));
+}
+
+TEST(OccupiedColumns, DistantColumnsAreForgotten) {
+  OccupiedColumns columns;
+  add_scans(columns, 4, true);
+  columns.forget_beyond(50, -7, 100);
+  EXPECT_TRUE(columns.is_occupied(3.2, -7.1));
+  columns.forget_beyond(150, -7, 100);
+  EXPECT_FALSE(columns.is_occupied(3.2, -7.1));
+}
+
+}  // namespace
+}  // namespace flagstone
