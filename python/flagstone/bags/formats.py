@@ -95,3 +95,11 @@ def _check_not_input(path: Path, like: Bag) -> None:
             raise ValueError(f"{path}: is inside the input {like.path} (choose another output)")
         if output in source.parents:
             raise ValueError(f"{path}: contains the input {like.path} (choose another output)")
+
+
+def is_bag(path: str | os.PathLike[str]) -> bool:
+    """Whether a path names a bag: a file .bag, .mcap or .db3, or a directory with metadata.yaml."""
+    name = os.fspath(path)
+    if Path(name).is_dir():
+        return (Path(name) / "metadata.yaml").exists()
+    return name.endswith((*_EXTENSIONS, ".mcap.zstd", ".db3.zstd"))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The parts of sensor_msgs/Imu and tf2_msgs/TFMessage that the mounting pose needs, from serialized messages."""
+"""The parts of messages that poses need, from serialized messages: accelerations, transforms and odometry."""
 
 from __future__ import annotations
 
@@ -29,6 +29,21 @@ class FrameTransform(NamedTuple):
     """Quaternion x, y, z, w; may have any length."""
 
 
+class StampedPose(NamedTuple):
+    """A part of nav_msgs/Odometry, geometry_msgs/PoseStamped or geometry_msgs/PoseWithCovarianceStamped."""
+
+    time: int
+    """Nanoseconds; 0 if the message has no time."""
+    frame: str
+    """Frame in which the pose is measured."""
+    body: str | None
+    """Frame that the pose describes; None if the message does not name it."""
+    position: Vector
+    """Metres."""
+    rotation: tuple[float, float, float, float]
+    """Quaternion x, y, z, w; may have any length."""
+
+
 def parse_imu(message: Any, encoding: str) -> ImuSample:
     """Reads a serialized sensor_msgs/Imu, "cdr" or "ros1".
 
@@ -36,7 +51,7 @@ def parse_imu(message: Any, encoding: str) -> ImuSample:
         ValueError: The message is too short or has an unknown encoding. One line with the byte.
     """
     reader = _Reader(message, encoding)
-    frame = reader.header_frame()
+    _, frame = reader.header()
     reader.numbers("d", 4 + 9 + 3 + 9)  # orientation, angular velocity, covariances
     x, y, z = reader.numbers("d", 3)
     return ImuSample(frame, (x, y, z))
@@ -48,14 +63,37 @@ def parse_transforms(message: Any, encoding: str) -> list[FrameTransform]:
     Raises:
         ValueError: The message is too short or has an unknown encoding. One line with the byte.
     """
+    return [transform for _, transform in parse_timed_transforms(message, encoding)]
+
+
+def parse_timed_transforms(message: Any, encoding: str) -> list[tuple[int, FrameTransform]]:
+    """As `parse_transforms`, with the time of each transform in nanoseconds."""
     reader = _Reader(message, encoding)
     transforms = []
     for _ in range(reader.numbers("I", 1)[0]):
-        parent = reader.header_frame()
+        time, parent = reader.header()
         child = reader.frame()
         tx, ty, tz, x, y, z, w = reader.numbers("d", 7)
-        transforms.append(FrameTransform(parent, child, (tx, ty, tz), (x, y, z, w)))
+        transforms.append((time, FrameTransform(parent, child, (tx, ty, tz), (x, y, z, w))))
     return transforms
+
+
+def parse_pose(message: Any, encoding: str, *, names_body: bool) -> StampedPose:
+    """Reads the time and the pose of a serialized message, "cdr" or "ros1".
+
+    Args:
+        message: The message.
+        encoding: Its serialization.
+        names_body: Whether the frame of the body follows the header, as in nav_msgs/Odometry.
+
+    Raises:
+        ValueError: The message is too short or has an unknown encoding. One line with the byte.
+    """
+    reader = _Reader(message, encoding)
+    time, frame = reader.header()
+    body = reader.frame() if names_body else None
+    px, py, pz, x, y, z, w = reader.numbers("d", 7)
+    return StampedPose(time, frame, body, (px, py, pz), (x, y, z, w))
 
 
 class _Reader:
@@ -79,10 +117,12 @@ class _Reader:
             self._at += -(self._at - 4) % size
         return struct.unpack(f"{self._order}{count}{kind}", self._take(size * count))
 
-    def header_frame(self) -> str:
-        """The frame of a std_msgs/Header."""
-        self.numbers("I", 2 if self._aligns else 3)  # time stamp, in ROS 1 after a sequence number
-        return self.frame()
+    def header(self) -> tuple[int, str]:
+        """The time in nanoseconds and the frame of a std_msgs/Header."""
+        if not self._aligns:
+            self.numbers("I", 1)  # the sequence number of ROS 1
+        seconds, nanoseconds = self.numbers("I", 2)
+        return seconds * 10**9 + nanoseconds, self.frame()
 
     def frame(self) -> str:
         """The name of a frame, without the slash that ROS 1 permits before it."""

@@ -295,7 +295,7 @@ Status read_npy_header(std::string_view text, NpyHeader& out) {
   return DictReader(text, begin, out.size).read(out);
 }
 
-std::string npy_header(std::span<const Field> fields, std::size_t count) {
+std::string npy_header(std::span<const Field> fields, std::span<const std::size_t> shape) {
   std::string descr = "[";
   for (const Field& field : fields) {
     if (field.is_padding()) {
@@ -306,7 +306,11 @@ std::string npy_header(std::span<const Field> fields, std::size_t count) {
     descr += fmt::format("('{}', '{}{}'", field.name, order, code_of(field.type));
     descr += field.count == 1 ? "), " : fmt::format(", ({},)), ", field.count);
   }
-  return with_preamble(descr + "]", std::array{count});
+  return with_preamble(descr + "]", shape);
+}
+
+std::string npy_header(std::span<const Field> fields, std::size_t count) {
+  return npy_header(fields, std::array{count});
 }
 
 std::string npy_header(FieldType type, std::span<const std::size_t> shape) {

@@ -35,7 +35,10 @@ struct NpyHeader {
 /// Reads the header at the start of `text`. bad_file. Throws std::bad_alloc.
 Status read_npy_header(std::string_view text, NpyHeader& out);
 
-/// The header of a structured array of `count` records.
+/// The header of a structured array of records of this shape in C order.
+std::string npy_header(std::span<const Field> fields, std::span<const std::size_t> shape);
+
+/// The header of a one-dimensional structured array of `count` records.
 std::string npy_header(std::span<const Field> fields, std::size_t count);
 
 /// The header of a plain array of this shape in C order.

@@ -85,9 +85,9 @@ std::optional<CloudFormat> format_of(const std::filesystem::path& path) noexcept
 
 bool is_scan_name(const std::filesystem::path& path) noexcept {
   const std::string_view name = file_name(path);
-  constexpr std::array<std::string_view, 7> beside_scans = {
-      "_lidarseg.bin", ".label.npy",  ".heights.npy", ".surface.npy",
-      ".ground.npy",   ".return.npy", ".motion.npy"};
+  constexpr std::array<std::string_view, 9> beside_scans = {
+      "_lidarseg.bin", ".label.npy",  ".heights.npy", ".surface.npy", ".ground.npy",
+      ".return.npy",   ".motion.npy", ".time.npy",    ".moving.npy"};
   return format_of(path) && !name.starts_with('.') &&
          std::ranges::none_of(beside_scans,
                               [&](std::string_view ending) { return ends_with(name, ending); });

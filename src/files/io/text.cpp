@@ -3,6 +3,8 @@
 #include "files/io/text.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <system_error>
 
 namespace flagstone::io {
 
@@ -24,6 +26,25 @@ std::vector<std::string_view> words_of(std::string_view line, std::size_t limit)
     words.emplace_back(begin, static_cast<std::size_t>(at - begin));
   }
   return words;
+}
+
+std::string_view trimmed(std::string_view text) noexcept {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::optional<double> real_number(std::string_view word) noexcept {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const char* const begin = word.data();
+  const char* const end = begin + word.size();
+  double value = 0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (stop != end || error == std::errc::invalid_argument) return std::nullopt;
+  if (error == std::errc()) return value;
+  const bool is_small =
+      word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
+  return is_small ? 0 : std::numeric_limits<double>::infinity();
 }
 
 namespace {

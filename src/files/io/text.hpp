@@ -35,6 +35,13 @@ std::optional<T> whole_number(std::string_view word) noexcept {
   return value;
 }
 
+/// The number that `word` spells, or nothing if it contains anything else. `nan` and `inf` are
+/// numbers; a number beyond the range of a double is infinite, one too small for a double is 0.
+std::optional<double> real_number(std::string_view word) noexcept;
+
+/// `text` without blanks at both ends.
+std::string_view trimmed(std::string_view text) noexcept;
+
 /// Whether `c` separates words on a line.
 constexpr bool is_blank(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
