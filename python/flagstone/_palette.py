@@ -18,6 +18,12 @@ RANGE_RING: Color = (150, 160, 172)
 ZONE_LINE: Color = (235, 240, 245)
 CONTOUR: Color = (88, 58, 38)
 
+# Maps are on white, as their relief is light.
+PAGE: Color = (255, 255, 255)
+PATH: Color = (28, 62, 148)
+NONMOVING: Color = (92, 100, 110)
+MOVING: Color = (226, 36, 36)
+
 # Yellow and cyan as in Fig. 7 of the paper.
 LABELS: Mapping[Label, Color] = {
     Label.GROUND: (246, 201, 58),

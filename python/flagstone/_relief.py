@@ -63,11 +63,17 @@ def suitable_range(surface: GroundSurface) -> float:
 def suitable_look(surface: GroundSurface, range_: float) -> Look:
     """A style for the ground within `range_` metres: about ten contour lines, and shading that shows gentle slopes."""
     samples = _samples(surface, range_)
-    lowest = _quantile(samples.height, samples.weight, 0.02, -1)
-    highest = _quantile(samples.height, samples.weight, 0.98, 1)
+    return look_for(
+        lowest=_quantile(samples.height, samples.weight, 0.02, -1),
+        highest=_quantile(samples.height, samples.weight, 0.98, 1),
+        steep=_quantile(samples.steepness, samples.weight, 0.85, 0),
+    )
+
+
+def look_for(lowest: float, highest: float, steep: float) -> Look:
+    """A style for ground from `lowest` to `highest`, metres, with few slopes above `steep`, m/m."""
     step, per_index = next((s for s in _STEPS if highest - lowest <= _MAX_LINES * s[0]), _STEPS[-1])
     middle, half = (lowest + highest) / 2, max(highest - lowest, _MIN_SPAN) / 2
-    steep = _quantile(samples.steepness, samples.weight, 0.85, 0)
     return Look(
         lowest=float(step * np.floor((middle - half) / step)),
         highest=float(step * np.ceil((middle + half) / step)),
@@ -88,7 +94,7 @@ def relief(surface: GroundSurface, x: npt.ArrayLike, y: npt.ArrayLike, look: Loo
     cell = surface.resolution(x, y)
     along_x = _slope(surface.height(x - cell, y), height, surface.height(x + cell, y), cell)
     along_y = _slope(surface.height(x, y - cell), height, surface.height(x, y + cell), cell)
-    color = _shaded(tones((height - look.lowest) / (look.highest - look.lowest)), look.exaggeration, along_x, along_y)
+    color = shaded(height, look, rise_up=along_x, rise_left=along_y)
     confidence = np.clip(ground.confidence, 0, 1)
     opacity = np.where(np.isnan(height), 0, _FAINTEST + (1 - _FAINTEST) * np.sqrt(confidence))
     return np.concatenate([color, opacity[..., None]], axis=-1)
@@ -101,14 +107,22 @@ def tones(fraction: npt.ArrayLike) -> Floats:
     return np.stack([np.interp(position, stops, TONES[:, part]) for part in range(3)], axis=-1)
 
 
-def _shaded(color: Floats, exaggeration: float, along_x: Floats, along_y: Floats) -> Floats:
-    """Shades colours with light from the direction (+x, +y), 45 degrees high. Level ground has brightness 1."""
-    steep_x, steep_y = exaggeration * along_x, exaggeration * along_y
-    bright = ((1 - (steep_x + steep_y) / np.sqrt(2)) / np.sqrt(1 + steep_x**2 + steep_y**2))[..., None]
+def shaded(height: Floats, look: Look, *, rise_up: Floats, rise_left: Floats) -> Floats:
+    """The colour (*S, 3) of ground of shape S, 0 to 1, with light from the upper left, 45 degrees high.
+
+    Args:
+        height: S, metres; NaN has the lowest colour.
+        look: Style of the ground.
+        rise_up: S, slope towards the upper edge of the image, m/m.
+        rise_left: S, slope towards the left edge of the image, m/m.
+    """
+    color = tones((height - look.lowest) / (look.highest - look.lowest))
+    up, left = look.exaggeration * rise_up, look.exaggeration * rise_left
+    bright = ((1 - (up + left) / np.sqrt(2)) / np.sqrt(1 + up**2 + left**2))[..., None]  # level ground: 1
     dark = _DARKEST * (1 - np.clip(bright, 0, 1))
     light = np.clip(_BRIGHTEST * (bright - 1), 0, 1)
-    shaded: Floats = np.where(bright < 1, color + dark * (_SHADOW - color), color + light * (_SUNLIGHT - color))
-    return shaded
+    lit: Floats = np.where(bright < 1, color + dark * (_SHADOW - color), color + light * (_SUNLIGHT - color))
+    return lit
 
 
 def _slope(before: npt.ArrayLike, here: Floats, after: npt.ArrayLike, cell: npt.ArrayLike) -> Floats:

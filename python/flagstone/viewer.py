@@ -11,7 +11,7 @@ import time
 import urllib.parse
 import uuid
 import webbrowser
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -75,7 +75,7 @@ def show(
     scans = [(points, result)] if result is not None else points
     recording = rr.RecordingStream("flagstone", recording_id=str(uuid.uuid4()))
     if save is not None:
-        _save(recording, Path(save), scans)
+        save_recording(recording, Path(save), blueprint(), lambda: _log_all(recording, scans))
         return
     where = where or ("notebook" if _in_notebook() else "browser")
     if where == "notebook":
@@ -102,14 +102,22 @@ def _log_all(recording: rerun.RecordingStream, scans: Any) -> None:
         log_scan(recording, number, points, result)
 
 
-def _save(recording: rerun.RecordingStream, path: Path, scans: Any) -> None:
-    """Writes a temporary file and renames it, so that an interrupted call keeps an existing recording."""
+def save_recording(
+    recording: rerun.RecordingStream, path: Path, view: rerun.blueprint.Blueprint, log: Callable[[], None]
+) -> None:
+    """Writes what `log` adds to a recording.
+
+    The recording is a temporary file that is renamed, so that an interrupted call keeps an existing one.
+
+    Raises:
+        FileNotFoundError: The directory does not exist.
+    """
     part = path.with_name(f".{path.name}.{os.getpid()}.part")
     if not path.parent.is_dir():
         raise FileNotFoundError(f"{path.parent}: directory does not exist (create it, or choose another path)")
     try:
-        recording.save(part, default_blueprint=blueprint())
-        _log_all(recording, scans)
+        recording.save(part, default_blueprint=view)
+        log()
         recording.flush()
         recording.disconnect()
         part.replace(path)

@@ -153,11 +153,13 @@ using Path = std::vector<Spot>;
 
 double distance(const Spot& a, const Spot& b) noexcept { return std::hypot(a.x - b.x, a.y - b.y); }
 
-Path in_pixels(const ContourLine& line, const HeightMap& map, const TopView& view) {
+Path in_pixels(const ContourLine& line, const cairo_matrix_t& to_pixels) {
   Path path;
   path.reserve(line.size());
   for (const auto& [column, row] : line) {
-    path.push_back({view.column(map.y(row)), view.row(map.x(column))});
+    Spot spot{column, row};
+    cairo_matrix_transform_point(&to_pixels, &spot.x, &spot.y);
+    path.push_back(spot);
   }
   return path;
 }
@@ -264,11 +266,11 @@ std::string height_text(double height, const ContourStep& step) {
   return is_zero ? text.substr(1) : "\u2212" + text.substr(1);  // a minus sign, wider than a hyphen
 }
 
-void draw_contours(const Canvas& canvas, const TopView& view, const HeightMap& map,
+void draw_contours(const Canvas& canvas, const Rectangle& panel, const ContourGrid& grid,
                    const HeightRange& heights, const ContourStep& step, double unit) {
   cairo_t* context = canvas.context();
   cairo_save(context);
-  add_rectangle(context, view.panel());
+  add_rectangle(context, panel);
   cairo_clip(context);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   const Font font{.size = 19 * unit, .bold = true, .color = contour_color};
@@ -283,8 +285,8 @@ void draw_contours(const Canvas& canvas, const TopView& view, const HeightMap& m
        static_cast<double>(number) * step.height <= heights.highest; ++number) {
     const double height = static_cast<double>(number) * step.height;
     for (const ContourLine& line :
-         contour_lines(map.heights, map.width, static_cast<float>(height))) {
-      Path path = in_pixels(line, map, view);
+         contour_lines(grid.heights, grid.width, static_cast<float>(height))) {
+      Path path = in_pixels(line, grid.to_pixels);
       if (length_of(path) < 24 * unit) continue;  // too short to draw
       if (number % step.per_index == 0) {
         indices.push_back({height_text(height, step), std::move(path)});
@@ -298,7 +300,7 @@ void draw_contours(const Canvas& canvas, const TopView& view, const HeightMap& m
   for (const Index& index : indices) stroke(context, index.path);
   // Label the longest lines first.
   std::ranges::sort(indices, std::greater(), [](const Index& i) { return length_of(i.path); });
-  LabelPlacer placer(view.panel(), unit);
+  LabelPlacer placer(panel, unit);
   for (const Index& index : indices) {
     const double width = text_width(context, index.text, font) + 12 * unit;
     const auto wanted = static_cast<int>(std::ceil(length_of(index.path) / (900 * unit)));

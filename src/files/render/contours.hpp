@@ -45,9 +45,16 @@ ContourStep suitable_step(double span) noexcept;
 /// A height in metres with the decimals that multiples of `step` need: "-1.75", "-12".
 std::string height_text(double height, const ContourStep& step);
 
-/// Draws the contour lines of `map` within `heights`. Index contours are drawn last, with labels on
-/// their straight parts.
-void draw_contours(const Canvas& canvas, const TopView& view, const HeightMap& map,
+/// Rows of samples, and their positions in an image.
+struct ContourGrid {
+  std::span<const float> heights;  ///< metres; NaN if unknown
+  std::size_t width;               ///< samples per row
+  cairo_matrix_t to_pixels;        ///< from column and row to pixels
+};
+
+/// Draws the contour lines of `grid` within `heights` into `panel`. Index contours are drawn last,
+/// with labels on their straight parts.
+void draw_contours(const Canvas& canvas, const Rectangle& panel, const ContourGrid& grid,
                    const HeightRange& heights, const ContourStep& step, double unit);
 
 }  // namespace flagstone::render

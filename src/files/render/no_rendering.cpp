@@ -5,6 +5,7 @@
 #include <new>
 
 #include "files/render/birds_eye.hpp"
+#include "files/render/ground_map_picture.hpp"
 #include "files/render/rendering_available.hpp"
 #include "files/render/side_by_side.hpp"
 #include "files/render/surface_picture.hpp"
@@ -32,6 +33,11 @@ Status draw_birds_eye(const std::filesystem::path&, CloudView, const Segmentatio
 
 Status draw_surface(const std::filesystem::path&, const GroundSurface&,
                     const SurfacePicture&) noexcept {
+  return refuse();
+}
+
+Status draw_ground_map(const std::filesystem::path&, const GroundGrid&,
+                       const GroundMapPicture&) noexcept {
   return refuse();
 }
 

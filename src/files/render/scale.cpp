@@ -129,10 +129,15 @@ void draw_scale_bar(cairo_t* context, const TopView& view, double range, double 
   const Rectangle box{panel.right() - length - 56 * unit, panel.bottom() - 86 * unit,
                       length + 40 * unit, 70 * unit};
   draw_backing(context, box, unit, ink.backing);
-  const Font font{.size = 22 * unit, .bold = false, .color = ink.ink};
-  const double left = box.x + 20 * unit;
+  draw_bar(context, box.x + 20 * unit, box.bottom() - 20 * unit, length,
+           fmt::format("{:g} m", step), unit, ink.ink);
+}
+
+}  // namespace
+
+void draw_bar(cairo_t* context, double left, double line, double length, const std::string& text,
+              double unit, Color color) {
   const double right = left + length;
-  const double line = box.bottom() - 20 * unit;
   for (const double end : {left, right}) {
     cairo_move_to(context, end, line - 8 * unit);
     cairo_line_to(context, end, line + 8 * unit);
@@ -141,13 +146,11 @@ void draw_scale_bar(cairo_t* context, const TopView& view, double range, double 
   cairo_line_to(context, right, line);
   cairo_set_line_cap(context, CAIRO_LINE_CAP_SQUARE);
   cairo_set_line_width(context, 3 * unit);
-  set_color(context, ink.ink);
+  set_color(context, color);
   cairo_stroke(context);
-  draw_text(context, (left + right) / 2, line - 14 * unit, fmt::format("{:g} m", step), font,
-            Align::center);
+  const Font font{.size = 22 * unit, .bold = false, .color = color};
+  draw_text(context, (left + right) / 2, line - 14 * unit, text, font, Align::center);
 }
-
-}  // namespace
 
 void draw_range_rings(const Canvas& canvas, const TopView& view, std::span<const double> radii,
                       double unit) noexcept {

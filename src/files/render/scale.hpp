@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "files/render/canvas.hpp"
@@ -28,6 +29,10 @@ std::vector<double> circle_radii(double range, const PatchworkConfig* zones);
 /// Draws dashed circles of these radii, metres, around the sensor.
 void draw_range_rings(const Canvas& canvas, const TopView& view, std::span<const double> radii,
                       double unit) noexcept;
+
+/// Draws a scale bar from (left, line) to the right, `length` pixels long, with `text` above it.
+void draw_bar(cairo_t* context, double left, double line, double length, const std::string& text,
+              double unit, Color color);
 
 /// Draws an arrowhead at the origin that points forward.
 void draw_sensor(const Canvas& canvas, const TopView& view, double unit) noexcept;

@@ -12,6 +12,7 @@
 
 #include "files/io/temporary_folder.hpp"
 #include "files/render/birds_eye.hpp"
+#include "files/render/ground_map_picture.hpp"
 #include "files/render/rendering_available.hpp"
 #include "files/render/side_by_side.hpp"
 #include "files/render/surface_picture.hpp"
@@ -30,9 +31,9 @@ TEST(WithoutCairo, EveryDrawingFunctionReportsTheSameAndWritesNothing) {
   const io::TemporaryFolder folder;
   std::vector<std::byte> png;
 
-  const std::array drawn = {draw_birds_eye(folder / "a.png", {}, {}, {}),
-                            draw_surface(folder / "b.png", {}, {}),
-                            render_side_by_side({}, {}, {}, {}, png)};
+  const std::array drawn = {
+      draw_birds_eye(folder / "a.png", {}, {}, {}), draw_surface(folder / "b.png", {}, {}),
+      draw_ground_map(folder / "c.png", {}, {}), render_side_by_side({}, {}, {}, {}, png)};
 
   for (const Status& status : drawn) EXPECT_EQ(status.message(), rendering_available().message());
   EXPECT_TRUE(std::filesystem::is_empty(folder / "."));
