@@ -14,15 +14,18 @@ returns the plane of each ground patch, and the ground as one continuous surface
 Coordinates are in metres in the sensor frame: x forward, y left, z up.
 """
 
-from flagstone import io, plot, ros
+from flagstone import io, maps, plot, ros
 from flagstone._core import version as __version__
 from flagstone._evaluate import Evaluation, evaluate
+from flagstone._map_run import MapSummary, map
 from flagstone._score import Score, score
 from flagstone._simulate import SimulatedScan, simulate
 from flagstone.bags.job import bag
 from flagstone.bags.summary import BagSummary
 from flagstone.codes import Label, Verdict
+from flagstone.ground_map import GroundMap, Levelling, MapGrid, MapSample
 from flagstone.ground_surface import Grid, GroundSample, GroundSurface
+from flagstone.label_vote import LabelVote
 from flagstone.segmentation import Mount, Segmentation
 from flagstone.segmenters import Patchwork, Segmenter, Surface, make_segmenter, method_names
 from flagstone.sensors import Sensor, sensors
@@ -32,9 +35,15 @@ __all__ = [
     "BagSummary",
     "Evaluation",
     "Grid",
+    "GroundMap",
     "GroundSample",
     "GroundSurface",
     "Label",
+    "LabelVote",
+    "Levelling",
+    "MapGrid",
+    "MapSample",
+    "MapSummary",
     "Mount",
     "Patchwork",
     "Score",
@@ -49,6 +58,8 @@ __all__ = [
     "evaluate",
     "io",
     "make_segmenter",
+    "map",
+    "maps",
     "method_names",
     "plot",
     "ros",

@@ -21,6 +21,7 @@ MODULES = {
     "bag": "flagstone.bags.command",
     "doctor": "flagstone.bags.doctor",
     "info": "flagstone.bags.info",
+    "map": "flagstone.maps.command",
     "ray": "flagstone.ray.command",
 }
 """The module of each command. Its function `run(options, paths)` returns the exit code."""

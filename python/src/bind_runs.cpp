@@ -10,6 +10,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -24,6 +25,7 @@
 #include <vector>
 
 #include "app/evaluate.hpp"
+#include "app/mapping/map_run.hpp"
 #include "app/simulate.hpp"
 #include "bindings.hpp"
 #include "lab/eval/results_export.hpp"
@@ -92,9 +94,10 @@ unsigned checked_threads(const std::optional<nb::int_>& threads) {
 std::size_t simulate(const std::string& output, const std::string& scene, const std::string& sensor,
                      std::optional<double> sensor_height, const std::string& tilt,
                      const std::string& noise, const std::vector<std::string>& weather,
-                     bool keep_no_returns, nb::int_ frames, double rate, double speed,
-                     const std::string& pose_noise, nb::int_ seed, const std::string& sequence,
-                     const std::optional<nb::int_>& threads, nb::object draw, std::size_t columns) {
+                     bool keep_no_returns, nb::int_ frames, double length, bool loop, double rate,
+                     double speed, bool distortion, const std::string& pose_noise, nb::int_ seed,
+                     const std::string& sequence, const std::optional<nb::int_>& threads,
+                     nb::object draw, std::size_t columns) {
   const app::SimulateOptions options{
       .output = output,
       .scene = scene,
@@ -105,14 +108,17 @@ std::size_t simulate(const std::string& output, const std::string& scene, const 
       .weather = weather,
       .keep_no_returns = keep_no_returns,
       .frames = checked<std::size_t>("frames", frames, 1, app::max_frames),
-      .pace = {.rate = rate, .speed = speed},
+      .length = length,
+      .loop = loop,
+      .pace = {.rate = rate, .speed = speed, .distortion = distortion},
       .pose_noise = pose_noise,
       .seed = checked<std::uint64_t>("seed", seed, 0, std::numeric_limits<std::uint64_t>::max()),
       .sequence = sequence,
       .threads = checked_threads(threads)};
+  app::Simulation simulation;
   run({std::move(draw), columns},
-      [&](const app::RunCallbacks& callbacks) { app::simulate(options, callbacks); });
-  return options.pace.frames();
+      [&](const app::RunCallbacks& callbacks) { simulation = app::simulate(options, callbacks); });
+  return simulation.frames_per_environment;
 }
 
 /// Settings of methods and of the mounting pose, by name.
@@ -176,19 +182,93 @@ nb::typed<nb::tuple, std::string, nb::bytes, std::vector<std::string>> evaluate(
   return nb::make_tuple(json, nb::bytes(csv.data(), csv.size()), messages);
 }
 
+app::LabelSource label_source(const std::string& name) {
+  if (name == "live") return app::LabelSource::live;
+  if (name == "delayed") return app::LabelSource::delayed;
+  if (name == "offline") return app::LabelSource::offline;
+  constexpr std::array<std::string_view, 3> known = {"live", "delayed", "offline"};
+  throw std::invalid_argument("labels: " + no_such("kind of labels", name, known));
+}
+
+/// A run to map. The image of the ground is not drawn: this module does not include Cairo.
+app::MapRequest map_request(const std::string& run, const std::string& poses,
+                            const std::string& output, const std::string& labels, double delay,
+                            bool heights, double voxel, std::optional<double> rate,
+                            nb::int_ map_memory, const std::optional<nb::int_>& columns,
+                            const std::string& sensor, const Height& sensor_height,
+                            const Tilt& tilt, const std::string& config, const Settings& settings,
+                            const std::optional<nb::int_>& threads) {
+  const config::MethodChoice choice{.sensor = sensor,
+                                    .config_file = config,
+                                    .settings = {{.table = value_of(settings)}},
+                                    .mount = mount_choice(sensor_height, tilt),
+                                    .option_prefix = ""};
+  constexpr std::size_t most_megabytes = 100'000'000;
+  app::MapRequest request{
+      .run = run,
+      .poses = poses,
+      .output = output,
+      .method = config::resolve_one(choice),
+      .read = {.columns = columns ? checked("columns", *columns, 3, 1024) : 0},
+      .labels = label_source(labels),
+      .delay = delay,
+      .rate = rate,
+      .heights = heights,
+      .voxel = voxel,
+      .map_memory = checked<std::size_t>("map_memory", std::move(map_memory), 0, most_megabytes),
+      .threads = checked_threads(threads),
+      .picture = false};
+  for (const std::string& file : {config, sensor}) {
+    if (!file.empty()) request.settings_files.emplace_back(file);
+  }
+  return request;
+}
+
+/// The numbers of app::MapOutcome by name.
+nb::typed<nb::dict, std::string, nb::any> map_run(const app::MapRequest& request, nb::object draw,
+                                                  std::size_t columns) {
+  app::MapOutcome outcome;
+  run({std::move(draw), columns}, [&](const app::RunCallbacks& callbacks) {
+    outcome = app::map_run(request, {.run = callbacks});
+  });
+  nb::dict numbers;
+  numbers["scans"] = outcome.scans;
+  numbers["mapped"] = outcome.mapped;
+  numbers["alone"] = outcome.alone;
+  numbers["failed"] = outcome.failed;
+  numbers["moving_points"] = outcome.moving_points;
+  numbers["static_points"] = outcome.static_points;
+  numbers["path"] = outcome.path;
+  numbers["area"] = outcome.area;
+  numbers["map_bytes"] = outcome.map_bytes;
+  numbers["vote_bytes"] = outcome.vote_bytes;
+  numbers["seconds"] = outcome.seconds;
+  return numbers;
+}
+
 }  // namespace
 
 void bind_runs(nb::module_& module) {
   module.def("simulate", &simulate, nb::arg("output"), nb::arg("scene"), nb::arg("sensor"),
              nb::arg("sensor_height").none(), nb::arg("tilt"), nb::arg("noise"), nb::arg("weather"),
-             nb::arg("keep_no_returns"), nb::arg("frames"), nb::arg("rate"), nb::arg("speed"),
-             nb::arg("pose_noise"), nb::arg("seed"), nb::arg("sequence"), nb::arg("threads").none(),
+             nb::arg("keep_no_returns"), nb::arg("frames"), nb::arg("length"), nb::arg("loop"),
+             nb::arg("rate"), nb::arg("speed"), nb::arg("distortion"), nb::arg("pose_noise"),
+             nb::arg("seed"), nb::arg("sequence"), nb::arg("threads").none(),
              nb::arg("draw").none(), nb::arg("terminal_columns"));
   module.def("evaluate", &evaluate, nb::arg("datasets"), nb::arg("methods"), nb::arg("protocol"),
              nb::arg("sequences"), nb::arg("every"), nb::arg("columns").none(), nb::arg("sensor"),
              nb::arg("sensor_height").none(), nb::arg("tilt").none(), nb::arg("preset"),
              nb::arg("config"), nb::arg("settings"), nb::arg("labels"),
              nb::arg("labels_are_classes"), nb::arg("threads").none(), nb::arg("draw").none(),
+             nb::arg("terminal_columns"));
+  [[maybe_unused]] const nb::class_<app::MapRequest> request(module, "MapRequest");
+  module.def("map_request", &map_request, nb::arg("run"), nb::arg("poses"), nb::arg("output"),
+             nb::arg("labels"), nb::arg("delay"), nb::arg("heights"), nb::arg("voxel"),
+             nb::arg("rate").none(), nb::arg("map_memory"), nb::arg("columns").none(),
+             nb::arg("sensor"), nb::arg("sensor_height").none(), nb::arg("tilt").none(),
+             nb::arg("config"), nb::arg("settings"), nb::arg("threads").none());
+  module.def("check_map_request", &app::check_map_request, nb::arg("request"));
+  module.def("map_run", &map_run, nb::arg("request"), nb::arg("draw").none(),
              nb::arg("terminal_columns"));
 }
 

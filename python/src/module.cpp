@@ -49,4 +49,5 @@ NB_MODULE(_core, module) {
   bind_score(module);
   bind_runs(module);
   bind_doctor(module);
+  bind_ground_map(module);
 }

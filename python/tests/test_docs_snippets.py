@@ -141,6 +141,7 @@ def test_numbers_of_the_readme_are_on_a_page_that_the_same_paragraph_links_to() 
 PLACEHOLDERS = {"METRES": "1.73", "PROTOCOL": "simulation", "METHOD": "surface", "NAME": "vlp-16", "SCENE": "park"}
 FLAGS = ("--json", "--compare", "--image", "--color-patches", "--heights", "--surface", "--speed")
 SHORTEST = {"simulate": ("--frames", "1"), "bench": ("--rounds", "1")}
+INPUTS = {"eval": "dataset", "sweep": "dataset", "map": "run"}  # the others read a scan
 
 
 def commands(program: str) -> dict[str, str]:
@@ -172,6 +173,7 @@ def stand_ins(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (directory / "labels").mkdir()
     (directory / "labels" / "sequences").symlink_to(sequences)
     (sequences / "00" / "predictions").symlink_to(sequences / "00" / "labels")
+    (directory / "run").symlink_to(sequences / "00")
     (directory / "scan.bin").symlink_to(sequences / "00" / "velodyne" / "000000.bin")
     (directory / "scan.label").symlink_to(sequences / "00" / "labels" / "000000.label")
     for method in ("surface", "patchwork"):
@@ -244,7 +246,7 @@ def on_stand_ins(command: str, directory: Path) -> list[str]:
             arguments.append(value_on_stand_ins(option, word, method, directory))
             option = ""
         else:
-            inputs = [str(directory / ("dataset" if subcommand in ("eval", "sweep") else "scan.bin"))]
+            inputs = [str(directory / INPUTS.get(subcommand, "scan.bin"))]
     for name, value in [SHORTEST[subcommand]] if subcommand in SHORTEST else []:
         if name in arguments:
             arguments[arguments.index(name) + 1] = value
@@ -261,6 +263,8 @@ def value_on_stand_ins(option: str, value: str, method: str, directory: Path) ->
             return str(directory / "scan.label")
         case "--labels":
             return f"{value.partition('=')[0]}={directory / 'labels'}"
+        case "--poses":
+            return str(directory / "run" / "poses.txt")
         case "--config":
             return str(directory / f"{method}.toml")
         case "--sensor" if value.endswith(".toml"):

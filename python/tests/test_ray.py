@@ -136,7 +136,9 @@ def test_other_filesystems_get_identical_labels_despite_a_scan_that_crashes_work
     deadly, torn = summary.failures
     assert deadly.error.startswith(f"{scans}/00/deadly.bin: 2 workers crashed while processing this scan")
     assert torn.error.startswith(f"{scans}/02/torn.bin: byte 0: ")
-    assert files(tmp_path / "labels") == files(tmp_path / "expected")
+    # A worker that is killed while it writes the labels of another scan leaves their temporary file.
+    written = {name: data for name, data in files(tmp_path / "labels").items() if "/.flagstone-" not in f"/{name}"}
+    assert written == files(tmp_path / "expected")
     for path in (scans / "00" / "deadly.bin", scans / "02" / "torn.bin"):
         path.unlink()
     assert flagstone.ray.segment(**where).already_labelled == len(SCANS)

@@ -32,6 +32,7 @@ class Command {
 std::unique_ptr<Command> add_segment_command(CLI::App& app);
 std::unique_ptr<Command> add_doctor_command(CLI::App& app);
 std::unique_ptr<Command> add_info_command(CLI::App& app);
+std::unique_ptr<Command> add_map_command(CLI::App& app);
 std::unique_ptr<Command> add_bag_command(CLI::App& app);
 std::unique_ptr<Command> add_ray_command(CLI::App& app);
 std::unique_ptr<Command> add_eval_command(CLI::App& app);

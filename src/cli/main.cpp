@@ -31,7 +31,7 @@ std::vector<std::unique_ptr<flagstone::cli::Command>> add_commands(CLI::App& app
     const std::vector<CLI::App*> all = app.get_subcommands([](CLI::App*) { return true; });
     for (std::size_t i = first; i < all.size(); ++i) all[i]->group(name);
   };
-  add_group("Segment scans", add_segment_command, add_bag_command, add_ray_command,
+  add_group("Segment scans", add_segment_command, add_map_command, add_bag_command, add_ray_command,
             add_doctor_command, add_info_command);
   add_group("Measure accuracy and speed", add_eval_command, add_sweep_command, add_bench_command);
   add_group("Simulate scans", add_demo_command, add_simulate_command);

@@ -17,6 +17,13 @@ namespace flagstone::cli {
 [[noreturn]] void run_in_python(const std::string& command, const nlohmann::ordered_json& options,
                                 const std::vector<std::string>& paths);
 
+/// Runs `command` in the same Python and waits for it. Returns its exit code; 1 if a signal ended
+/// it. It is ended some time after a signal that catch_interrupts() noticed. `extra`: the optional
+/// dependencies that the command needs, for the message if there is no Python package. Throws as
+/// run_in_python().
+int call_python(const std::string& command, const nlohmann::ordered_json& options,
+                const std::vector<std::string>& paths, std::string_view extra);
+
 /// Whether the path names a bag: a file .bag, .mcap or .db3, or a directory with metadata.yaml.
 bool is_bag(std::string_view path);
 

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+#include "app/mapping/run_mapper.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "files/io/map_files.hpp"
+#include "library/core/setting.hpp"
+
+namespace flagstone::app {
+namespace {
+
+// Moving points take no part in a vote: they are out of range while this object exists.
+class WithoutMovingPoints {
+ public:
+  explicit WithoutMovingPoints(RunScan& scan) : scan_(scan) { set(Label::out_of_range); }
+  ~WithoutMovingPoints() { set(Label::nonground); }
+  WithoutMovingPoints(const WithoutMovingPoints&) = delete;
+  WithoutMovingPoints& operator=(const WithoutMovingPoints&) = delete;
+
+ private:
+  void set(Label label) noexcept {
+    if (scan_.moving.objects.empty()) return;
+    const std::span<Label> labels = scan_.result.mutable_labels();
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (scan_.moving.objects_of_points[i] != 0) labels[i] = label;
+    }
+  }
+
+  RunScan& scan_;
+};
+
+void label_moving_points(const MovingMask& moving, std::vector<Label>& labels) noexcept {
+  if (moving.objects.empty()) return;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (moving.objects_of_points[i] != 0) labels[i] = Label::nonground;
+  }
+}
+
+RunMapperConfig with_delay(RunMapperConfig config) {
+  if (config.labels == LabelSource::live || config.labels == LabelSource::own) config.delay = 0;
+  if (config.labels == LabelSource::offline) config.delay = MovingPoints::reach;
+  config.moving.delay = config.delay;
+  return config;
+}
+
+}  // namespace
+
+void RunMapperConfig::check() const {
+  check_number("map", "delay", delay, {.low = 0, .high = 10, .unit = "s"});
+  map.check();
+  vote.check();
+  moving.check();
+}
+
+RunMapper::RunMapper(const RunMapperConfig& config)
+    : config_((config.check(), with_delay(config))),
+      map_(config_.tiles ? GroundMap(config_.map, config_.tiles) : GroundMap(config_.map)),
+      vote_(config_.vote),
+      moving_(config_.moving) {}
+
+// Live labels are known at once.
+Status RunMapper::vote_for(RunScan& scan) {
+  Status status;
+  if (config_.labels == LabelSource::live) {
+    scan.labels.resize(scan.cloud.size());
+    {
+      const WithoutMovingPoints excluded(scan);
+      status = vote_.add(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling,
+                         scan.labels);
+    }
+    label_moving_points(scan.moving, scan.labels);
+    return status;
+  }
+  const WithoutMovingPoints excluded(scan);
+  return vote_.add(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling);
+}
+
+Status RunMapper::add(std::unique_ptr<RunScan> scan, const Use& finished) {
+  const CloudView cloud = scan->level.cloud();
+  const Pose& pose = scan->level.pose();
+  Status status = map_.level(cloud, scan->result, pose, scan->levelling);
+  if (!status.ok()) return status;
+  scan->fits = judge_.fits(scan->levelling);
+  if (scan->fits) {
+    status = moving_.add(cloud, scan->result, pose, scan->levelling, scan->time, scan->moving);
+    if (status.ok()) status = map_.add(cloud, scan->result, pose, scan->levelling);
+    // Offline, the labels come at the end, so votes can wait until the moving points are known.
+    if (status.ok() && config_.labels != LabelSource::offline) status = vote_for(*scan);
+    if (!status.ok()) return status;
+  }
+  const double now = scan->time;
+  open_.push_back(std::move(scan));
+  while (!open_.empty() && open_.front()->time <= now - config_.delay) {
+    if (status = finish_first(finished); !status.ok()) return status;
+  }
+  return {};
+}
+
+Status RunMapper::finish(const Use& finished) {
+  while (!open_.empty()) {
+    if (Status status = finish_first(finished); !status.ok()) return status;
+  }
+  return {};
+}
+
+Status RunMapper::finish_first(const Use& finished) {
+  const std::unique_ptr<RunScan> scan = std::move(open_.front());
+  open_.pop_front();
+  Status status;
+  if (scan->fits) {
+    if (config_.delay > 0) {
+      status = moving_.find(scan->level.cloud(), scan->result, scan->level.pose(), scan->levelling,
+                            scan->time, scan->moving);
+    }
+    if (status.ok() && config_.labels == LabelSource::offline) status = vote_for(*scan);
+  }
+  const bool has_labels = config_.labels == LabelSource::live && scan->fits;
+  if (status.ok() && !has_labels && config_.labels != LabelSource::offline) {
+    status = relabel(*scan, scan->labels);
+  }
+  if (status.ok()) finished(*scan);
+  return status;
+}
+
+Status RunMapper::save(const std::filesystem::path& directory) const {
+  const Status status = io::save(directory / "map.bin", map_);
+  return status.ok() ? io::save(directory / "votes.bin", vote_) : status;
+}
+
+Status RunMapper::load(const std::filesystem::path& directory) {
+  const Status status = io::load(directory / "map.bin", map_);
+  return status.ok() ? io::load(directory / "votes.bin", vote_) : status;
+}
+
+Status RunMapper::relabel(const RunScan& scan, std::vector<Label>& labels) const {
+  labels.assign(scan.result.labels().begin(), scan.result.labels().end());
+  if (!scan.fits || config_.labels == LabelSource::own) return {};
+  const Status status =
+      vote_.relabel(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling, labels);
+  label_moving_points(scan.moving, labels);
+  return status;
+}
+
+void RunMapper::heights_above_map(const RunScan& scan, std::vector<float>& heights) const {
+  const CloudView cloud = scan.level.cloud();
+  heights.assign(scan.result.heights().begin(), scan.result.heights().end());
+  if (!scan.fits) return;
+  const auto& [rotation, position] = scan.level.pose();
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const Label label = scan.result.labels()[i];
+    if (label == Label::invalid || label == Label::out_of_range) continue;
+    const Point p = cloud[i];
+    const auto axis = [&, &r = rotation, &t = position](std::size_t row) {
+      return t[row] + r[3 * row] * double{p.x} + r[3 * row + 1] * double{p.y} +
+             r[3 * row + 2] * double{p.z};
+    };
+    const double x = axis(0);
+    const double y = axis(1);
+    const double height = axis(2) - scan.levelling.at(x, y, position) - map_.height(x, y);
+    if (std::isfinite(height)) heights[i] = static_cast<float>(height);
+  }
+}
+
+}  // namespace flagstone::app
