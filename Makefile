@@ -8,7 +8,8 @@ PREFIX ?= /usr/local
 MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence bench-codec latency soak-test surface-figures
 
 .PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
-        bench-compare bench-bags $(MEASUREMENTS) surface-study worlds-study invariance-study contact-sheet clean
+        bench-compare bench-bags $(MEASUREMENTS) surface-study worlds-study invariance-study contact-sheet \
+        map-image clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
@@ -84,6 +85,9 @@ invariance-study: build ## shuffle, double, turn and flip real scans, write tabl
 
 contact-sheet: build ## draw every scene as seen by three sensors: docs/images/worlds.png; SHEET: options of bench/contact_sheet.py
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/contact_sheet.py $(SHEET)
+
+map-image: build ## simulate and map a run and draw its ground and moving points: docs/images/map.png; IMAGE: options of bench/map_image.py
+	@scripts/setup plot && "$$(scripts/python plotting)" bench/map_image.py $(IMAGE)
 
 clean: ## remove the build trees
 	@rm -rf build build-python build-fuzz build-thread build-sanitize build-sanitize-thread build-compare
