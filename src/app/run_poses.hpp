@@ -19,7 +19,7 @@ namespace flagstone::app {
 struct ScanPose {
   std::optional<Pose> pose{};    ///< of the sensor; not checked, see check_poses()
   std::optional<double> time{};  ///< of the scan, seconds; nothing if unknown
-  std::string reason{};          ///< a few words if there is no pose, without a location
+  std::string reason{};          ///< why the pose is missing, in a few words
 };
 
 /// The poses of the scans of a run.

@@ -19,7 +19,7 @@ namespace flagstone::cli {
 
 /// Runs `command` in the same Python and waits for it. Returns its exit code; 1 if a signal ended
 /// it. It is ended some time after a signal that catch_interrupts() noticed. `extra`: the optional
-/// dependencies that the command needs, for the message if there is no Python package. Throws as
+/// dependencies that the command needs, for the message if the Python package is missing. Throws as
 /// run_in_python().
 int call_python(const std::string& command, const nlohmann::ordered_json& options,
                 const std::vector<std::string>& paths, std::string_view extra);

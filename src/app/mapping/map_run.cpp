@@ -47,7 +47,6 @@ void throw_unless_ok(const Status& status) {
 
 std::string_view name_of(LabelSource source) noexcept {
   switch (source) {
-    case LabelSource::own: return "own";
     case LabelSource::live: return "live";
     case LabelSource::delayed: return "delayed";
     case LabelSource::offline: break;

@@ -39,7 +39,7 @@ void label_moving_points(const MovingMask& moving, std::vector<Label>& labels) n
 }
 
 RunMapperConfig with_delay(RunMapperConfig config) {
-  if (config.labels == LabelSource::live || config.labels == LabelSource::own) config.delay = 0;
+  if (config.labels == LabelSource::live) config.delay = 0;
   if (config.labels == LabelSource::offline) config.delay = MovingPoints::reach;
   config.moving.delay = config.delay;
   return config;
@@ -136,7 +136,7 @@ Status RunMapper::load(const std::filesystem::path& directory) {
 
 Status RunMapper::relabel(const RunScan& scan, std::vector<Label>& labels) const {
   labels.assign(scan.result.labels().begin(), scan.result.labels().end());
-  if (!scan.fits || config_.labels == LabelSource::own) return {};
+  if (!scan.fits) return {};
   const Status status =
       vote_.relabel(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling, labels);
   label_moving_points(scan.moving, labels);

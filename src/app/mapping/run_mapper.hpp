@@ -21,10 +21,9 @@
 
 namespace flagstone::app {
 
-/// Which scans the labels of a scan are from.
+/// Which scans determine the labels of a scan.
 enum class LabelSource {
-  own,      ///< the scan alone
-  live,     ///< also the scans before it
+  live,     ///< the scan itself and the scans before it
   delayed,  ///< also the scans of a fixed time after it
   offline,  ///< all scans of the run
 };

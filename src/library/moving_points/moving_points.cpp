@@ -50,6 +50,16 @@ struct Scan {
   double time;
 };
 
+Scan scan_of(CloudView cloud, const Segmentation& result, const Pose& pose,
+             const Levelling& levelling, double time) noexcept {
+  return {.cloud = cloud,
+          .labels = result.labels(),
+          .heights = result.heights(),
+          .pose = pose,
+          .levelled = LevelledPose(pose, levelling),
+          .time = time};
+}
+
 Status check_scan(CloudView cloud, const Segmentation& result, const Pose& pose) {
   if (cloud.size() != result.labels().size() || cloud.size() != result.heights().size()) {
     return Status(StatusCode::invalid_argument,
@@ -306,13 +316,7 @@ Status MovingPoints::add(CloudView cloud, const Segmentation& result, const Pose
                          const Levelling& levelling, double time, MovingMask& mask) {
   if (Status status = check_scan(cloud, result, pose); !status.ok()) return status;
   try {
-    return finder_->add({.cloud = cloud,
-                         .labels = result.labels(),
-                         .heights = result.heights(),
-                         .pose = pose,
-                         .levelled = LevelledPose(pose, levelling),
-                         .time = time},
-                        mask);
+    return finder_->add(scan_of(cloud, result, pose, levelling, time), mask);
   } catch (const std::bad_alloc&) {
     return Status(StatusCode::out_of_memory);
   }
@@ -322,13 +326,7 @@ Status MovingPoints::find(CloudView cloud, const Segmentation& result, const Pos
                           const Levelling& levelling, double time, MovingMask& mask) {
   if (Status status = check_scan(cloud, result, pose); !status.ok()) return status;
   try {
-    return finder_->find_again({.cloud = cloud,
-                                .labels = result.labels(),
-                                .heights = result.heights(),
-                                .pose = pose,
-                                .levelled = LevelledPose(pose, levelling),
-                                .time = time},
-                               mask);
+    return finder_->find_again(scan_of(cloud, result, pose, levelling, time), mask);
   } catch (const std::bad_alloc&) {
     return Status(StatusCode::out_of_memory);
   }
