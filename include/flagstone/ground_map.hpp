@@ -34,7 +34,8 @@ struct GroundMapConfig {
   /// 0: the map keeps everything.
   double window = 0;
   /// Largest height difference between a scan and the map that is treated as an error of the pose,
-  /// metres, 0 to 100. Scans that differ more are added without a correction.
+  /// metres, 0 to 100, beyond the correction of the scan before. Scans that differ more are added
+  /// with the correction of the scan before.
   double max_correction = 1;
   /// Largest memory of the cells, bytes. Beyond it, the tiles that were not measured for the
   /// longest time are moved to the TileStore of the map. 0: no limit. Not together with `window`.
@@ -46,11 +47,12 @@ struct GroundMapConfig {
 
 /// The correction of a pose in height, pitch and roll that fits a scan to the map.
 struct Levelling {
-  bool applied = false;   ///< false: too few common cells, or a difference above max_correction
+  /// False: too few common cells, or a difference above max_correction. The plane is then the
+  /// plane of the scan before.
+  bool applied = false;
   std::size_t cells = 0;  ///< number of cells that both the scan and the map know
   /// @name Plane to subtract from heights in the world frame
-  /// offset + slope_x (x - X) + slope_y (y - Y), where (X, Y) is the position of the sensor. 0 if
-  /// not applied.
+  /// offset + slope_x (x - X) + slope_y (y - Y), where (X, Y) is the position of the sensor.
   /// @{
   double offset = 0;   ///< metres
   double slope_x = 0;  ///< m/m
@@ -122,11 +124,12 @@ class TileStore {
 
 /// The ground along a run, in the world frame: one height per cell, from all scans that saw the
 /// cell. Each scan is levelled to the map before it is added, which removes the errors of its pose
-/// in height, pitch and roll.
+/// in height, pitch and roll. Over long distances, about 100 m, the map follows the
+/// poses.
 ///
 /// If a run returns to the same ground, or a second run passes it, the first pass decides: later
 /// scans are levelled to its heights. If a scan differs from the map by more than
-/// GroundMapConfig::max_correction, it is added without a correction, because it may be another
+/// GroundMapConfig::max_correction, it is not levelled, because it may be another
 /// storey. A cell keeps two heights, so a wrong one from one scan, such as a car roof, gives way to
 /// the height with more evidence. MapSample::contradictions counts the scans of the other height.
 ///

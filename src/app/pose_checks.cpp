@@ -468,61 +468,42 @@ PoseChecks check_poses(std::span<const std::optional<Pose>> poses, std::span<con
   return RunCheck(poses, times, from_camera).check();
 }
 
+namespace {
+
+// True if a levelling differs little from the median of others.
+bool is_like(const Levelling& levelling, const std::deque<Levelling>& others) {
+  constexpr double max_offset = 0.3;  // metres
+  constexpr double max_slope = 0.07;  // m/m
+  const auto usual = [&](double Levelling::* quantity) {
+    std::vector<double> values;
+    values.reserve(others.size());
+    for (const Levelling& each : others) values.push_back(each.*quantity);
+    return values.empty() ? 0 : median(values);
+  };
+  const double offset = levelling.offset - usual(&Levelling::offset);
+  const double slope = std::hypot(levelling.slope_x - usual(&Levelling::slope_x),
+                                  levelling.slope_y - usual(&Levelling::slope_y));
+  return std::abs(offset) <= max_offset && slope <= max_slope;
+}
+
+}  // namespace
+
 bool LevellingJudge::fits(const Levelling& levelling) {
   constexpr std::size_t min_cells = 100;
   constexpr std::size_t window = 10;
-  constexpr double max_offset = 0.3;  // metres
-  constexpr double max_slope = 0.07;  // m/m
   if (levelling.cells < min_cells) return true;
-  bool is_fitting = levelling.applied;
-  if (is_fitting) {
-    const auto usual = [&](double Levelling::* quantity) {
-      std::vector<double> values;
-      values.reserve(recent_.size());
-      for (const Levelling& each : recent_) values.push_back(each.*quantity);
-      return values.empty() ? 0 : median(values);
-    };
-    const double offset = levelling.offset - usual(&Levelling::offset);
-    const double slope = std::hypot(levelling.slope_x - usual(&Levelling::slope_x),
-                                    levelling.slope_y - usual(&Levelling::slope_y));
-    is_fitting = std::abs(offset) <= max_offset && slope <= max_slope;
+  if (levelling.applied && is_like(levelling, state_.fitting)) {
+    state_.misfits.clear();
+    state_.fitting.push_back(levelling);
+    if (state_.fitting.size() > window) state_.fitting.pop_front();
+    return true;
   }
-  if (!is_fitting) {
-    ++misfits_;
-    return false;
-  }
-  misfits_ = 0;
-  recent_.push_back(levelling);
-  if (recent_.size() > window) recent_.pop_front();
+  const bool continues = levelling.applied && is_like(levelling, state_.misfits);
+  if (!continues) state_.misfits.clear();
+  if (levelling.applied) state_.misfits.push_back(levelling);
+  if (state_.misfits.size() < window) return false;
+  state_.fitting = std::exchange(state_.misfits, {});
   return true;
-}
-
-std::vector<PoseProblem> judge_levelling(std::span<const std::optional<Levelling>> levellings) {
-  std::vector<PoseProblem> problems;
-  LevellingJudge judge;
-  bool was_misfit = false;
-  for (std::size_t scan = 0; scan < levellings.size(); ++scan) {
-    const std::optional<Levelling>& levelling = levellings[scan];
-    if (!levelling) continue;
-    const bool is_misfit = !judge.fits(*levelling);
-    if (is_misfit && was_misfit) {
-      problems.back().last = scan;
-    } else if (is_misfit) {
-      const Levelling& found = *levelling;
-      const std::string how =
-          found.applied ? fmt::format("by {:.2f} m and {:.1f} degrees", found.offset,
-                                      degrees * std::atan(std::hypot(found.slope_x, found.slope_y)))
-                        : "by more than can be corrected";
-      problems.push_back({.kind = PoseProblemKind::levelling,
-                          .first = scan,
-                          .last = scan,
-                          .message = fmt::format("the ground differs from the map {} (the pose may "
-                                                 "be wrong)",
-                                                 how)});
-    }
-    was_misfit = is_misfit;
-  }
-  return problems;
 }
 
 }  // namespace flagstone::app

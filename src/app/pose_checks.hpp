@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "flagstone/ground_map.hpp"
@@ -22,7 +23,6 @@ enum class PoseProblemKind {
   speed,           ///< most of the run is faster than 70 m/s: wrong units
   calibration,     ///< the poses do not have the axes of the sensor
   world_frame,     ///< the z axis of the world frame does not point up
-  levelling,       ///< the ground of a scan does not fit the map
 };
 
 /// A problem of the poses of a run.
@@ -69,22 +69,28 @@ PoseChecks check_poses(std::span<const std::optional<Pose>> poses, std::span<con
 /// It detects what the poses alone cannot show, such as a wrong pitch at a low rate.
 class LevellingJudge {
  public:
+  /// The scans that later results depend on, at most ten of each kind, oldest first.
+  struct State {
+    std::deque<Levelling> fitting;  ///< the last scans that fitted
+    std::deque<Levelling> misfits;  ///< scans in a row that did not fit, but fit together
+  };
+
+  LevellingJudge() = default;
+  /// Continues another one from its state().
+  explicit LevellingJudge(State state) noexcept : state_(std::move(state)) {}
+
   /// True if the scan fits the map as well as the last ones, or if it has fewer than 100 cells in
   /// common with the map. False if it could not be levelled, or if its offset or slope differs from
-  /// the median of the last ten scans by more than 0.3 m or 0.07 m/m (4 degrees). A second storey
-  /// above the map does not fit either.
+  /// the median of the last ten scans that fitted by more than 0.3 m or 0.07 m/m (4 degrees). A
+  /// second storey above the map does not fit either. After ten scans in a row that do not fit, but
+  /// could be levelled and need the same correction, that correction is the usual one: the run has
+  /// returned to its first scans with another error of its poses.
   bool fits(const Levelling& levelling);
 
-  /// Number of scans in a row that did not fit, up to the last one.
-  [[nodiscard]] std::size_t misfits() const noexcept { return misfits_; }
+  [[nodiscard]] const State& state() const noexcept { return state_; }
 
  private:
-  std::deque<Levelling> recent_;  // those that fitted
-  std::size_t misfits_ = 0;
+  State state_;
 };
-
-/// Judges the scans of a run: one problem per group of consecutive scans that do not fit. Scans
-/// without a levelling, such as those without a pose, are skipped.
-std::vector<PoseProblem> judge_levelling(std::span<const std::optional<Levelling>> levellings);
 
 }  // namespace flagstone::app

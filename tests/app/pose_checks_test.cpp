@@ -467,26 +467,40 @@ TEST(LevellingJudge, RejectsScansThatDifferFromTheLastOnes) {
   EXPECT_FALSE(judge.fits(levelled(0.5)));
   EXPECT_FALSE(judge.fits(levelled(0.1, 0.1)));
   EXPECT_FALSE(judge.fits(not_levelled(100)));
-  EXPECT_EQ(judge.misfits(), 3U);
   EXPECT_TRUE(judge.fits(levelled(0.1)));
-  EXPECT_EQ(judge.misfits(), 0U);
+}
+
+TEST(LevellingJudge, CanBeContinued) {
+  LevellingJudge judge;
+  for (int i = 0; i < 12; ++i) judge.fits(levelled(0.03 * i));
+  judge.fits(levelled(9));
+
+  LevellingJudge copy(judge.state());
+
+  EXPECT_FALSE(copy.fits(levelled(-0.2)));
+  EXPECT_TRUE(copy.fits(levelled(0.45)));
+}
+
+TEST(LevellingJudge, AcceptsAnotherCorrectionAfterTenScansThatNeedIt) {
+  LevellingJudge judge;
+  for (int i = 0; i < 20; ++i) judge.fits(levelled(0));
+  for (int i = 0; i < 9; ++i) EXPECT_FALSE(judge.fits(levelled(0.6))) << i;
+  EXPECT_TRUE(judge.fits(levelled(0.6)));
+  EXPECT_TRUE(judge.fits(levelled(0.5)));
+  EXPECT_FALSE(judge.fits(levelled(0)));
+}
+
+TEST(LevellingJudge, NeverAcceptsScansThatDoNotFitTogether) {
+  LevellingJudge judge;
+  for (int i = 0; i < 20; ++i) judge.fits(levelled(0));
+  for (int i = 0; i < 50; ++i) EXPECT_FALSE(judge.fits(levelled(i % 2 == 0 ? 0.9 : -0.9))) << i;
+  for (int i = 0; i < 50; ++i) EXPECT_FALSE(judge.fits(not_levelled(4000))) << i;
 }
 
 TEST(LevellingJudge, AcceptsScansBeyondTheMap) {
   LevellingJudge judge;
   EXPECT_TRUE(judge.fits(not_levelled(0)));
   EXPECT_TRUE(judge.fits(not_levelled(99)));
-}
-
-TEST(LevellingJudge, ReportsGroupsOfScans) {
-  std::vector<std::optional<Levelling>> run(12, levelled(0));
-  run[3] = levelled(0.9);
-  run[6] = not_levelled(4000);
-  run[7].reset();
-  run[8] = not_levelled(4000);
-
-  EXPECT_THAT(judge_levelling(run),
-              ElementsAre(is_problem(Kind::levelling, 3, 3), is_problem(Kind::levelling, 6, 8)));
 }
 
 }  // namespace

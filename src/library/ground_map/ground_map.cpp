@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 #include <new>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -16,12 +15,14 @@
 
 #include "library/core/floating_point_mode.hpp"
 #include "library/core/setting.hpp"
+#include "library/ground_map/last_levelling.hpp"
 #include "library/ground_map/level_fit.hpp"
 #include "library/ground_map/poses.hpp"
 #include "library/ground_map/scan_heights.hpp"
 #include "library/ground_map/state_bytes.hpp"
 #include "library/ground_map/tile_archive.hpp"
 #include "library/ground_map/tile_bytes.hpp"
+#include "library/ground_map/tile_indices.hpp"
 #include "library/ground_map/tiles.hpp"
 
 namespace flagstone {
@@ -89,6 +90,7 @@ class GroundMap::Tiles {
   std::unique_ptr<TileArchive> archive;  // of a map with a TileStore, otherwise null
   double base = 0;  // z of the sensor in the first scan; stored heights are relative to it
   std::size_t scans = 0;
+  LastLevelling last;
 
   /// Reads those tiles of the heights that are in the store.
   Status recall(std::span<const MeasuredHeight> heights);
@@ -185,7 +187,9 @@ Status GroundMap::fit(CloudView cloud, const Segmentation& result, const Pose& p
          .dy = measured.dy,
          .difference = measured.height - tiles_->base - double{cell.best.height}});
   }
-  levelling = fit_level(builder_->differences, tiles_->config.max_correction, builder_->memory);
+  levelling = fit_level(builder_->differences, tiles_->last.continued_at(pose),
+                        tiles_->config.max_correction, builder_->memory);
+  levelling = tiles_->last.without_forgotten(pose, levelling);
   return {};
 }
 
@@ -215,6 +219,7 @@ Status GroundMap::add(CloudView cloud, const Segmentation& result, const Pose& p
     }
     if (map.scans == 0) map.base = pose.position[2];
     ++map.scans;
+    map.last.replace(pose, levelling);
     TileIndex last;
     CellTiles::Tile* tile = nullptr;
     for (const MeasuredHeight& measured : heights) {
@@ -321,7 +326,7 @@ std::vector<TileIndex> GroundMap::tiles() const {
   });
   if (tiles_->archive)
     tiles_->archive->for_each([&](TileIndex index) { indices.push_back(index); });
-  std::ranges::sort(indices, [](TileIndex a, TileIndex b) { return is_after(b, a); });
+  sort_tiles(indices);
   return indices;
 }
 
@@ -349,6 +354,19 @@ bool GroundMap::read_tile(TileIndex index, MapTile& tile) const noexcept {
 
 namespace {
 
+std::array<double, 8> numbers_of(const LastLevelling& last) noexcept {
+  const auto& [plane, mean, position] = last;
+  return {plane.offset, plane.slope_x, plane.slope_y, mean.offset,
+          mean.slope_x, mean.slope_y,  position[0],   position[1]};
+}
+
+LastLevelling last_levelling_of(const std::array<double, 8>& numbers) noexcept {
+  const auto& [offset, x, y, mean_offset, mean_x, mean_y, position_x, position_y] = numbers;
+  return {.plane = {.offset = offset, .slope_x = x, .slope_y = y},
+          .mean = {.offset = mean_offset, .slope_x = mean_x, .slope_y = mean_y},
+          .position = {position_x, position_y}};
+}
+
 constexpr std::string_view map_magic = "fsgmap01";
 
 }  // namespace
@@ -362,11 +380,11 @@ Status GroundMap::to_bytes(std::vector<std::byte>& bytes) const {
     writer.add(tiles_->config.cell);
     writer.add(tiles_->base);
     writer.add(std::uint64_t{tiles_->scans});
+    for (const double number : numbers_of(tiles_->last)) writer.add(number);
     writer.add(std::uint64_t{indices.size()});
     std::vector<std::byte> stored;
     for (const TileIndex index : indices) {
-      writer.add(index.x);
-      writer.add(index.y);
+      write_index(index, writer);
       if (const CellTiles::Tile* const tile = tiles_->cells.tile(index); tile != nullptr) {
         write_cells(*tile, writer);
         continue;
@@ -393,34 +411,28 @@ Status GroundMap::from_bytes(std::span<const std::byte> bytes) {
     const auto cell = reader.read<double>();
     const auto base = reader.read<double>();
     const auto scans = reader.read<std::uint64_t>();
+    std::array<double, 8> numbers{};
+    for (double& number : numbers) number = reader.read<double>();
     const auto count = reader.read<std::uint64_t>();
-    if (reader.failed()) return bad_state(reader.offset(), "the header is incomplete", "40 bytes");
+    if (reader.failed()) return bad_state(reader.offset(), "the header is incomplete", "104 bytes");
     if (cell != tiles_->config.cell) {
       return bad_state(map_magic.size(), "the size of the cells differs",
                        "the setting `cell` of this map");
     }
-    if (!(std::abs(base) <= max_world_position) ||
+    const auto is_possible = [](double number) {
+      return std::abs(number) <= LastLevelling::no_position;
+    };
+    if (!(std::abs(base) <= max_world_position) || !std::ranges::all_of(numbers, is_possible) ||
         scans > std::numeric_limits<std::uint32_t>::max()) {
       return bad_state(map_magic.size() + sizeof cell, "an impossible number in the header",
-                       "a base up to 10,000 km and at most 2^32 - 1 scans");
+                       "positions up to 10,000 km and at most 2^32 - 1 scans");
     }
     CellTiles cells;
-    std::optional<TileIndex> last;
+    TileIndexReader indices(static_cast<double>(tile_width) * cell);
     for (std::uint64_t k = 0; k < count; ++k) {
       const std::size_t offset = reader.offset();
       TileIndex index;
-      index.x = reader.read<std::int64_t>();
-      index.y = reader.read<std::int64_t>();
-      const auto is_far = [&](std::int64_t place) {
-        return !(std::abs(static_cast<double>(place)) * tile_width * cell <=
-                 2 * max_world_position);
-      };
-      if (reader.failed() || is_far(index.x) || is_far(index.y) ||
-          (last && !is_after(index, *last))) {
-        return bad_state(offset, "not the index of the next tile",
-                         "as many tiles as in the header, sorted by y, then x");
-      }
-      last = index;
+      if (Status status = indices.read(reader, index); !status.ok()) return status;
       CellTiles::Tile& tile = cells.allocate(index, scans);
       if (Status status = read_cells(reader, tile); !status.ok()) return status;
       if (std::ranges::any_of(tile, [&](const MapCell& c) { return c.last_scan > scans; })) {
@@ -433,6 +445,7 @@ Status GroundMap::from_bytes(std::span<const std::byte> bytes) {
     tiles_->cells = std::move(cells);
     tiles_->base = base;
     tiles_->scans = static_cast<std::size_t>(scans);
+    tiles_->last = last_levelling_of(numbers);
     if (tiles_->archive) tiles_->archive->clear();
     return tiles_->unload();
   } catch (const std::bad_alloc&) {

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "library/ground_map/poses.hpp"
 #include "library/ground_map/scan_voxels.hpp"
 #include "library/ground_map/state_bytes.hpp"
+#include "library/ground_map/tile_indices.hpp"
 #include "library/ground_map/voxel_tiles.hpp"
 
 namespace flagstone {
@@ -253,7 +253,7 @@ Status LabelVote::to_bytes(std::vector<std::byte>& bytes) const {
     for (const auto& [index, tile] : votes_->tiles) {
       if (tile.size() > 0) indices.push_back(index);
     }
-    std::ranges::sort(indices, [](TileIndex a, TileIndex b) { return is_after(b, a); });
+    sort_tiles(indices);
     StateWriter writer(bytes);
     writer.start(vote_magic);
     writer.add(votes_->config.voxel);
@@ -261,8 +261,7 @@ Status LabelVote::to_bytes(std::vector<std::byte>& bytes) const {
     writer.add(std::uint64_t{indices.size()});
     for (const TileIndex index : indices) {
       const std::vector<VoxelTile::Entry> voxels = votes_->tiles.at(index).sorted();
-      writer.add(index.x);
-      writer.add(index.y);
+      write_index(index, writer);
       writer.add(std::uint64_t{voxels.size()});
       for (const VoxelTile::Entry& voxel : voxels) {
         writer.add(voxel.key);
@@ -319,22 +318,10 @@ Status LabelVote::from_bytes(std::span<const std::byte> bytes) {
                        "the settings `voxel` and `voxel_height` of this vote");
     }
     VoxelTiles tiles;
-    std::optional<TileIndex> last;
+    TileIndexReader indices(static_cast<double>(VoxelTile::width) * voxel);
     for (std::uint64_t k = 0; k < count; ++k) {
-      const std::size_t offset = reader.offset();
       TileIndex index;
-      index.x = reader.read<std::int64_t>();
-      index.y = reader.read<std::int64_t>();
-      const auto is_far = [&](std::int64_t place) {
-        const double metres = static_cast<double>(place) * VoxelTile::width * voxel;
-        return !(std::abs(metres) <= 2 * max_world_position);
-      };
-      if (reader.failed() || is_far(index.x) || is_far(index.y) ||
-          (last && !is_after(index, *last))) {
-        return bad_state(offset, "not the index of the next tile",
-                         "as many tiles as in the header, sorted by y, then x");
-      }
-      last = index;
+      if (Status status = indices.read(reader, index); !status.ok()) return status;
       if (Status status = read_voxels(reader, tiles[index]); !status.ok()) return status;
     }
     if (reader.left() > 0) {

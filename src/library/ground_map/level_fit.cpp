@@ -66,9 +66,11 @@ Plane3 weighted_fit(std::span<const HeightDifference> cells, const Weight& weigh
 
 }  // namespace
 
-Levelling fit_level(std::span<const HeightDifference> differences, double max_correction,
-                    std::vector<double>& memory) {
-  Levelling levelling{.cells = differences.size()};
+Levelling fit_level(std::span<const HeightDifference> differences, const Levelling& expected,
+                    double max_correction, std::vector<double>& memory) {
+  Levelling levelling = expected;
+  levelling.applied = false;
+  levelling.cells = differences.size();
   if (differences.size() < min_cells) return levelling;
   Plane3 plane;
   // The first plane is the median difference: a scan of which half contradicts the map still fits.
@@ -85,8 +87,9 @@ Levelling fit_level(std::span<const HeightDifference> differences, double max_co
       return 1 / (root * root);
     });
   }
-  if (!(std::abs(plane.offset) <= max_correction) ||
-      !(std::hypot(plane.slope_x, plane.slope_y) <= max_slope)) {
+  if (!(std::abs(plane.offset - expected.offset) <= max_correction) ||
+      !(std::hypot(plane.slope_x - expected.slope_x, plane.slope_y - expected.slope_y) <=
+        max_slope)) {
     return levelling;
   }
   levelling.applied = true;

@@ -16,10 +16,10 @@ struct HeightDifference {
 };
 
 /// Fits a plane to the differences, robustly: a cell that differs from the plane much more than the
-/// others has little weight. Not applied with fewer than 100 cells, or if the plane is steeper than
-/// 10 degrees or more than `max_correction` metres high at the sensor. Reuses `memory`. May throw
-/// std::bad_alloc.
-Levelling fit_level(std::span<const HeightDifference> differences, double max_correction,
-                    std::vector<double>& memory);
+/// others has little weight. With fewer than 100 cells, or if the plane differs from the expected
+/// one by more than 10 degrees or, at the sensor, by more than `max_correction` metres, the result
+/// is the expected plane, not applied. Reuses `memory`. May throw std::bad_alloc.
+Levelling fit_level(std::span<const HeightDifference> differences, const Levelling& expected,
+                    double max_correction, std::vector<double>& memory);
 
 }  // namespace flagstone

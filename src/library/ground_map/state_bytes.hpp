@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "flagstone/ground_map.hpp"
 #include "flagstone/status.hpp"
 
 namespace flagstone {
@@ -81,10 +80,5 @@ class StateReader {
 
 /// bad_file: "byte OFFSET: PROBLEM (expected EXPECTED)".
 Status bad_state(std::size_t offset, std::string_view problem, std::string_view expected);
-
-/// True if the tile may follow `previous`: tiles are sorted by y, then x.
-inline bool is_after(TileIndex tile, TileIndex previous) noexcept {
-  return tile.y != previous.y ? tile.y > previous.y : tile.x > previous.x;
-}
 
 }  // namespace flagstone

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "library/ground_map/presence_bits.hpp"
+
 namespace flagstone {
 namespace {
-
-constexpr std::size_t bits_per_word = 64;
 
 bool is_measured(const MapCell& cell) noexcept { return cell.last_scan != 0; }
 
@@ -43,13 +43,8 @@ bool is_empty(const HeightEvidence& evidence) noexcept {
 }  // namespace
 
 void write_cells(const CellTiles::Tile& tile, StateWriter& writer) {
-  for (std::size_t begin = 0; begin < tile.size(); begin += bits_per_word) {
-    std::uint64_t word = 0;
-    for (std::size_t k = 0; k < bits_per_word; ++k) {
-      word |= std::uint64_t{is_measured(tile[begin + k])} << k;
-    }
-    writer.add(word);
-  }
+  const PresenceBits<MapTile::cells> measured([&](std::size_t k) { return is_measured(tile[k]); });
+  measured.write(writer);
   for (const MapCell& cell : tile) {
     if (!is_measured(cell)) continue;
     write(cell.best, writer);
@@ -59,12 +54,10 @@ void write_cells(const CellTiles::Tile& tile, StateWriter& writer) {
 }
 
 Status read_cells(StateReader& reader, CellTiles::Tile& tile) {
-  std::array<std::uint64_t, MapTile::cells / bits_per_word> words;
-  for (std::uint64_t& word : words) word = reader.read<std::uint64_t>();
-  bool has_cells = false;
+  PresenceBits<MapTile::cells> measured;
+  const bool has_cells = measured.read(reader) && measured.any();
   for (std::size_t k = 0; k < tile.size() && !reader.failed(); ++k) {
-    if ((words[k / bits_per_word] >> (k % bits_per_word) & 1U) == 0) continue;
-    has_cells = true;
+    if (!measured[k]) continue;
     const std::size_t offset = reader.offset();
     MapCell& cell = tile[k];
     cell.best = read_evidence(reader);

@@ -111,12 +111,12 @@ TEST(GroundMap, LevellingRemovesErrorsInHeightAndPitch) {
 // Adds scans along 20 m of x and back, with poses that are `up` metres too high on the way back.
 // Returns the corrections on the way back.
 std::vector<Levelling> run_there_and_back(GroundMap& map, double up) {
-  for (double x = 0; x <= 20; x += 5) {
+  for (double x = 0; x <= 20; x += 1) {
     const Pose pose = upright_pose(hills, x, 0);
     add(map, GroundScan(hills, pose), pose);
   }
   std::vector<Levelling> levellings;
-  for (double x = 20; x >= 0; x -= 5) {
+  for (double x = 20; x >= 0; x -= 1) {
     Pose pose = upright_pose(hills, x, 2, 3.14);
     const GroundScan scan(hills, pose);
     pose.position[2] += up;
@@ -145,6 +145,32 @@ TEST(GroundMap, APassBeyondTheMaxCorrectionIsAddedAsItIsAndCountsAsContradiction
   EXPECT_GT(map.at(10, 0).contradictions, 2U);
   // The same number of scans: the first pass keeps the cells that it saw from as near.
   EXPECT_LT(std::abs(map.height(10, -3) - hills(10, -3)), 0.02);
+}
+
+// Each scan is levelled to those before it: without poses, the errors of levelling would add up.
+TEST(GroundMap, FollowsThePosesOfALongRun) {
+  Random random(7);
+  GroundMap map({.window = 60});
+  for (double x = 0; x <= 600; x += 2) {
+    const Pose pose = upright_pose(hills, x, 0);
+    const GroundScan scan(hills, pose);
+    const Levelling levelling =
+        add(map, scan, wrong(pose, 0.02 * random.normal(), 0.003 * random.normal()));
+    if (x == 0) continue;
+    EXPECT_TRUE(levelling.applied) << x;
+  }
+  EXPECT_LT(std::abs(map.height(600, 0) - hills(600, 0)), 0.2);
+}
+
+// As poses of an odometry that rises by 3 % of the way.
+TEST(GroundMap, TheErrorOfPosesMayGrowWithoutLimit) {
+  GroundMap map({.window = 60, .max_correction = 0.5});
+  for (double x = 0; x <= 200; x += 2) {
+    const Pose pose = upright_pose(hills, x, 0);
+    const GroundScan scan(hills, pose);
+    const Levelling levelling = add(map, scan, wrong(pose, 0.03 * x, 0));
+    EXPECT_TRUE(x == 0 || levelling.applied) << x;
+  }
 }
 
 // Two runs over one street. The poses of the second one begin elsewhere: 0.3 m higher, tilted.

@@ -27,7 +27,7 @@ std::vector<HeightDifference> cells_with(
 
 Levelling fitted(const std::vector<HeightDifference>& cells, double max_correction = 1) {
   std::vector<double> memory;
-  return fit_level(cells, max_correction, memory);
+  return fit_level(cells, {}, max_correction, memory);
 }
 
 TEST(LevelFit, FindsThePlane) {
@@ -65,6 +65,20 @@ TEST(LevelFit, IsNotAppliedBeyondTheMaxCorrectionOrIfSteep) {
   EXPECT_TRUE(fitted(cells_with([](double, double) { return 0.9; })).applied);
   EXPECT_FALSE(fitted(cells_with([](double, double) { return 1.1; })).applied);
   EXPECT_FALSE(fitted(cells_with([](double x, double) { return 0.3 * x; })).applied);
+}
+
+TEST(LevelFit, IsComparedWithTheExpectedPlane) {
+  const auto cells = cells_with([](double x, double) { return 2.5 + 0.01 * x; });
+  std::vector<double> memory;
+
+  const Levelling near = fit_level(cells, {.offset = 1.8}, 1, memory);
+  const Levelling far = fit_level(cells, {.offset = 1.2, .slope_y = 0.02}, 1, memory);
+
+  EXPECT_TRUE(near.applied);
+  EXPECT_NEAR(near.offset, 2.5, 1e-3);
+  EXPECT_FALSE(far.applied);
+  EXPECT_EQ(far.offset, 1.2);
+  EXPECT_EQ(far.slope_y, 0.02);
 }
 
 }  // namespace
