@@ -3,6 +3,7 @@
 // Writes the initial corpus of the fuzzers: make_seeds DIR writes DIR/pcd/..., DIR/ply/... . The
 // files are few and small; the fuzzers find more.
 
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -182,7 +183,8 @@ void add_messages(SeedFolder& seeds) {
   }
 }
 
-/// The states of a map with one tile and of votes, without their checksums, which the fuzzer adds.
+/// The states of a map with one tile, of votes and of moving points, without their checksums, which
+/// the fuzzer adds.
 void add_map_states(SeedFolder& seeds) {
   Bytes map;
   flagstone::StateWriter writer(map);
@@ -208,6 +210,29 @@ void add_map_states(SeedFolder& seeds) {
   voxels.add(std::uint64_t{2});
   for (const std::int32_t number : {5, -2048, 1 << 20, 7}) voxels.add(number);
   seeds.add("map_state", "votes", votes);
+
+  Bytes moving;
+  flagstone::StateWriter scans(moving);
+  scans.start("fsmove01");
+  scans.add(57.3F);  // rows per radian
+  for (const double position : {0.0, 0.0}) scans.add(position);
+  scans.add(std::uint64_t{1});  // scans
+  scans.add(2.5);               // time
+  for (const double number : {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1, 7, 2, 0}) {
+    scans.add(number);
+  }
+  for (const std::int32_t number : {-3, 1}) scans.add(number);  // first row, rows
+  scans.add(std::uint64_t{1} << 7U);                            // one pixel
+  for (int word = 1; word < 17; ++word) scans.add(std::uint64_t{0});
+  for (const std::uint16_t number : std::array<std::uint16_t, 4>{900, 200, 1000, 1100}) {
+    scans.add(number);
+  }
+  scans.add(std::uint64_t{1});  // tiles of columns
+  for (const std::int64_t index : {-1, 2}) scans.add(index);
+  scans.add(std::uint64_t{1} << 9U);  // one column
+  for (int word = 1; word < 64; ++word) scans.add(std::uint64_t{0});
+  for (const std::uint16_t number : std::array<std::uint16_t, 2>{1, 4}) scans.add(number);
+  seeds.add("map_state", "moving", moving);
 }
 
 /// A few hundred ground points, as input for the fuzzer of segmenters, for the settings of each

@@ -10,12 +10,14 @@
 #include "cloud_properties.hpp"
 #include "flagstone/ground_map.hpp"
 #include "flagstone/label_vote.hpp"
+#include "flagstone/moving_points.hpp"
 #include "library/ground_map/state_bytes.hpp"
 
 namespace flagstone {
 namespace {
 
-// A tile of a map has at least 572 bytes and takes 147 KB.
+// A tile of a map has at least 572 bytes and takes 147 KB; a range image without rows has 184 bytes
+// and takes 50 KB.
 constexpr std::size_t state_factor = 320;
 
 // Either the bytes are rejected, or the state that they contain is saved as these bytes.
@@ -35,7 +37,8 @@ void check(std::span<const std::byte> bytes) {
 }  // namespace
 }  // namespace flagstone
 
-// Any bytes as the state of a map and of votes, as they are and with the right checksum.
+// Any bytes as the state of a map, of votes and of moving points, as they are and with the right
+// checksum.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace flagstone;
   const std::span<const std::byte> bytes = std::as_bytes(std::span(data, size));
@@ -44,6 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const std::span<const std::byte> input : {bytes, std::span<const std::byte>(sealed)}) {
     check<GroundMap>(input);
     check<LabelVote>(input);
+    check<MovingPoints>(input);
   }
   return 0;
 }

@@ -61,7 +61,7 @@ struct MovingMask {
 /// behind a point, the point was not there at that time. Several such looks make a point moving,
 /// and moving points close to each other an object.
 ///
-/// A scan is compared with those 0.5 to 8 s before and after it, as far as they have been added.
+/// A scan is compared with those 0.3 to 8 s before and after it, as far as they have been added.
 /// add() finds the points that are known to move at once; find() finds nearly all of them 2 s
 /// later.
 ///
@@ -92,6 +92,16 @@ class MovingPoints {
   /// Arguments and errors as for add(); also invalid_argument if no scan of this time is in memory.
   Status find(CloudView cloud, const Segmentation& result, const Pose& pose,
               const Levelling& levelling, double time, MovingMask& mask);
+
+  /// The scans in memory and the static objects as bytes, which from_bytes() reads on any machine:
+  /// later calls give the same results as without the break. Does not contain settings other than
+  /// the angle between beams. out_of_memory; `bytes` is then empty. Never throws.
+  Status to_bytes(std::vector<std::byte>& bytes) const;
+
+  /// Replaces the scans in memory and the static objects. The bytes are checked, so they may come
+  /// from anywhere: bad_file with the offset if they are damaged, of another version or of another
+  /// setting `beam_spacing`; out_of_memory; the object is then as before. Never throws.
+  Status from_bytes(std::span<const std::byte> bytes);
 
   /// The angle between beams in use, degrees; 0 before the first scan.
   [[nodiscard]] double beam_spacing() const noexcept;

@@ -36,7 +36,27 @@ class LevelledPose {
     return transform;
   }
 
+  /// All numbers of the pose, to save it.
+  using Numbers = std::array<double, 21>;
+  explicit LevelledPose(const Numbers& numbers) noexcept {
+    auto from = numbers.begin();
+    for_each_number(*this, [&](double& number) { number = *from++; });
+  }
+  [[nodiscard]] Numbers numbers() const noexcept {
+    Numbers numbers{};
+    auto to = numbers.begin();
+    for_each_number(*this, [&](double number) { *to++ = number; });
+    return numbers;
+  }
+
  private:
+  template <class Self, class Use>
+  static void for_each_number(Self& self, const Use& use) noexcept {
+    for (auto& number : self.to_world_) use(number);
+    for (auto& number : self.to_sensor_) use(number);
+    for (auto& number : self.position_) use(number);
+  }
+
   using Matrix = std::array<double, 9>;
 
   static Matrix product(const Matrix& a, const Matrix& b) noexcept {

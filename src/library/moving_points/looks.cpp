@@ -10,15 +10,19 @@
 namespace flagstone {
 namespace {
 
-constexpr std::array intervals{0.5, 1.0, 1.5, 2.0, 3.0, 4.5, 6.0, 8.0};  // seconds
+constexpr std::array intervals{0.3, 0.5, 0.8, 1.0, 1.2, 1.5, 1.8, 2.0, 2.5,
+                               3.0, 3.5, 4.0, 4.5, 5.0, 6.0, 7.0, 8.0};  // seconds
 
-// The scan nearest to `target`, on the side of `time` of the target, or null.
+// The scan nearest to `target`, on the side of `time` of the target, or null. Of two scans that are
+// equally near, the earlier one, even if their times are rounded.
 const ScanView* nearest_view(const std::deque<ScanView>& scans, double time, double target) {
   const ScanView* nearest = nullptr;
   for (const ScanView& scan : scans) {
     const bool same_side = target < time ? scan.time < time : scan.time > time;
     if (!same_side) continue;
-    if (nearest == nullptr || std::abs(scan.time - target) < std::abs(nearest->time - target)) {
+    constexpr double rounding = 1e-4;  // seconds
+    if (nearest == nullptr ||
+        std::abs(scan.time - target) < std::abs(nearest->time - target) - rounding) {
       nearest = &scan;
     }
   }
@@ -42,16 +46,16 @@ void select_views(const std::deque<ScanView>& scans, double time, double scale,
 
 // A range with its margin for errors of poses and measurements, in units of RangeImage::unit.
 struct RangeInterval {
-  float low, high;
+  int low, high;
 
   explicit RangeInterval(float range) noexcept {
+    constexpr float units_per_metre = 1 / RangeImage::unit;
     const float margin = 0.4F + 0.01F * range;  // metres
-    low = (range - margin) / RangeImage::unit;
-    high = (range + margin) / RangeImage::unit;
+    low = static_cast<int>((range - margin) * units_per_metre);
+    high = static_cast<int>((range + margin) * units_per_metre);
   }
   [[nodiscard]] bool contains(std::uint16_t measured) const noexcept {
-    const auto value = static_cast<float>(measured);
-    return value > low && value < high;
+    return measured > low && measured <= high;
   }
 };
 
@@ -75,19 +79,17 @@ bool is_occupied(const RangePixel* pixel, const RangeInterval& range) noexcept {
 bool is_seen_through(const RangePixel* pixel, const RangeInterval& range, float metres,
                      float elevation) noexcept {
   constexpr float max_distance_of_ray = 0.3F;  // metres
-  if (pixel->nearest == RangePixel::nothing) return false;
-  if (!(static_cast<float>(pixel->nearest) > range.high)) return false;
+  if (pixel->nearest == RangePixel::nothing || pixel->nearest <= range.high) return false;
   const float measured = static_cast<float>(pixel->elevation) * RangeImage::elevation_unit;
   if (!(metres * std::abs(measured - elevation) < max_distance_of_ray)) return false;
-  return !(static_cast<float>(pixel[-1].nearest_object) < range.low) &&
-         !(static_cast<float>(pixel[1].nearest_object) < range.low);
+  return pixel[-1].nearest_object > range.low && pixel[1].nearest_object > range.low;
 }
 
 }  // namespace
 
 void select_views(const std::deque<ScanView>& scans, double time,
                   std::vector<const ScanView*>& selected) {
-  constexpr std::size_t min_views = 4;
+  constexpr std::size_t min_views = 8;
   constexpr double min_scale = 0.05;
   select_views(scans, time, 1, selected);
   if (selected.size() >= min_views || scans.empty()) return;

@@ -25,8 +25,9 @@ struct LookCounts {
   std::uint8_t occupied = 0;  ///< the other scan measured an object at the point
 };
 
-/// Selects scans to look from: about 0.5, 1, 1.5, 2, 3, 4.5, 6 and 8 s before and after `time`. If
-/// the scans cover too little time for four of these, the intervals are shortened to fit. `scans`
+/// Selects scans to look from: up to 17 before `time` and 17 after it, 0.3 to 8 s away, closer
+/// together near `time`. If the scans cover too little time for eight of these, the intervals are
+/// shortened to fit. `scans`
 /// in order of time. May throw std::bad_alloc.
 void select_views(const std::deque<ScanView>& scans, double time,
                   std::vector<const ScanView*>& selected);

@@ -10,7 +10,7 @@
 namespace flagstone {
 namespace {
 
-constexpr double object_column_width = 0.4;  // metres
+constexpr float object_column_width = 0.4F;  // metres
 constexpr int half_width = 256;              // columns
 constexpr int width = 2 * half_width;
 constexpr unsigned min_moving_points = 8;
@@ -23,17 +23,18 @@ std::uint32_t moved(std::uint32_t column, int by) noexcept {
   return static_cast<std::uint32_t>(static_cast<int>(column) + by);
 }
 
-void increment(std::uint16_t& count) noexcept {
-  if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
+void add(std::uint16_t& count, std::uint32_t by) noexcept {
+  constexpr std::uint32_t max = std::numeric_limits<std::uint16_t>::max();
+  count = static_cast<std::uint16_t>(std::min(count + by, max));
 }
 
 }  // namespace
 
-std::uint32_t MovingObjects::column_of(double x, double y) noexcept {
+std::uint32_t MovingObjects::column_of(float x, float y) noexcept {
   constexpr int edge = 1;  // columns without points, so that every used column has neighbours
-  const double column = x * (1 / object_column_width) + half_width;
-  const double row = y * (1 / object_column_width) + half_width;
-  const auto is_inside = [](double index) { return index >= edge && index < width - edge; };
+  const float column = x * (1 / object_column_width) + half_width;
+  const float row = y * (1 / object_column_width) + half_width;
+  const auto is_inside = [](float index) { return index >= edge && index < width - edge; };
   if (!is_inside(column) || !is_inside(row)) return outside;
   return static_cast<std::uint32_t>(row) * width + static_cast<std::uint32_t>(column);
 }
@@ -116,20 +117,25 @@ void MovingObjects::number_objects() {
                      });
 }
 
-void MovingObjects::find(std::span<const std::uint32_t> columns,
-                         std::span<const Evidence> evidence) {
+void MovingObjects::start(std::span<const std::uint32_t> columns) {
   cells_.resize(std::size_t{width} * width);
   for (const std::uint32_t column : used_) cells_[column] = {};
   used_.clear();
-  visit_ = 0;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    Cell& cell = cells_[columns[k]];
-    if (cell.points == 0) used_.push_back(columns[k]);
-    increment(cell.points);
-    if (evidence[k] == Evidence::moving) increment(cell.moving);
-    if (evidence[k] == Evidence::fixed) increment(cell.fixed);
+  for (const std::uint32_t column : columns) {
+    Cell& cell = cells_[column];
+    if (cell.points == 0) used_.push_back(column);
+    add(cell.points, 1);
   }
   std::ranges::sort(used_);
+}
+
+void MovingObjects::find(std::span<const Sample> samples) {
+  for (const auto& [column, evidence] : samples) {
+    Cell& cell = cells_[column];
+    if (evidence == Evidence::moving) add(cell.moving, points_per_sample(column));
+    if (evidence == Evidence::fixed) add(cell.fixed, points_per_sample(column));
+  }
+  visit_ = 0;
   mark_seeds();
   grow();
   mark_whole_components();

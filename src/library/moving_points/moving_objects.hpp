@@ -20,11 +20,26 @@ class MovingObjects {
 
   /// The column at (x, y), metres from the sensor along the axes of the world frame; `outside` if
   /// it is too far away.
-  static std::uint32_t column_of(double x, double y) noexcept;
+  static std::uint32_t column_of(float x, float y) noexcept;
 
-  /// Finds the moving objects. `columns` and `evidence`: of each point; no column is `outside`. The
-  /// order of the points does not matter. May throw std::bad_alloc.
-  void find(std::span<const std::uint32_t> columns, std::span<const Evidence> evidence);
+  /// Starts with the column of each point; no column is `outside`. May throw std::bad_alloc.
+  void start(std::span<const std::uint32_t> columns);
+
+  /// One point in this many of the column needs evidence: 1 in a column of few points.
+  [[nodiscard]] std::uint32_t points_per_sample(std::uint32_t column) const noexcept {
+    constexpr std::uint32_t max_samples = 32;
+    return (cells_[column].points + max_samples - 1) / max_samples;
+  }
+
+  /// A point with its evidence. It speaks for points_per_sample() points of its column.
+  struct Sample {
+    std::uint32_t column = 0;
+    Evidence evidence = Evidence::none;
+  };
+
+  /// Finds the moving objects among the points of start(). The order of points and samples does not
+  /// matter. May throw std::bad_alloc.
+  void find(std::span<const Sample> samples);
 
   /// The number of the moving object in a column, from 1, or 0. Objects are numbered by the first
   /// of their columns.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "library/moving_points/occupied_columns.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,17 +20,20 @@ std::size_t OccupiedColumns::index_in_tile(std::int64_t x, std::int64_t y) noexc
   return static_cast<std::size_t>((y & mask) * tile_width + (x & mask));
 }
 
+OccupiedColumns::Window::Window(double x, double y, std::int32_t columns) noexcept
+    : first_x(static_cast<std::int64_t>(std::floor(x / width)) - columns / 2),
+      first_y(static_cast<std::int64_t>(std::floor(y / width)) - columns / 2),
+      offset_x(static_cast<float>(x - static_cast<double>(first_x) * width)),
+      offset_y(static_cast<float>(y - static_cast<double>(first_y) * width)) {}
+
 void OccupiedColumns::start(double x, double y) {
-  seen_.assign(static_cast<std::size_t>(scan_width * scan_width), 0);
-  x_ = x;
-  y_ = y;
-  first_x_ = static_cast<std::int64_t>(std::floor(x / width)) - scan_width / 2;
-  first_y_ = static_cast<std::int64_t>(std::floor(y / width)) - scan_width / 2;
+  seen_.assign(std::size_t{scan_width} * scan_width, 0);
+  scan_ = Window(x, y, scan_width);
 }
 
 void OccupiedColumns::finish() {
-  const TileIndex first = tile_of(first_x_, first_y_);
-  const TileIndex last = tile_of(first_x_ + scan_width - 1, first_y_ + scan_width - 1);
+  const TileIndex first = tile_of(scan_.first_x, scan_.first_y);
+  const TileIndex last = tile_of(scan_.first_x + scan_width - 1, scan_.first_y + scan_width - 1);
   for (std::int64_t y = first.y; y <= last.y; ++y) {
     for (std::int64_t x = first.x; x <= last.x; ++x) {
       std::unique_ptr<Tile>& tile = tiles_[{.x = x, .y = y}];
@@ -40,8 +44,8 @@ void OccupiedColumns::finish() {
     for (std::int64_t column = 0; column < scan_width; ++column) {
       const std::uint8_t seen = seen_[static_cast<std::size_t>(row * scan_width + column)];
       if (seen == 0) continue;
-      const std::int64_t x = first_x_ + column;
-      const std::int64_t y = first_y_ + row;
+      const std::int64_t x = scan_.first_x + column;
+      const std::int64_t y = scan_.first_y + row;
       Counts& counts = (*tiles_.find(tile_of(x, y))->second)[index_in_tile(x, y)];
       std::uint16_t& count = (seen & 2U) != 0 ? counts.occupied : counts.empty;
       if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
@@ -49,16 +53,33 @@ void OccupiedColumns::finish() {
   }
 }
 
-bool OccupiedColumns::is_occupied(double x, double y) const noexcept {
+// The columns of the window, tile by tile.
+void OccupiedColumns::look_around(double x, double y) {
   constexpr unsigned min_scans = 4;
-  constexpr double min_fraction = 0.9;
-  const auto column = static_cast<std::int64_t>(std::floor(x / width));
-  const auto row = static_cast<std::int64_t>(std::floor(y / width));
-  const auto tile = tiles_.find(tile_of(column, row));
-  if (tile == tiles_.end()) return false;
-  const Counts& counts = (*tile->second)[index_in_tile(column, row)];
-  return counts.occupied >= min_scans &&
-         counts.occupied > min_fraction * (counts.occupied + counts.empty);
+  constexpr unsigned min_ratio = 9;  // of scans with an object to scans without one
+  occupied_.assign(std::size_t{window_width} * window_width, 0);
+  around_ = Window(x, y, window_width);
+  const std::int64_t end_x = around_.first_x + window_width;
+  const std::int64_t end_y = around_.first_y + window_width;
+  std::int64_t next_y = 0;
+  for (std::int64_t y0 = around_.first_y; y0 < end_y; y0 = next_y) {
+    next_y = std::min(end_y, (tile_of(0, y0).y + 1) * tile_width);
+    std::int64_t next_x = 0;
+    for (std::int64_t x0 = around_.first_x; x0 < end_x; x0 = next_x) {
+      next_x = std::min(end_x, (tile_of(x0, 0).x + 1) * tile_width);
+      const auto tile = tiles_.find(tile_of(x0, y0));
+      if (tile == tiles_.end()) continue;
+      for (std::int64_t row = y0; row < next_y; ++row) {
+        const Counts* const counts = tile->second->data() + index_in_tile(x0, row);
+        std::uint8_t* const to =
+            occupied_.data() + (row - around_.first_y) * window_width + (x0 - around_.first_x);
+        for (std::int64_t k = 0; k < next_x - x0; ++k) {
+          const unsigned occupied = counts[k].occupied;
+          to[k] = occupied >= min_scans && occupied > min_ratio * counts[k].empty ? 1 : 0;
+        }
+      }
+    }
+  }
 }
 
 void OccupiedColumns::forget_beyond(double x, double y, double distance) noexcept {
@@ -72,7 +93,7 @@ void OccupiedColumns::forget_beyond(double x, double y, double distance) noexcep
 
 std::size_t OccupiedColumns::bytes() const noexcept {
   constexpr std::size_t of_entry = sizeof(Tile) + 64;  // with its node in the table
-  return tiles_.size() * of_entry + seen_.capacity();
+  return tiles_.size() * of_entry + seen_.capacity() + occupied_.capacity();
 }
 
 }  // namespace flagstone

@@ -24,8 +24,9 @@ void RangeImage::build(const Directions& directions, std::span<const std::uint8_
   for (std::size_t k = 0; k < is_object.size(); ++k) {
     if (!is_used(k)) continue;
     RangePixel& pixel = first[(directions.row(k) - first_row_) * stride + directions.column(k)];
-    const auto range = static_cast<std::uint16_t>(directions.range(k) / unit);
-    const auto elevation = static_cast<std::int16_t>(directions.elevation(k) / elevation_unit);
+    const auto range = static_cast<std::uint16_t>(directions.range(k) * (1 / unit));
+    const auto elevation =
+        static_cast<std::int16_t>(directions.elevation(k) * (1 / elevation_unit));
     if (range < pixel.nearest || (range == pixel.nearest && elevation < pixel.elevation)) {
       pixel.nearest = range;
       pixel.elevation = elevation;
@@ -35,8 +36,12 @@ void RangeImage::build(const Directions& directions, std::span<const std::uint8_
       pixel.farthest_object = std::max(pixel.farthest_object, range);
     }
   }
+  repeat_edges();
+}
+
+void RangeImage::repeat_edges() noexcept {
   for (int row = 0; row < rows_; ++row) {
-    RangePixel* const pixels = first + row * stride;
+    RangePixel* const pixels = pixels_.data() + (row + empty_rows) * stride + 1;
     pixels[-1] = pixels[PixelGrid::columns - 1];
     pixels[PixelGrid::columns] = pixels[0];
   }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "library/ground_map/state_bytes.hpp"
 #include "library/moving_points/directions.hpp"
 
 namespace flagstone {
@@ -49,12 +50,21 @@ class RangeImage {
   /// the first one.
   static constexpr std::ptrdiff_t stride = PixelGrid::columns + 2;
 
+  /// Appends the image to a state. May throw std::bad_alloc.
+  void write(StateWriter& writer) const;
+
+  /// Reads the image of a state. bad_file if it is damaged; the image is then unspecified. May
+  /// throw std::bad_alloc.
+  Status read(StateReader& reader);
+
   [[nodiscard]] std::size_t bytes() const noexcept {
     return pixels_.capacity() * sizeof(RangePixel);
   }
 
  private:
   static constexpr int empty_rows = 3;  // below and above: their neighbours exist, too
+
+  void repeat_edges() noexcept;  // columns -1 and PixelGrid::columns
 
   std::vector<RangePixel> pixels_ = std::vector<RangePixel>(std::size_t{2} * empty_rows * stride);
   int first_row_ = 0;
