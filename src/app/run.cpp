@@ -35,10 +35,10 @@ std::string to_text(const Progress& progress, std::size_t columns) {
 
 Progress ProgressMeter::at(std::size_t done) const {
   Progress progress{.done = done, .total = total_, .unit = unit_};
-  if (done > 0) {
+  if (done > first_) {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
     progress.seconds_left =
-        spent.count() / static_cast<double>(done) * static_cast<double>(total_ - done);
+        spent.count() / static_cast<double>(done - first_) * static_cast<double>(total_ - done);
   }
   return progress;
 }

@@ -49,14 +49,16 @@ struct RunCallbacks {
 /// jobs take as long per job.
 class ProgressMeter {
  public:
-  explicit ProgressMeter(std::size_t total, std::string_view unit = "scans")
-      : total_(total), unit_(unit) {}
+  /// `first`: jobs that were done before, if the run is resumed.
+  explicit ProgressMeter(std::size_t total, std::string_view unit = "scans", std::size_t first = 0)
+      : total_(total), unit_(unit), first_(first) {}
 
   [[nodiscard]] Progress at(std::size_t done) const;
 
  private:
   std::size_t total_;
   std::string_view unit_;
+  std::size_t first_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -46,13 +46,14 @@ struct MapOptions {
   std::string topic, pose_topic;
   bool geotiff = false;
   std::string crs;
+  bool las = false;
   bool recording = false;
   bool animation = false;
 
   [[nodiscard]] bool finds_poses() const { return poses == kiss_icp; }
   /// Whether scans or poses are not files yet.
   [[nodiscard]] bool needs_input() const { return finds_poses() || is_bag(run) || is_bag(poses); }
-  [[nodiscard]] bool exports() const { return geotiff || recording || animation; }
+  [[nodiscard]] bool exports() const { return geotiff || las || recording || animation; }
 };
 
 app::MapRequest request_of(const MapOptions& options) {
@@ -82,6 +83,9 @@ void check_python_options(const MapOptions& options) {
   };
   check(options.topic, "--topic", options.run);
   check(options.pose_topic, "--pose-topic", options.poses);
+  if (options.las && options.voxel == 0) {
+    throw std::invalid_argument("--las: needs the static points (expected --voxel above 0)");
+  }
 }
 
 /// The optional dependencies that the options need, for messages.
@@ -89,6 +93,7 @@ std::string_view extra_of(const MapOptions& options) {
   if (options.finds_poses()) return "odometry";
   if (options.needs_input()) return "bag";
   if (options.geotiff) return "geotiff";
+  if (options.las) return "las";
   return options.recording ? "viewer" : "plot";
 }
 
@@ -104,6 +109,7 @@ int run_part(const char* part, const MapOptions& options, const app::MapRequest&
                       {"pose_topic", options.pose_topic},
                       {"geotiff", options.geotiff},
                       {"crs", options.crs},
+                      {"las", options.las},
                       {"recording", options.recording},
                       {"animation", options.animation},
                       {"json", options.json}},
@@ -134,8 +140,10 @@ void print_json(const app::MapOutcome& outcome) {
                                        {"static_points", outcome.static_points},
                                        {"map_bytes", outcome.map_bytes},
                                        {"vote_bytes", outcome.vote_bytes},
-                                       {"seconds", outcome.seconds}};
-  fmt::print("{}\n", line.dump());
+                                       {"seconds", outcome.seconds},
+                                       {"problems", outcome.problems}};
+  using Handler = nlohmann::ordered_json::error_handler_t;
+  fmt::print("{}\n", line.dump(-1, ' ', false, Handler::replace));
 }
 
 class MapCommand final : public Command {
@@ -215,6 +223,7 @@ void add_export_options(CLI::App& command, MapOptions& options) {
                   "Coordinate reference system of the poses, for ground.tif: EPSG:25832 and so on")
       ->needs(geotiff)
       ->type_name("CRS");
+  command.add_flag("--las", options.las, "Write the static points as static.las");
   command.add_flag("--recording", options.recording, "Write recording.rrd for the viewer of Rerun");
   command.add_flag("--animation", options.animation,
                    "Write animation.gif: the ground growing scan by scan");

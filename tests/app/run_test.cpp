@@ -60,6 +60,14 @@ TEST(Progress, TimeLeftAssumesTheSameTimePerJob) {
   EXPECT_EQ(meter.at(10).seconds_left.value_or(1), 0);
 }
 
+TEST(Progress, TimeLeftOfAResumedRunAssumesTheTimeOfTheJobsSinceThen) {
+  const ProgressMeter meter(10, "scans", 8);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+
+  EXPECT_FALSE(meter.at(8).seconds_left.has_value());
+  EXPECT_GE(meter.at(9).seconds_left.value_or(0), 0.02);
+}
+
 /// The jobs in the order of their reports.
 std::vector<std::size_t> delivered(std::size_t count, unsigned threads,
                                    const RunCallbacks& callbacks = {}) {

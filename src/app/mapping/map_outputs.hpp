@@ -29,7 +29,7 @@ struct MapOutputs {
   /// the Python package, and not changed by map_run().
   [[nodiscard]] std::filesystem::path input() const { return directory / "input"; }
   [[nodiscard]] std::filesystem::path input_poses() const { return input() / "poses.txt"; }
-  /// Results after all scans are mapped, until their labels are written.
+  /// Checkpoints, until the run is finished; see MapCheckpoints.
   [[nodiscard]] std::filesystem::path state() const { return directory / "state"; }
   /// @name Files per scan
   /// @{

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -19,6 +20,7 @@
 
 #include "app/config/settings_json.hpp"
 #include "app/ground_map_files.hpp"
+#include "app/mapping/map_checkpoints.hpp"
 #include "app/mapping/map_outputs.hpp"
 #include "app/mapping/static_cloud.hpp"
 #include "app/output_plan.hpp"
@@ -83,7 +85,8 @@ struct Entry {
   Pose pose{};
   double time = 0;
   bool has_pose = false;
-  bool is_used = false;  ///< false: labelled alone
+  bool is_used = false;    ///< false: labelled alone
+  bool is_misfit = false;  ///< its ground does not fit the map
   bool failed = false;
   Levelling levelling{};
 };
@@ -120,30 +123,33 @@ class MapJob {
       : request_(std::move(request)),
         callbacks_(callbacks),
         problems_(callbacks.run),
-        files_{.directory = request_.output} {}
+        files_{.directory = request_.output},
+        checkpoints_(files_.state(), request_.checkpoint_interval),
+        static_cloud_(request_.voxel) {}
 
-  void check_request();
+  void check_request() const;
 
   MapOutcome run() {
     Stopwatch watch;
     check_request();
+    mapper_ = make_mapper();
     list_scans();
     check_outputs();
     find_mount();
     read_poses();
     start_output();
-    if (!load_state()) {
-      map();
-      if (!interrupted_) save_state();
-    }
+    const std::size_t first = load_checkpoint();
+    if (!mapper_->is_finished()) map(first);
     if (!interrupted_) write_labels();
     if (!interrupted_) write_map();
     MapOutcome outcome = summary();
     outcome.seconds = watch.lap() / 1000;
+    outcome.problems = problems_.lines();
     return outcome;
   }
 
  private:
+  [[nodiscard]] std::unique_ptr<RunMapper> make_mapper() const;
   void list_scans();
   void check_outputs() const;
   [[nodiscard]] std::vector<ScanInput> inputs() const;
@@ -153,11 +159,13 @@ class MapJob {
   void choose_part(const PoseChecks& checks);
   [[nodiscard]] nlohmann::ordered_json origin() const;
   void start_output();
-  void map();
+  [[nodiscard]] Status read(ScanSource& source, RunScan& scan) const;
+  void map(std::size_t first);
   void finish_scan(RunScan& scan);
+  void warn_of_misfits();
   void warn_of_sparse_beams();
-  void save_state() const;
-  bool load_state();
+  void save_checkpoint(std::size_t next);
+  std::size_t load_checkpoint();
   void write_labels();
   bool write_scan(ScanSource& source, Entry& entry, std::vector<StaticPoint>& points,
                   std::string& error);
@@ -170,15 +178,16 @@ class MapJob {
   const MapCallbacks& callbacks_;
   Problems problems_;
   MapOutputs files_;
+  MapCheckpoints checkpoints_;
   std::vector<Entry> entries_;
   std::unique_ptr<RunMapper> mapper_;
-  std::unique_ptr<StaticCloud> static_cloud_;
+  StaticCloud static_cloud_;
   ObjectTable objects_;
   std::size_t moving_points_ = 0;
   bool interrupted_ = false;
 };
 
-void MapJob::check_request() {
+void MapJob::check_request() const {
   if (request_.method.config.get_if<SurfaceConfig>() == nullptr) {
     throw std::invalid_argument(
         fmt::format("--method: {} computes no heights (expected surface)", request_.method.name));
@@ -196,13 +205,15 @@ void MapJob::check_request() {
     throw std::invalid_argument(
         "--sensor-height: track is not supported (expected a height or estimate)");
   }
+}
+
+std::unique_ptr<RunMapper> MapJob::make_mapper() const {
   RunMapperConfig config{.labels = request_.labels, .delay = request_.delay};
   if (request_.map_memory > 0) {
     config.map.max_memory = request_.map_memory * 1'000'000;
     config.tiles = std::make_shared<io::TileFiles>(files_.state());
   }
-  mapper_ = std::make_unique<RunMapper>(config);
-  static_cloud_ = std::make_unique<StaticCloud>(request_.voxel);
+  return std::make_unique<RunMapper>(config);
 }
 
 // The scans of a directory, and not those of another directory in it.
@@ -410,8 +421,8 @@ void MapJob::finish_scan(RunScan& scan) {
   entry.levelling = scan.levelling;
   if (!scan.fits) {
     entry.is_used = false;
-    problems_.add(fmt::format("{}: the ground does not fit the map: the scan is labelled alone",
-                              io::printable(entry.input.file)));
+    entry.levelling = {};
+    entry.is_misfit = true;
     return;  // write_labels() writes it
   }
   moving_points_ += static_cast<std::size_t>(
@@ -421,6 +432,25 @@ void MapJob::finish_scan(RunScan& scan) {
   if (request_.labels != LabelSource::offline) {
     throw_unless_ok(
         io::write_label_file(files_.labels(entry.name), scan.labels, io::LabelMap::flagstone));
+  }
+}
+
+// One line per group of consecutive scans.
+void MapJob::warn_of_misfits() {
+  const auto is_end = [](const Entry& entry) { return entry.is_used && !entry.failed; };
+  for (auto scan = entries_.begin(); scan != entries_.end(); ++scan) {
+    if (!scan->is_misfit) continue;
+    const auto end = std::find_if(scan, entries_.end(), is_end);
+    const auto count = std::count_if(scan, end, [](const Entry& each) { return each.is_misfit; });
+    problems_.add(
+        count == 1
+            ? fmt::format("{}: the ground does not fit the map: the scan is labelled alone",
+                          io::printable(scan->input.file))
+            : fmt::format(
+                  "{}: the ground does not fit the map in this scan and later ones: {} scans "
+                  "are labelled alone",
+                  io::printable(scan->input.file), count));
+    scan = std::prev(end);
   }
 }
 
@@ -434,22 +464,28 @@ void MapJob::warn_of_sparse_beams() {
       io::printable(request_.run), spacing, max_beam_spacing));
 }
 
-void MapJob::map() {
-  const ProgressMeter meter(entries_.size(), "scans mapped");
+Status MapJob::read(ScanSource& source, RunScan& scan) const {
+  const Entry& entry = entries_[scan.index];
+  scan.time = entry.time;
+  return source.read(entry.input, entry.pose, scan);
+}
+
+void MapJob::map(std::size_t first) {
+  const ProgressMeter meter(entries_.size(), "scans mapped", first);
   ScanSource source(request_);
   const RunMapper::Use finished = [&](RunScan& scan) { finish_scan(scan); };
-  callbacks_.run.show(meter.at(0));
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
+  callbacks_.run.show(meter.at(first));
+  for (std::size_t i = first; i < entries_.size(); ++i) {
     if (callbacks_.run.stopped()) {
       interrupted_ = true;
+      if (i > first) save_checkpoint(i);
       return;
     }
     Entry& entry = entries_[i];
     if (entry.is_used) {
       auto scan = std::make_unique<RunScan>();
       scan->index = i;
-      scan->time = entry.time;
-      const Status status = source.read(entry.input, entry.pose, *scan);
+      const Status status = read(source, *scan);
       if (status.ok()) {
         throw_unless_ok(mapper_->add(std::move(scan), finished));
       } else {
@@ -457,59 +493,52 @@ void MapJob::map() {
         problems_.add(status.message());
       }
     }
+    if (checkpoints_.is_due()) save_checkpoint(i + 1);
     callbacks_.run.show(meter.at(i + 1));
   }
   throw_unless_ok(mapper_->finish(finished));
+  warn_of_misfits();
   warn_of_sparse_beams();
+  save_checkpoint(entries_.size());
 }
 
-// What write_labels() and write_map() need.
-void MapJob::save_state() const {
-  throw_unless_ok(mapper_->save(files_.state()));
-  nlohmann::ordered_json scans = nlohmann::ordered_json::array();
+void MapJob::save_checkpoint(std::size_t next) {
+  MapProgress progress{.next = next,
+                       .scans = {},
+                       .moving_points = moving_points_,
+                       .objects = objects_.lines(),
+                       .problems = problems_.lines()};
   for (const Entry& entry : entries_) {
-    const Levelling& l = entry.levelling;
-    scans.push_back(
-        {entry.is_used, entry.failed, l.applied, l.cells, l.offset, l.slope_x, l.slope_y});
+    progress.scans.push_back(
+        {.is_used = entry.is_used, .failed = entry.failed, .levelling = entry.levelling});
   }
-  const nlohmann::ordered_json text = {{"scans", std::move(scans)},
-                                       {"moving_points", moving_points_},
-                                       {"objects", objects_.lines()},
-                                       {"problems", problems_.lines()}};
-  using Handler = nlohmann::ordered_json::error_handler_t;
-  throw_unless_ok(
-      io::write_file(files_.state() / "scans.json", text.dump(-1, ' ', false, Handler::replace)));
+  throw_unless_ok(checkpoints_.save(progress, *mapper_));
 }
 
-bool MapJob::load_state() {
-  std::error_code ignored;
-  if (!fs::exists(files_.state() / "scans.json", ignored)) return false;
-  std::vector<std::byte> bytes;
-  throw_unless_ok(io::load_bytes(files_.state() / "scans.json", bytes));
-  const auto* const first = reinterpret_cast<const char*>(bytes.data());
-  try {
-    const auto state = nlohmann::ordered_json::parse(first, first + bytes.size());
-    if (state.at("scans").size() != entries_.size() || !mapper_->load(files_.state()).ok()) {
-      return false;
-    }
-    for (std::size_t i = 0; i < entries_.size(); ++i) {
-      const auto& scan = state.at("scans").at(i);
-      Entry& entry = entries_[i];
-      entry.is_used = scan.at(0);
-      entry.failed = scan.at(1);
-      entry.levelling = {.applied = scan.at(2),
-                         .cells = scan.at(3),
-                         .offset = scan.at(4),
-                         .slope_x = scan.at(5),
-                         .slope_y = scan.at(6)};
-    }
-    moving_points_ = state.at("moving_points");
-    objects_.set_lines(state.at("objects"));
-    problems_.restore(state.at("problems"));
-  } catch (const nlohmann::json::exception&) {
-    return false;  // damaged: the scans are mapped again
+// Returns the index of the first scan to map.
+std::size_t MapJob::load_checkpoint() {
+  ScanSource source(request_);
+  std::optional<MapProgress> progress =
+      checkpoints_.load(entries_.size(), *mapper_, [&](RunScan& scan) {
+        if (scan.index >= entries_.size()) return Status(StatusCode::bad_file);
+        return read(source, scan);
+      });
+  if (!progress) {
+    mapper_ = make_mapper();
+    return 0;
   }
-  return true;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    entries_[i].is_misfit = entries_[i].is_used && !progress->scans[i].is_used;
+    entries_[i].is_used = progress->scans[i].is_used;
+    entries_[i].failed = progress->scans[i].failed;
+    entries_[i].levelling = progress->scans[i].levelling;
+  }
+  moving_points_ = progress->moving_points;
+  objects_.set_lines(std::move(progress->objects));
+  problems_.restore(std::move(progress->problems));
+  callbacks_.run.say(fmt::format("{}: resumed: {} of {} scans were mapped before",
+                                 io::printable(request_.output), progress->next, entries_.size()));
+  return progress->next;
 }
 
 // Writes the labels of scans that are alone or offline, and collects static points.
@@ -585,7 +614,7 @@ void MapJob::write_labels() {
       },
       [&](std::size_t, Report report) {
         if (!report.error.empty()) problems_.add(report.error);
-        static_cloud_->add(report.points);
+        static_cloud_.add(report.points);
       });
   interrupted_ = outcome.done < open.size();
 }
@@ -602,7 +631,7 @@ void MapJob::write_map() {
   throw_unless_ok(write_kitti_poses(files_.poses(), poses));
   throw_unless_ok(objects_.write(files_.objects()));
   throw_unless_ok(GroundMapFiles{files_.ground()}.write(mapper_->map()));
-  if (request_.voxel > 0) throw_unless_ok(static_cloud_->write(files_.static_cloud()));
+  if (request_.voxel > 0) throw_unless_ok(static_cloud_.write(files_.static_cloud()));
   if (request_.picture) draw(path);
   write_description();
   std::error_code ignored;
@@ -642,7 +671,7 @@ MapOutcome MapJob::summary() const {
   outcome.area = static_cast<double>(mapper_->map().cells()) * cell * cell;
   outcome.map_bytes = mapper_->map().bytes();
   outcome.vote_bytes = mapper_->vote().bytes();
-  outcome.static_points = static_cloud_->size();
+  outcome.static_points = static_cloud_.size();
   outcome.interrupted = interrupted_;
   return outcome;
 }

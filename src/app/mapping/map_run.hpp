@@ -33,6 +33,9 @@ struct MapRequest {
   std::size_t map_memory = 1000;
   unsigned threads = 0;  ///< 0: all cores; the output does not depend on it
   bool picture = true;   ///< draw the ground
+  /// Seconds of work between checkpoints, from which an interrupted run is resumed; 0: after each
+  /// scan. The output does not depend on it.
+  double checkpoint_interval = 60;
   std::vector<std::filesystem::path> settings_files{};  ///< must not be overwritten
 };
 
@@ -57,6 +60,7 @@ struct MapOutcome {
   std::size_t map_bytes = 0, vote_bytes = 0;
   double seconds = 0;
   bool interrupted = false;
+  std::vector<std::string> problems{};  ///< as in run.json
 };
 
 /// Checks everything in a request that does not depend on files. Throws std::invalid_argument.
@@ -67,8 +71,8 @@ void check_map_request(const MapRequest& request);
 /// Poses are checked (see check_poses()): a scan without a usable pose, or whose ground does not
 /// fit the map, is labelled alone. If the run falls into parts whose poses do not fit together, the
 /// longest part is mapped. A scan that cannot be read or segmented is reported in one line and has
-/// no labels. The same call again resumes an interrupted one: it maps the scans again only if not
-/// all were mapped. The files are then identical. Throws std::invalid_argument, before
+/// no labels. The same call again resumes an interrupted one from its last checkpoint, and the
+/// files are identical. A stopped run writes a checkpoint. Throws std::invalid_argument, before
 /// anything is written, if the request is invalid, an output would overwrite an input, or the
 /// output directory contains other files than MapOutputs::input(); std::runtime_error if a file
 /// cannot be read or written.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "files/io/map_files.hpp"
 #include "library/core/setting.hpp"
 
 namespace flagstone::app {
@@ -102,6 +101,7 @@ Status RunMapper::finish(const Use& finished) {
   while (!open_.empty()) {
     if (Status status = finish_first(finished); !status.ok()) return status;
   }
+  is_finished_ = true;
   return {};
 }
 
@@ -122,16 +122,6 @@ Status RunMapper::finish_first(const Use& finished) {
   }
   if (status.ok()) finished(*scan);
   return status;
-}
-
-Status RunMapper::save(const std::filesystem::path& directory) const {
-  const Status status = io::save(directory / "map.bin", map_);
-  return status.ok() ? io::save(directory / "votes.bin", vote_) : status;
-}
-
-Status RunMapper::load(const std::filesystem::path& directory) {
-  const Status status = io::load(directory / "map.bin", map_);
-  return status.ok() ? io::load(directory / "votes.bin", vote_) : status;
 }
 
 Status RunMapper::relabel(const RunScan& scan, std::vector<Label>& labels) const {

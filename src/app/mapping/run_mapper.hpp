@@ -65,6 +65,9 @@ struct RunMapperConfig {
 class RunMapper {
  public:
   using Use = std::function<void(RunScan& scan)>;
+  /// Reads a scan again: the same cloud, result, pose and time as when it was added. `scan.index`
+  /// is set, but may be damaged.
+  using Reread = std::function<Status(RunScan& scan)>;
 
   /// Throws std::invalid_argument if the configuration is invalid.
   explicit RunMapper(const RunMapperConfig& config);
@@ -85,10 +88,18 @@ class RunMapper {
   /// their heights in the scan. Several threads may call it at the same time.
   void heights_above_map(const RunScan& scan, std::vector<float>& heights) const;
 
-  /// Writes map and votes to files in a directory, which must exist, or reads them again: enough
-  /// for relabel() and heights_above_map(). Errors of io::save() and io::load().
+  /// True after finish().
+  [[nodiscard]] bool is_finished() const noexcept { return is_finished_; }
+
+  /// Writes the state to files in a directory, which must exist: map, votes, and, if the run is not
+  /// finished, everything that add() needs except the clouds of the unfinished scans. Errors of
+  /// io::save().
   [[nodiscard]] Status save(const std::filesystem::path& directory) const;
-  Status load(const std::filesystem::path& directory);
+
+  /// Replaces the state by a saved one. Later calls give the same results as without the break.
+  /// `reread` is called for each unfinished scan. Errors of io::load() and `reread`; the state is
+  /// then unspecified.
+  Status load(const std::filesystem::path& directory, const Reread& reread);
 
   [[nodiscard]] const GroundMap& map() const noexcept { return map_; }
   [[nodiscard]] const LabelVote& vote() const noexcept { return vote_; }
@@ -107,6 +118,7 @@ class RunMapper {
   MovingPoints moving_;
   LevellingJudge judge_;
   std::deque<std::unique_ptr<RunScan>> open_;  // added, not finished
+  bool is_finished_ = false;
 };
 
 }  // namespace flagstone::app

@@ -44,9 +44,17 @@ Status save(const std::filesystem::path& path, const LabelVote& vote) {
   return save_state(path, vote);
 }
 
+Status save(const std::filesystem::path& path, const MovingPoints& moving) {
+  return save_state(path, moving);
+}
+
 Status load(const std::filesystem::path& path, GroundMap& map) { return load_state(path, map); }
 
 Status load(const std::filesystem::path& path, LabelVote& vote) { return load_state(path, vote); }
+
+Status load(const std::filesystem::path& path, MovingPoints& moving) {
+  return load_state(path, moving);
+}
 
 std::filesystem::path TileFiles::path_of(TileIndex index) const {
   return directory_ / fmt::format("{}_{}.tile", index.x, index.y);

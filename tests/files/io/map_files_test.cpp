@@ -36,6 +36,13 @@ void add_scan(LabelVote& vote, double x) {
   EXPECT_THAT(vote.add(scan.view(), scan.result, pose, {}), is_ok());
 }
 
+void add_scan(MovingPoints& moving, double x) {
+  const Pose pose = upright_pose(slope, x, 0);
+  const GroundScan scan(slope, pose, 20);
+  MovingMask mask;
+  EXPECT_THAT(moving.add(scan.view(), scan.result, pose, {}, x, mask), is_ok());
+}
+
 template <class State>
 std::vector<std::byte> bytes_of(const State& state) {
   std::vector<std::byte> bytes;
@@ -45,7 +52,7 @@ std::vector<std::byte> bytes_of(const State& state) {
 
 template <class State>
 class MapFile : public testing::Test {};
-using States = testing::Types<GroundMap, LabelVote>;
+using States = testing::Types<GroundMap, LabelVote, MovingPoints>;
 TYPED_TEST_SUITE(MapFile, States);
 
 TYPED_TEST(MapFile, IsLoadedAsItWasSaved) {
