@@ -50,6 +50,16 @@ std::string dataset_name(const std::string& path) {
   return name.empty() || name == "." ? fs::absolute(clean).filename().string() : name.string();
 }
 
+/// Finds out whether all scans are of one sequence, so that their names differ in the last part.
+void mark_only_sequence(std::vector<eval::LabelledScan>& scans) {
+  const auto sequence_of = [](const eval::LabelledScan& scan) {
+    return fs::path(scan.name).parent_path();
+  };
+  const bool is_one = std::ranges::all_of(
+      scans, [&](const auto& scan) { return sequence_of(scan) == sequence_of(scans.front()); });
+  for (eval::LabelledScan& scan : scans) scan.is_of_only_sequence = is_one;
+}
+
 std::vector<eval::LabelledScan> list_scans(const EvaluationOptions& options) {
   std::vector<eval::LabelledScan> scans;
   for (const std::string& dataset : options.datasets) {
@@ -69,6 +79,7 @@ std::vector<eval::LabelledScan> list_scans(const EvaluationOptions& options) {
         "datasets of the same name separately)",
         *twice));
   }
+  mark_only_sequence(scans);
   return scans;
 }
 
@@ -88,22 +99,58 @@ void check_ids(const eval::Protocol& protocol, const std::vector<eval::LabelledS
   }
 }
 
-eval::Method labels_made_elsewhere(const std::string& entry, io::LabelMap map) {
+/// Moving points are classes of SemanticKITTI.
+void check_moving_ids(const std::vector<eval::LabelledScan>& scans) {
+  for (const eval::LabelledScan& scan : scans) {
+    if (scan.labels.extension() != ".bin") continue;
+    throw std::invalid_argument(fmt::format(
+        "{}: moving points cannot be scored with nuScenes-lidarseg ids (expected a dataset with "
+        "SemanticKITTI ids; remove --moving)",
+        scan.labels.string()));
+  }
+}
+
+/// A name and a directory.
+struct NamedFolder {
+  std::string name;
+  fs::path folder;
+};
+
+/// Splits NAME=DIR, a value of `option`. The directory must exist.
+NamedFolder named_folder(const char* option, const std::string& entry) {
   const std::size_t equals = entry.find('=');
   if (equals == 0 || equals == std::string::npos || equals + 1 == entry.size()) {
-    throw std::invalid_argument(fmt::format(
-        "--labels {}: is not NAME=DIR (expected e.g. --labels other=out/other)", entry));
-  }
-  eval::Method method;
-  method.name = entry.substr(0, equals);
-  method.title = method.name;
-  method.labels = entry.substr(equals + 1);
-  method.label_map = map;
-  if (!fs::is_directory(method.labels)) {
     throw std::invalid_argument(
-        fmt::format("--labels {}: {} is not a directory", entry, method.labels.string()));
+        fmt::format("{0} {1}: is not NAME=DIR (expected e.g. {0} other=out/other)", option, entry));
   }
+  NamedFolder named{.name = entry.substr(0, equals), .folder = entry.substr(equals + 1)};
+  std::error_code error;
+  if (!fs::is_directory(named.folder, error)) {
+    throw std::invalid_argument(
+        fmt::format("{} {}: {} is not a directory", option, entry, named.folder.string()));
+  }
+  return named;
+}
+
+eval::Method labels_made_elsewhere(const std::string& entry, io::LabelMap map) {
+  NamedFolder named = named_folder("--labels", entry);
+  eval::Method method;
+  method.name = named.name;
+  method.title = std::move(named.name);
+  method.labels = std::move(named.folder);
+  method.label_map = map;
   return method;
+}
+
+/// Throws for a name that is used twice; `what` describes the entries in the message.
+template <class Entries>
+void check_names(const Entries& entries, std::string_view what) {
+  std::map<std::string, int> count;
+  for (const auto& entry : entries) {
+    if (++count[entry.name] == 2) {
+      throw std::invalid_argument(fmt::format("{}: two {} have this name", entry.name, what));
+    }
+  }
 }
 
 }  // namespace
@@ -118,15 +165,18 @@ std::vector<eval::Method> methods_to_evaluate(const config::MethodChoice& choice
   for (const std::string& entry : labels) {
     methods.push_back(labels_made_elsewhere(entry, label_map));
   }
-  if (methods.empty())
-    throw std::invalid_argument("no method to evaluate (set --methods or --labels)");
-  std::map<std::string, int> count;
-  for (const eval::Method& method : methods) {
-    if (++count[method.name] == 2) {
-      throw std::invalid_argument(fmt::format("{}: two methods have this name", method.name));
-    }
-  }
+  check_names(methods, "methods");
   return methods;
+}
+
+std::vector<eval::MovingSource> moving_to_evaluate(const std::vector<std::string>& entries) {
+  std::vector<eval::MovingSource> sources;
+  for (const std::string& entry : entries) {
+    NamedFolder named = named_folder("--moving", entry);
+    sources.push_back({.name = std::move(named.name), .folder = std::move(named.folder)});
+  }
+  check_names(sources, "directories of moving points");
+  return sources;
 }
 
 fs::path ResultFiles::checkpoint() const {
@@ -143,14 +193,20 @@ bool write_result(const std::string& file, const std::function<std::string()>& t
   return true;
 }
 
-Evaluation::Evaluation(EvaluationOptions options, std::vector<eval::Method> methods)
+Evaluation::Evaluation(EvaluationOptions options, std::vector<eval::Method> methods,
+                       std::vector<eval::MovingSource> moving)
     : options_(std::move(options)),
       methods_(std::move(methods)),
+      moving_(std::move(moving)),
       checkpoint_(options_.files.checkpoint()) {
   check_limits(options_);
+  if (methods_.empty() && moving_.empty()) {
+    throw std::invalid_argument("no method to evaluate (set --methods, --labels or --moving)");
+  }
   throw_if_bad(eval::find_protocol(options_.protocol, protocol_));
   scans_ = list_scans(options_);
   check_ids(protocol_, scans_);
+  if (!moving_.empty()) check_moving_ids(scans_);
   for (const eval::Method& method : methods_) {
     if (method.config) method.config->check();
   }
@@ -167,6 +223,7 @@ void Evaluation::check_files() const {
   for (const eval::Method& method : methods_) {
     if (!method.labels.empty()) plan.reads_dataset(method.labels);
   }
+  for (const eval::MovingSource& source : moving_) plan.reads_dataset(source.folder);
   for (const std::string& file : options_.settings_files) plan.reads(file);
   if (fs::path(options_.protocol).has_extension()) plan.reads(options_.protocol);
   const ResultFiles& files = options_.files;
@@ -200,6 +257,9 @@ std::string Evaluation::fingerprint() const {
             ? config::to_toml(*method.config) + config::to_toml(method.mount)
             : fmt::format("{} {}", method.labels.string(), static_cast<int>(method.label_map)));
   }
+  for (const eval::MovingSource& source : moving_) {
+    text += fmt::format("\nmoving {} {}", source.name, source.folder.string());
+  }
   text += fmt::format("\ncolumns {}", options_.columns);
   for (const std::string& dataset :
        options_.datasets) {  // scans of two datasets may have the same names
@@ -217,7 +277,9 @@ eval::Results Evaluation::run(const RunCallbacks& callbacks) {
   if (!checkpoint_.empty()) {
     std::map<std::string, eval::ScanOutcome> finished;
     throw_if_bad(options_.resume
-                     ? checkpoint.resume(checkpoint_, fingerprint(), methods_.size(), finished)
+                     ? checkpoint.resume(checkpoint_, fingerprint(),
+                                         {.methods = methods_.size(), .moving = moving_.size()},
+                                         finished)
                      : checkpoint.start(checkpoint_, fingerprint()));
     for (std::size_t i = 0; i < scans_.size(); ++i) {
       const auto found = finished.find(scans_[i].name);
@@ -232,7 +294,8 @@ eval::Results Evaluation::run(const RunCallbacks& callbacks) {
   const RunOutcome run = run_in_order(
       left.size(), options_.threads, "scans", callbacks,
       [&] {
-        auto evaluator = std::make_unique<eval::ScanEvaluator>(methods_, protocol_, read_options());
+        auto evaluator =
+            std::make_unique<eval::ScanEvaluator>(methods_, protocol_, read_options(), moving_);
         return [&, evaluator = std::move(evaluator)](std::size_t job) {
           return evaluator->run(scans_[left[job]]);
         };
@@ -242,6 +305,9 @@ eval::Results Evaluation::run(const RunCallbacks& callbacks) {
         if (outcome.error) callbacks.say(*outcome.error);
         for (const eval::MethodOutcome& method : outcome.methods) {
           if (method.error) callbacks.say(*method.error);
+        }
+        for (const eval::MovingOutcome& moving : outcome.moving) {
+          if (moving.error) callbacks.say(*moving.error);
         }
         outcomes[left[job]] = std::move(outcome);
       });
@@ -254,7 +320,7 @@ eval::Results Evaluation::run(const RunCallbacks& callbacks) {
                                   ? "only runs with --json, --csv or --html can be resumed"
                                   : "run the same command with --resume for the rest"));
   }
-  eval::Results results = eval::gather(methods_, scans_, outcomes);
+  eval::Results results = eval::gather(methods_, scans_, outcomes, moving_);
   if (results.scans == 0) remove_checkpoint();  // there is nothing to resume
   results.protocol = protocol_.name;
   results.threads = static_cast<unsigned>(std::min<std::size_t>(

@@ -15,6 +15,7 @@
 #include "files/io/read_cloud.hpp"
 #include "lab/eval/dataset.hpp"
 #include "lab/eval/method.hpp"
+#include "lab/eval/moving.hpp"
 #include "lab/eval/protocol.hpp"
 #include "lab/eval/results.hpp"
 
@@ -42,6 +43,10 @@ std::vector<eval::Method> methods_to_evaluate(const config::MethodChoice& choice
                                               const std::vector<std::string>& labels,
                                               io::LabelMap label_map);
 
+/// The sources of moving points in `entries`, each NAME=DIR. Throws std::invalid_argument with one
+/// line.
+std::vector<eval::MovingSource> moving_to_evaluate(const std::vector<std::string>& entries);
+
 /// The scans to evaluate on, and how.
 struct EvaluationOptions {
   std::vector<std::string> datasets;
@@ -55,13 +60,15 @@ struct EvaluationOptions {
   std::vector<std::string> settings_files{};  ///< inputs that must not be overwritten
 };
 
-/// Runs methods on the scans of datasets, in parallel. A run can be stopped and resumed.
+/// Runs methods on the scans of datasets, in parallel, and scores moving points. A run can be
+/// stopped and resumed.
 class Evaluation {
  public:
   /// Creates the directories of the result files. Throws std::invalid_argument, one line, if the
-  /// options, methods or datasets are invalid, and std::runtime_error if a directory cannot be
-  /// created.
-  Evaluation(EvaluationOptions options, std::vector<eval::Method> methods);
+  /// options, methods or datasets are invalid or there is nothing to evaluate, and
+  /// std::runtime_error if a directory cannot be created.
+  Evaluation(EvaluationOptions options, std::vector<eval::Method> methods,
+             std::vector<eval::MovingSource> moving = {});
 
   /// Evaluates every scan that is not in the checkpoint. Errors of scans are passed to
   /// `callbacks.message` and stored in the results. If stopped, the results cover the finished
@@ -85,6 +92,7 @@ class Evaluation {
 
   EvaluationOptions options_;
   std::vector<eval::Method> methods_;
+  std::vector<eval::MovingSource> moving_;
   std::filesystem::path checkpoint_;
   eval::Protocol protocol_;
   std::vector<eval::LabelledScan> scans_;

@@ -37,6 +37,7 @@ struct EvalOptions {
   app::EvaluationOptions evaluation;
   config::MethodChoice methods{.methods = {"surface", "patchwork"}};
   std::vector<std::string> labels{};
+  std::vector<std::string> moving{};
   io::LabelMap label_map = io::LabelMap::flagstone;
   std::size_t pictures = 0;
   std::string output = "flagstone-eval";
@@ -51,9 +52,23 @@ void print_height_tables(const eval::Results& results, const eval::TextStyle& st
       eval::height_table(results, &eval::HeightResult::ground, style));
   fmt::print("Error of the height above the ground, at all points, including hidden ground\n\n{}\n",
              eval::height_table(results, &eval::HeightResult::everywhere, style));
+  if (!eval::has_common_heights(results)) return;
+  fmt::print("The same at ground points for which every method provides a height\n\n{}\n",
+             eval::height_table(results, &eval::HeightResult::common_ground, style));
+  fmt::print("The same at all points for which every method provides a height\n\n{}\n",
+             eval::height_table(results, &eval::HeightResult::common_everywhere, style));
 }
 
-void print_tables(const eval::Results& results, bool speed) {
+void print_moving_table(const eval::Results& results) {
+  fmt::print(
+      "Moving points of {} by horizontal range, up to {:g} m. IoU, recall and precision of moving "
+      "points, in %,\nover the points of all scans. kept: static points, not ground, that are not "
+      "marked. mean IoU and ±95%: over\nscans with moving points\n\n{}\n",
+      app::scans_text(results), eval::range_bands.back(), eval::moving_table(results));
+}
+
+/// Tables of the methods.
+void print_method_tables(const eval::Results& results, bool speed) {
   const eval::TextStyle style{.bold = isatty(STDOUT_FILENO) != 0};
   fmt::print(
       "Protocol {}, {}. Percentages, averaged over scans; std: sample standard deviation; ±95%: "
@@ -76,6 +91,11 @@ void print_tables(const eval::Results& results, bool speed) {
         "scans;\npaper: on an i7-7700K, sequence 05 of SemanticKITTI\n\n{}\n",
         eval::machine_name(), eval::speed_table(results));
   }
+}
+
+void print_tables(const eval::Results& results, bool speed) {
+  if (!results.methods.empty()) print_method_tables(results, speed);
+  if (!results.moving.empty()) print_moving_table(results);
   fmt::print("{}", eval::time_shares(results));
 }
 
@@ -93,7 +113,8 @@ class EvalCommand final : public Command {
     if (options.speed) how.threads = 1;
     how.settings_files = {options.methods.config_file, options.methods.sensor};
     app::Evaluation evaluation(
-        how, app::methods_to_evaluate(options.methods, options.labels, options.label_map));
+        how, app::methods_to_evaluate(options.methods, options.labels, options.label_map),
+        app::moving_to_evaluate(options.moving));
     if (options.pictures > 0) app::make_folder(options.output);
     catch_interrupts();
     ProgressBar bar;
@@ -128,18 +149,29 @@ class EvalCommand final : public Command {
 
 std::unique_ptr<Command> add_eval_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("eval", "Score methods, or labels of other programs, on labelled scans.");
+      app.add_subcommand("eval", "Score methods, or files of other programs, on labelled scans.");
   set_help(*command,
            {.examples = {{"flagstone eval SemanticKITTI --every 10", "the default methods"},
                          {"flagstone eval SemanticKITTI --methods table1 --html report.html"},
-                         {"flagstone eval nuscenes --protocol lidarseg --images 3"}}});
+                         {"flagstone eval nuscenes --protocol lidarseg --images 3"},
+                         {"flagstone eval run --methods surface --labels map=DIR --moving map=DIR",
+                          "a mapped run"}}});
   auto made = std::make_unique<EvalCommand>(*command);
   EvalOptions* const options = &made->options;
   add_evaluation_options(*command, options->evaluation);
   command
       ->add_option("--labels", options->labels,
                    "Labels of another program, scored like a method: a directory with NAME.label, "
-                   "NAME.npy or NAME.label.npy for each scan, one code per point")
+                   "NAME.npy or NAME.label.npy for each scan, one code per point; or the output of "
+                   "'flagstone map'")
+      ->type_name("NAME=DIR")
+      ->allow_extra_args(false)
+      ->group(input_group);
+  command
+      ->add_option("--moving", options->moving,
+                   "Moving points to score: the output of 'flagstone map', or a directory with "
+                   "NAME.npy (not 0: moves) or NAME.label (251 to 259: moves) for each scan; "
+                   "--methods none scores nothing else")
       ->type_name("NAME=DIR")
       ->allow_extra_args(false)
       ->group(input_group);

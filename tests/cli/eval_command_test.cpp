@@ -713,7 +713,7 @@ TEST_F(LabelsMadeElsewhere, AreReportedOnOneLineIfMissingForAScan) {
 TEST_F(EvalCommand, ReportsUsageErrorsOnOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> misuses = {
       {{"--methods", "magic"}, "no method is named 'magic'"},
-      {{"--methods", "none"}, "no method to evaluate"},
+      {{"--methods", "none"}, "no method to evaluate (set --methods, --labels or --moving)"},
       {{"--protocol", "kitti"}, "patchwork, patchwork++, lidarseg, simulation"},
       {{"--protocol", "nowhere.toml"}, "nowhere.toml"},
       {{"--sequences", "05"}, "has no sequences/"},

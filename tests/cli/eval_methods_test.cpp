@@ -181,7 +181,6 @@ TEST(EvalMethods, NoneKeepsOnlyLabelsOfOtherPrograms) {
   EXPECT_THAT(
       names_of(Options{.names = {"none"}, .labels = {"peer=" + folder.path().string()}}.resolve()),
       ElementsAre("peer"));
-  EXPECT_THAT(error_of({.names = {"none"}}), AllOf(HasSubstr("--methods"), HasSubstr("--labels")));
 }
 
 TEST(EvalMethods, ErrorsNameTheAllowedValues) {

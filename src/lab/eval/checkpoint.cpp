@@ -64,8 +64,13 @@ Json checkpoint_json(const MethodOutcome& outcome) {
     json["range"].push_back(checkpoint_json(band));
   if (outcome.segment_ms) json["ms"] = *outcome.segment_ms;
   if (outcome.heights) {
-    json["heights"] = Json::array(
-        {checkpoint_json(outcome.heights->ground), checkpoint_json(outcome.heights->everywhere)});
+    const HeightScore& heights = *outcome.heights;
+    json["heights"] =
+        Json::array({checkpoint_json(heights.ground), checkpoint_json(heights.everywhere)});
+    if (heights.has_common) {
+      json["heights"].push_back(checkpoint_json(heights.common_ground));
+      json["heights"].push_back(checkpoint_json(heights.common_everywhere));
+    }
   }
   return json;
 }
@@ -81,7 +86,41 @@ MethodOutcome method_outcome_of(const Json& json) {
   if (json.contains("heights")) {
     const Json& heights = json.at("heights");
     outcome.heights = {.ground = height_errors_by_range_of(heights.at(0)),
-                       .everywhere = height_errors_by_range_of(heights.at(1))};
+                       .everywhere = height_errors_by_range_of(heights.at(1)),
+                       .common_ground = {},
+                       .common_everywhere = {}};
+    if (heights.size() > 2) {
+      outcome.heights->has_common = true;
+      outcome.heights->common_ground = height_errors_by_range_of(heights.at(2));
+      outcome.heights->common_everywhere = height_errors_by_range_of(heights.at(3));
+    }
+  }
+  return outcome;
+}
+
+Json checkpoint_json(const MovingCounts& counts) {
+  Json json = checkpoint_json(counts.points);
+  json.push_back(counts.obstacles);
+  json.push_back(counts.kept);
+  return json;
+}
+
+MovingCounts moving_counts_of(const Json& json) {
+  return {.points = confusion_of(json), .obstacles = json.at(4), .kept = json.at(5)};
+}
+
+/// The counts of each range band.
+Json checkpoint_json(const MovingOutcome& outcome) {
+  Json json = Json::array();
+  for (const MovingCounts& band : outcome.score.by_range) json.push_back(checkpoint_json(band));
+  return json;
+}
+
+MovingOutcome moving_outcome_of(const Json& json) {
+  MovingOutcome outcome;
+  for (std::size_t band = 0; band < outcome.score.by_range.size(); ++band) {
+    outcome.score.by_range[band] = moving_counts_of(json.at(band));
+    outcome.score.all += outcome.score.by_range[band];
   }
   return outcome;
 }
@@ -91,6 +130,8 @@ Json checkpoint_json(const std::string& scan, const ScanOutcome& outcome) {
   json["methods"] = Json::array();
   for (const MethodOutcome& method : outcome.methods)
     json["methods"].push_back(checkpoint_json(method));
+  for (const MovingOutcome& moving : outcome.moving)
+    json["moving"].push_back(checkpoint_json(moving));
   return json;
 }
 
@@ -103,6 +144,11 @@ std::optional<std::pair<std::string, ScanOutcome>> scan_of(const std::string& li
     outcome.score_ms = json.at("score");
     for (const Json& method : json.at("methods")) {
       outcome.methods.push_back(method_outcome_of(method));
+    }
+    if (json.contains("moving")) {
+      for (const Json& moving : json.at("moving")) {
+        outcome.moving.push_back(moving_outcome_of(moving));
+      }
     }
     return std::pair(json.at("scan").get<std::string>(), std::move(outcome));
   } catch (const Json::exception&) {
@@ -126,9 +172,9 @@ bool contains_scans(const std::filesystem::path& path) {
 }
 
 bool has_failed(const ScanOutcome& outcome) {
-  return outcome.error || std::ranges::any_of(outcome.methods, [](const MethodOutcome& method) {
-           return method.error.has_value();
-         });
+  const auto failed = [](const auto& part) { return part.error.has_value(); };
+  return outcome.error || std::ranges::any_of(outcome.methods, failed) ||
+         std::ranges::any_of(outcome.moving, failed);
 }
 
 }  // namespace
@@ -153,7 +199,8 @@ Status Checkpoint::start(const std::filesystem::path& path, const std::string& e
 }
 
 Status Checkpoint::resume(const std::filesystem::path& path, const std::string& evaluation,
-                          std::size_t methods, std::map<std::string, ScanOutcome>& finished) {
+                          const OutcomeCounts& counts,
+                          std::map<std::string, ScanOutcome>& finished) {
   std::ifstream old(path);
   if (!old) return start(path, evaluation);
   std::string line;
@@ -171,7 +218,10 @@ Status Checkpoint::resume(const std::filesystem::path& path, const std::string& 
   std::string kept = heading_of(evaluation);
   while (std::getline(old, line)) {
     std::optional<std::pair<std::string, ScanOutcome>> scan = scan_of(line);
-    if (!scan || scan->second.methods.size() != methods) continue;
+    if (!scan || scan->second.methods.size() != counts.methods ||
+        scan->second.moving.size() != counts.moving) {
+      continue;
+    }
     kept += line + "\n";
     finished.insert(std::move(*scan));
   }

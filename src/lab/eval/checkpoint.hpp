@@ -14,6 +14,12 @@
 
 namespace flagstone::eval {
 
+/// Number of methods and of sources of moving points in an evaluation.
+struct OutcomeCounts {
+  std::size_t methods = 0;
+  std::size_t moving = 0;
+};
+
 /// A checkpoint file with the finished scans of an evaluation, so that an interrupted run can be
 /// resumed. The first line of JSON identifies the evaluation; then there is one line per scan.
 /// Lines truncated by a crash are skipped. Not thread-safe.
@@ -24,15 +30,15 @@ class Checkpoint {
   /// overwritten; unwritable.
   Status start(const std::filesystem::path& path, const std::string& evaluation);
 
-  /// Resumes a checkpoint and adds its outcomes to `finished`, by scan. Scans with a number of
-  /// methods other than `methods` are skipped. Starts a checkpoint if the file does not exist.
+  /// Resumes a checkpoint and adds its outcomes to `finished`, by scan. Scans with other
+  /// numbers of outcomes than `counts` are skipped. Starts a checkpoint if the file does not exist.
   /// Errors: invalid_argument for a checkpoint of another evaluation, bad_file for any other file,
   /// unwritable.
   Status resume(const std::filesystem::path& path, const std::string& evaluation,
-                std::size_t methods, std::map<std::string, ScanOutcome>& finished);
+                const OutcomeCounts& counts, std::map<std::string, ScanOutcome>& finished);
 
-  /// Adds a scan if all methods succeeded, so that failed scans are tried again. Write errors are
-  /// ignored: the scan is then evaluated again.
+  /// Adds a scan if it has no error of a method or of moving points, so that failed scans are tried
+  /// again. Write errors are ignored: the scan is then evaluated again.
   void add(const std::string& scan, const ScanOutcome& outcome);
 
  private:

@@ -16,7 +16,8 @@ struct LabelledScan {
   std::string name;  ///< "05/000120" in a SemanticKITTI tree, "000120" elsewhere
   std::filesystem::path points;
   std::filesystem::path labels;
-  std::filesystem::path ground{};  ///< true height of the ground at each point; empty if unknown
+  std::filesystem::path ground{};    ///< true height of the ground at each point; empty if unknown
+  bool is_of_only_sequence = false;  ///< all scans to evaluate are of one sequence
 };
 
 /// Which scans of a dataset are used.

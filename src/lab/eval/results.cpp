@@ -69,7 +69,18 @@ void summarize_heights(MethodResult& result) {
   const auto has = [](const ScanScore& scan) { return scan.heights.has_value(); };
   if (std::ranges::none_of(result.scans, has)) return;
   result.heights = {.ground = height_figures_by_range(result.scans, &HeightScore::ground),
-                    .everywhere = height_figures_by_range(result.scans, &HeightScore::everywhere)};
+                    .everywhere = height_figures_by_range(result.scans, &HeightScore::everywhere),
+                    .common_ground = {},
+                    .common_everywhere = {}};
+  const auto has_common = [](const ScanScore& scan) {
+    return scan.heights && scan.heights->has_common;
+  };
+  if (std::ranges::none_of(result.scans, has_common)) return;
+  HeightResult& heights = *result.heights;
+  heights.has_common = true;
+  heights.common_ground = height_figures_by_range(result.scans, &HeightScore::common_ground);
+  heights.common_everywhere =
+      height_figures_by_range(result.scans, &HeightScore::common_everywhere);
 }
 
 void summarize(MethodResult& result) {
@@ -89,11 +100,36 @@ void summarize(MethodResult& result) {
   summarize_speed(result);
 }
 
+/// `counts_of` selects a range band of a MovingScore.
+template <class CountsOf>
+MovingFigures moving_figures(const std::vector<MovingScanScore>& scans, CountsOf counts_of) {
+  MovingFigures figures;
+  std::vector<double> ious;
+  for (const MovingScanScore& scan : scans) {
+    const MovingCounts& counts = counts_of(scan.score);
+    figures.pooled += counts;
+    ious.push_back(counts.points.iou());  // NaN without moving points
+  }
+  figures.iou = spread_of(ious);
+  return figures;
+}
+
+void summarize(MovingResult& result) {
+  result.all = moving_figures(result.scans,
+                              [](const MovingScore& s) -> const MovingCounts& { return s.all; });
+  for (std::size_t band = 0; band < result.by_range.size(); ++band) {
+    result.by_range[band] = moving_figures(
+        result.scans,
+        [band](const MovingScore& s) -> const MovingCounts& { return s.by_range[band]; });
+  }
+}
+
 /// Whether a point is scored. All methods are scored on the same points.
 bool is_scored(const ScanOutcome& outcome) {
-  return std::ranges::any_of(outcome.methods, [](const MethodOutcome& made) {
-    return made.error || made.score.points.total() > 0;
-  });
+  return outcome.methods.empty() ||
+         std::ranges::any_of(outcome.methods, [](const MethodOutcome& made) {
+           return made.error || made.score.points.total() > 0;
+         });
 }
 
 /// Whether the scan has a score but no ground in the ground truth.
@@ -103,11 +139,23 @@ bool has_no_ground(const ScanOutcome& outcome) {
   return scored != outcome.methods.end() && !scored->score.points.has_ground();
 }
 
+void add_moving(const LabelledScan& scan, const ScanOutcome& outcome, Results& results) {
+  for (std::size_t m = 0; m < results.moving.size(); ++m) {
+    const MovingOutcome& made = outcome.moving[m];
+    if (made.error) {
+      results.failures.push_back({scan.name, *made.error});
+    } else {
+      results.moving[m].scans.push_back({scan.name, made.score});
+    }
+  }
+}
+
 void add(const LabelledScan& scan, const ScanOutcome& outcome, Results& results) {
   if (outcome.error) {
     results.failures.push_back({scan.name, *outcome.error});
     return;
   }
+  add_moving(scan, outcome, results);
   if (!is_scored(outcome)) {
     results.unscored.push_back(scan.name);
     return;
@@ -134,19 +182,30 @@ bool has_heights(const Results& results) {
                              [](const MethodResult& m) { return m.heights.has_value(); });
 }
 
+bool has_common_heights(const Results& results) {
+  return std::ranges::any_of(results.methods, [](const MethodResult& method) {
+    return method.heights && method.heights->has_common;
+  });
+}
+
 Results gather(std::span<const Method> methods, std::span<const LabelledScan> scans,
-               std::span<const std::optional<ScanOutcome>> outcomes) {
+               std::span<const std::optional<ScanOutcome>> outcomes,
+               std::span<const MovingSource> moving) {
   Results results;
   for (const Method& method : methods) {
     MethodResult& result = results.methods.emplace_back();
     result.name = method.name;
     result.title = method.title;
   }
+  for (const MovingSource& source : moving) {
+    results.moving.push_back({.name = source.name, .scans = {}, .all = {}});
+  }
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const std::optional<ScanOutcome>& outcome = outcomes[i];
     if (outcome) add(scans[i], *outcome, results);
   }
   for (MethodResult& result : results.methods) summarize(result);
+  for (MovingResult& result : results.moving) summarize(result);
   return results;
 }
 

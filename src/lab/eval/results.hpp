@@ -10,6 +10,7 @@
 
 #include "lab/eval/dataset.hpp"
 #include "lab/eval/method.hpp"
+#include "lab/eval/moving.hpp"
 #include "lab/eval/scan_evaluator.hpp"
 #include "lab/eval/statistics.hpp"
 
@@ -38,6 +39,8 @@ struct HeightFiguresByRange {
 /// Height errors over the point sets of HeightScore.
 struct HeightResult {
   HeightFiguresByRange ground, everywhere;
+  bool has_common = false;  ///< whether the sets of common points are set
+  HeightFiguresByRange common_ground, common_everywhere;
 };
 
 /// Results of one method on each scan that could be read, and their averages.
@@ -56,7 +59,27 @@ struct MethodResult {
   std::optional<double> hz_slowest_1_percent;  ///< 1 / mean of the slowest 1 % of the times
 };
 
-/// A scan that could not be read, or a method that failed on a scan.
+/// Score of the moving points of one source on one scan.
+struct MovingScanScore {
+  std::string scan;
+  MovingScore score;
+};
+
+/// Moving points of one source, over scans.
+struct MovingFigures {
+  MovingCounts pooled;  ///< micro-average over the points of all scans
+  Spread iou;           ///< macro-average over the scans that have moving points
+};
+
+/// Results of one source of moving points on each scan that could be read.
+struct MovingResult {
+  std::string name;
+  std::vector<MovingScanScore> scans;
+  MovingFigures all;  ///< points within the last range band
+  std::array<MovingFigures, range_bands.size()> by_range{};
+};
+
+/// A scan that could not be read, or a method or source that failed on a scan.
 struct Failure {
   std::string scan;
   std::string error;
@@ -73,23 +96,28 @@ struct TimeSpent {
 struct Results {
   std::string protocol;
   std::vector<std::string> datasets;
-  std::size_t scans = 0;              ///< scans that could be read and have a scored point
+  std::size_t scans = 0;  ///< scans that could be read and, with methods, have a scored point
   std::vector<std::string> unscored;  ///< scans without a scored point; excluded from all results
   /// Number of scans without ground in the ground truth; only accuracies include them.
   std::size_t without_ground = 0;
   unsigned threads = 1;
   std::vector<MethodResult> methods;
+  std::vector<MovingResult> moving;
   std::vector<Failure> failures;
   TimeSpent time;
 };
 
-/// Combines outcomes into results: one outcome per scan, with the methods in the given order;
-/// nullopt for scans that were not processed.
+/// Combines outcomes into results: one outcome per scan, with the methods and the sources of moving
+/// points in the given order; nullopt for scans that were not processed.
 Results gather(std::span<const Method> methods, std::span<const LabelledScan> scans,
-               std::span<const std::optional<ScanOutcome>> outcomes);
+               std::span<const std::optional<ScanOutcome>> outcomes,
+               std::span<const MovingSource> moving = {});
 
 /// Whether at least one method has scored heights.
 bool has_heights(const Results& results);
+
+/// Whether heights of several methods are scored at common points.
+bool has_common_heights(const Results& results);
 
 /// Indices into `result.scans` of the `count` scans with the lowest F1, lowest first. Scans without
 /// an F1 are omitted.

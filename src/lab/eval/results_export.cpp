@@ -37,7 +37,20 @@ std::string today() {
 
 namespace {
 
-std::string heading(bool with_heights) {
+/// Headings of the height errors at a set of points.
+std::string height_headings(std::string_view prefix) {
+  std::string text;
+  float from = 0;
+  for (const float to : height_bands) {
+    for (const char* figure : {"median", "percentile95", "bias", "share"}) {
+      text += fmt::format(",{}_{}_{}_{}m", prefix, figure, from, to);
+    }
+    from = to;
+  }
+  return text;
+}
+
+std::string heading(bool with_heights, bool with_common_heights) {
   std::string text = "method,scan,precision,recall,f1,accuracy,iou,tp,fp,fn,tn";
   float from = 0;
   for (const float to : range_bands) {
@@ -45,14 +58,8 @@ std::string heading(bool with_heights) {
     from = to;
   }
   text += ",f1_by_area,milliseconds";
-  if (!with_heights) return text + "\r\n";
-  from = 0;
-  for (const float to : height_bands) {
-    for (const char* figure : {"median", "percentile95", "bias", "share"}) {
-      text += fmt::format(",height_{}_{}_{}m", figure, from, to);
-    }
-    from = to;
-  }
+  if (with_heights) text += height_headings("height");
+  if (with_common_heights) text += height_headings("height_common");
   return text + "\r\n";
 }
 
@@ -70,7 +77,8 @@ std::string ratio_cell(double ratio) {
   return std::isnan(ratio) ? "," : fmt::format(",{:.6f}", ratio);
 }
 
-std::string row(const MethodResult& result, const ScanScore& scan, bool with_heights) {
+std::string row(const MethodResult& result, const ScanScore& scan, bool with_heights,
+                bool with_common_heights) {
   const Confusion& all = scan.score.points;
   std::string text = csv_cell(result.name) + "," + csv_cell(scan.scan);
   for (const double ratio : {all.precision(), all.recall(), all.f1(), all.accuracy(), all.iou()}) {
@@ -81,10 +89,12 @@ std::string row(const MethodResult& result, const ScanScore& scan, bool with_hei
   for (const Confusion& band : scan.score.by_range) text += ratio_cell(band.f1());
   text += ratio_cell(scan.score.by_area.f1()) + ",";
   if (scan.segment_ms) text += fmt::format("{:.4f}", *scan.segment_ms);
+  const HeightScore heights = scan.heights.value_or(HeightScore());
   if (with_heights) {
-    for (const HeightErrors& band : scan.heights.value_or(HeightScore()).ground.by_range) {
-      text += height_cells(band);
-    }
+    for (const HeightErrors& band : heights.ground.by_range) text += height_cells(band);
+  }
+  if (with_common_heights) {
+    for (const HeightErrors& band : heights.common_ground.by_range) text += height_cells(band);
   }
   return text + "\r\n";
 }
@@ -103,9 +113,12 @@ std::string csv_cell(const std::string& text) {
 
 std::string to_csv(const Results& results) {
   const bool with_heights = has_heights(results);
-  std::string text = heading(with_heights);
+  const bool with_common_heights = has_common_heights(results);
+  std::string text = heading(with_heights, with_common_heights);
   for (const MethodResult& result : results.methods) {
-    for (const ScanScore& scan : result.scans) text += row(result, scan, with_heights);
+    for (const ScanScore& scan : result.scans) {
+      text += row(result, scan, with_heights, with_common_heights);
+    }
   }
   return text;
 }
@@ -178,8 +191,13 @@ OrderedJson heights_by_range(const ByRange& heights) {
 /// `heights` is a HeightResult, or the HeightScore of one scan.
 template <class Heights>
 OrderedJson heights_json(const Heights& heights) {
-  return {{"ground", heights_by_range(heights.ground)},
-          {"everywhere", heights_by_range(heights.everywhere)}};
+  OrderedJson json = {{"ground", heights_by_range(heights.ground)},
+                      {"everywhere", heights_by_range(heights.everywhere)}};
+  if (heights.has_common) {
+    json["common_ground"] = heights_by_range(heights.common_ground);
+    json["common_everywhere"] = heights_by_range(heights.common_everywhere);
+  }
+  return json;
 }
 
 OrderedJson per_scan(const MethodResult& result) {
@@ -219,6 +237,42 @@ OrderedJson to_json(const MethodResult& result) {
   return json;
 }
 
+OrderedJson to_json(const MovingCounts& counts) {
+  return {{"iou", or_null(counts.points.iou())},
+          {"recall", or_null(counts.points.recall())},
+          {"precision", or_null(counts.points.precision())},
+          {"kept", or_null(counts.kept_share())},
+          {"points", counts.points.total()},
+          {"moving_points", counts.moving()},
+          {"marked_points", counts.marked()}};
+}
+
+OrderedJson to_json(const MovingFigures& figures) {
+  OrderedJson json = to_json(figures.pooled);
+  json["mean_iou"] = to_json(figures.iou);
+  return json;
+}
+
+OrderedJson to_json(const MovingResult& result) {
+  OrderedJson json = {{"name", result.name}, {"scans", result.scans.size()}};
+  json.update(to_json(result.all));
+  json["by_range"] = OrderedJson::array();
+  float from = 0;
+  for (std::size_t band = 0; band < range_bands.size(); ++band) {
+    OrderedJson entry = {{"from", from}, {"to", range_bands[band]}};
+    entry.update(to_json(result.by_range[band]));
+    json["by_range"].push_back(std::move(entry));
+    from = range_bands[band];
+  }
+  json["per_scan"] = OrderedJson::array();
+  for (const MovingScanScore& scan : result.scans) {
+    OrderedJson entry = {{"scan", scan.scan}};
+    entry.update(to_json(scan.score.all));
+    json["per_scan"].push_back(std::move(entry));
+  }
+  return json;
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const Spread& spread) {
@@ -249,6 +303,7 @@ nlohmann::ordered_json to_json(const Results& results) {
                           {"score", results.time.score}};
   json["methods"] = OrderedJson::array();
   for (const MethodResult& result : results.methods) json["methods"].push_back(to_json(result));
+  for (const MovingResult& result : results.moving) json["moving"].push_back(to_json(result));
   return json;
 }
 

@@ -14,7 +14,9 @@ namespace flagstone::eval {
 /// `mean`, `std`, `ci95`), `pooled` (micro-average), `by_range`, `by_area` (per BEV cell), `hz`,
 /// `hz_slowest_1_percent`, `worst` and `per_scan`. Ratios are 0 to 1, times are in milliseconds,
 /// and null is an undefined number. `without_ground` is the number of scans without ground in the
-/// ground truth; only means of the accuracy include them.
+/// ground truth; only means of the accuracy include them. `moving`, if moving points were
+/// evaluated: per source, `name`, `scans`, metrics over the points of all scans, `mean_iou` (over
+/// scans), `by_range` and `per_scan`.
 nlohmann::ordered_json to_json(const Results& results);
 
 /// `mean`, `std` and `ci95` of a metric, and the number of `scans`.
@@ -27,7 +29,8 @@ nlohmann::ordered_json results_heading();
 /// undefined), their counts, F1 of each range band and per BEV cell, milliseconds (empty for labels
 /// of another program). If heights were scored, then for each range band: median and 95th
 /// percentile of the absolute error and bias over ground points, metres (empty without points), and
-/// the fraction of points with a height.
+/// the fraction of points with a height. The same columns with `height_common` follow if several
+/// methods have heights: ground points for which every method provides a height.
 std::string to_csv(const Results& results);
 
 /// A CSV cell, quoted if necessary.

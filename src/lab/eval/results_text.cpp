@@ -196,6 +196,39 @@ std::string height_table(const Results& results, HeightFiguresByRange HeightResu
   return table(judged, columns, style);
 }
 
+std::string moving_table(const Results& results) {
+  std::size_t name_width = 6;
+  for (const MovingResult& result : results.moving) {
+    name_width = std::max(name_width, result.name.size());
+  }
+  std::string text = fmt::format("{:<{}}{:>10}{:>9}{:>9}{:>11}{:>9}{:>11}{:>8}{:>15}\n", "Moving",
+                                 name_width, "range", "IoU", "recall", "precision", "kept",
+                                 "mean IoU", "±95%", "moving points");
+  const auto row = [&](const std::string& name, const std::string& band,
+                       const MovingFigures& figures) {
+    const Confusion& points = figures.pooled.points;
+    text += fmt::format(
+        "{:<{}}{:>10}{:>9}{:>9}{:>11}{:>9}{:>11}{:>8}{:>15}\n", name, name_width, band,
+        percent_text(points.iou()), percent_text(points.recall()), percent_text(points.precision()),
+        percent_text(figures.pooled.kept_share()), percent_text(figures.iou.mean),
+        figures.iou.ci95 ? percent_text(*figures.iou.ci95) : "-", figures.pooled.moving());
+  };
+  for (const MovingResult& result : results.moving) {
+    const std::string name = io::printable(result.name);
+    float from = 0;
+    for (std::size_t band = 0; band < range_bands.size(); ++band) {
+      row(name, fmt::format("{}-{} m", from, range_bands[band]), result.by_range[band]);
+      from = range_bands[band];
+    }
+    row(name, "all", result.all);
+    if (result.scans.size() < results.scans) {
+      text +=
+          fmt::format("{}: scored on {} of {} scans\n", name, result.scans.size(), results.scans);
+    }
+  }
+  return text;
+}
+
 std::string worst_table(const Results& results, std::size_t count) {
   std::string text;
   for (const MethodResult& result : results.methods) {

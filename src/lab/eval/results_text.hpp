@@ -26,6 +26,11 @@ std::string range_table(const Results& results, const TextStyle& style);
 std::string height_table(const Results& results, HeightFiguresByRange HeightResult::* points,
                          const TextStyle& style);
 
+/// Moving points of each source in each range band and in all bands together: metrics over the
+/// points of all scans in percent, number of moving points, mean and 95 % confidence interval of
+/// the IoU over scans.
+std::string moving_table(const Results& results);
+
 /// The `count` scans with the lowest F1 of every method.
 std::string worst_table(const Results& results, std::size_t count);
 

@@ -5,51 +5,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <new>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "files/io/message.hpp"
 #include "files/io/npy.hpp"
+#include "lab/eval/found_files.hpp"
 #include "lab/eval/method_runner.hpp"
 #include "library/core/stopwatch.hpp"
 
 namespace flagstone::eval {
-namespace fs = std::filesystem;
-
 namespace {
 
 /// With more methods than this (in a sweep), methods are constructed again for every scan, because
 /// keeping them all would take too much memory.
 constexpr std::size_t most_kept = 32;
-
-/// Path of the labels of scan "05/000120" in a tree with the layout of its dataset:
-/// sequences/05/SUBDIRECTORY/000120.label. With several datasets, each has a directory with its
-/// name.
-fs::path in_tree(const fs::path& folder, const fs::path& name, const char* subdirectory,
-                 const char* extension = ".label") {
-  const fs::path file = fs::path(subdirectory) / (name.filename().string() + extension);
-  const fs::path sequence = name.parent_path();
-  if (sequence.empty()) return folder / file;
-  return folder / sequence.parent_path() / "sequences" / sequence.filename() / file;
-}
-
-/// The file with a method's labels of a scan, or the first candidate if none exists.
-fs::path label_file(const fs::path& folder, const std::string& name) {
-  const std::array candidates = {folder / (name + ".label"),
-                                 folder / (name + ".npy"),
-                                 folder / (name + ".label.npy"),        // of --format u8
-                                 in_tree(folder, name, "predictions"),  // SemanticKITTI's layout
-                                 in_tree(folder, name, "velodyne"),     // 'flagstone segment TREE'
-                                 in_tree(folder, name, "velodyne", ".label.npy")};
-  std::error_code error;
-  const auto* const found =
-      std::ranges::find_if(candidates, [&](const auto& path) { return fs::exists(path, error); });
-  return found == candidates.end() ? candidates.front() : *found;
-}
 
 }  // namespace
 
@@ -61,8 +33,8 @@ struct ScanEvaluator::Worker {
 };
 
 ScanEvaluator::ScanEvaluator(std::span<const Method> methods, const Protocol& protocol,
-                             const io::ReadOptions& read)
-    : protocol_(protocol), read_options_(read) {
+                             const io::ReadOptions& read, std::span<const MovingSource> moving)
+    : protocol_(protocol), read_options_(read), moving_(moving) {
   for (const Method& method : methods) workers_.push_back({&method, nullptr});
 }
 
@@ -99,17 +71,23 @@ Status ScanEvaluator::segment(Worker& worker, std::optional<double>& segment_ms)
 }
 
 Status ScanEvaluator::read_labels(const LabelledScan& scan, const Method& method) {
-  std::vector<std::uint32_t> codes;
-  const fs::path file = label_file(method.labels, scan.name);
-  if (Status status = io::read_reference(file, cloud_.size(), codes); !status.ok()) return status;
-  found_.resize(codes.size());
-  if (method.label_map == io::LabelMap::flagstone) {
-    std::ranges::transform(codes, found_.begin(), [](std::uint32_t code) {
+  const LabelFile file = label_file(method.labels, scan);
+  if (Status status = io::read_reference(file.path, cloud_.size(), codes_); !status.ok()) {
+    return status;
+  }
+  found_heights_.clear();
+  if (!file.heights.empty() && !ground_.empty()) {
+    Status status = io::read_height_file(file.heights, cloud_.size(), found_heights_);
+    if (!status.ok()) return status;
+  }
+  found_.resize(codes_.size());
+  if (file.is_mapped || method.label_map == io::LabelMap::flagstone) {
+    std::ranges::transform(codes_, found_.begin(), [](std::uint32_t code) {
       return code == static_cast<std::uint32_t>(Label::ground) ? Label::ground : Label::nonground;
     });
   } else {
     std::ranges::transform(
-        truth_of(protocol_, cloud_.view(), codes), found_.begin(),
+        truth_of(protocol_, cloud_.view(), codes_), found_.begin(),
         [](Truth truth) { return truth == Truth::ground ? Label::ground : Label::nonground; });
   }
   return {};
@@ -125,8 +103,8 @@ std::span<const Label> ScanEvaluator::labels_of(const Worker& worker) const {
   return worker.method->config ? result_.labels() : std::span<const Label>(found_);
 }
 
-bool ScanEvaluator::has_heights_to_score(const Worker& worker) const {
-  return worker.method->config && !ground_.empty() && !result_.heights().empty();
+std::span<const float> ScanEvaluator::heights_of(const Worker& worker) const {
+  return worker.method->config ? result_.heights() : std::span<const float>(found_heights_);
 }
 
 void ScanEvaluator::evaluate(const LabelledScan& scan, Worker& worker, ScanOutcome& outcome) {
@@ -141,9 +119,39 @@ void ScanEvaluator::evaluate(const LabelledScan& scan, Worker& worker, ScanOutco
   }
   watch.lap();
   made.score = truth_.score(labels_of(worker));
-  if (has_heights_to_score(worker)) {
-    made.heights = score_heights(cloud_.view(), truth_.truth(), ground_, result_.heights());
+  if (const std::span<const float> heights = heights_of(worker);
+      !ground_.empty() && !heights.empty()) {
+    made.heights = score_heights(cloud_.view(), truth_.truth(), ground_, heights);
+    heights_.emplace_back(heights.begin(), heights.end());
   }
+  outcome.score_ms += watch.lap();
+}
+
+/// Compares heights at the same points, if several methods provide heights and none failed.
+void ScanEvaluator::evaluate_common_heights(ScanOutcome& outcome) {
+  const auto failed = [](const MethodOutcome& made) { return made.error.has_value(); };
+  if (heights_.size() < 2 || std::ranges::any_of(outcome.methods, failed)) return;
+  Stopwatch watch;
+  std::vector<HeightScore*> scores;
+  for (MethodOutcome& made : outcome.methods) {
+    if (made.heights) scores.push_back(&*made.heights);
+  }
+  score_common_heights(cloud_.view(), truth_.truth(), ground_, heights_, scores);
+  outcome.score_ms += watch.lap();
+}
+
+void ScanEvaluator::evaluate_moving(const LabelledScan& scan, const MovingSource& source,
+                                    ScanOutcome& outcome) {
+  MovingOutcome& made = outcome.moving.emplace_back();
+  Stopwatch watch;
+  const Status status = read_moving(moving_file(source.folder, scan), cloud_.size(), codes_);
+  outcome.read_ms += watch.lap();
+  if (!status.ok()) {
+    made.error = fmt::format("{}: moving points {}: {}", io::printable(scan.points), source.name,
+                             status.message());
+    return;
+  }
+  made.score = moving_truth_.score(codes_);
   outcome.score_ms += watch.lap();
 }
 
@@ -157,13 +165,19 @@ ScanOutcome ScanEvaluator::run(const LabelledScan& scan) noexcept {
     }
     outcome.read_ms = watch.lap();
     truth_.set(protocol_, cloud_.view(), classes_);
+    if (!moving_.empty()) moving_truth_.set(cloud_.view(), classes_);
     outcome.score_ms = watch.lap();
+    heights_.clear();
     for (Worker& worker : workers_) evaluate(scan, worker, outcome);
+    evaluate_common_heights(outcome);
+    for (const MovingSource& source : moving_) evaluate_moving(scan, source, outcome);
   } catch (const std::bad_alloc&) {
     outcome.methods.clear();
+    outcome.moving.clear();
     outcome.error = "not enough memory";  // short enough to be stored without allocation
   } catch (const std::exception& error) {
     outcome.methods.clear();
+    outcome.moving.clear();
     outcome.error = error.what();
   }
   return outcome;

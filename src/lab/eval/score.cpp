@@ -67,16 +67,6 @@ std::uint32_t cell_of(Point p) {
   return index(p.x) * row_cells + index(p.y);
 }
 
-/// Index of the range band of a point; bands.size() beyond the last band and for non-finite points.
-/// Counts band ends instead of branching, because branches would often be mispredicted.
-template <std::size_t Count>
-std::uint32_t band_of(Point p, const std::array<float, Count>& bands) {
-  const float squared_range = p.x * p.x + p.y * p.y;
-  std::uint32_t band = 0;
-  for (const float end : bands) band += squared_range < end * end ? 0 : 1;
-  return band;
-}
-
 }  // namespace
 
 void ScanTruth::set(const Protocol& protocol, CloudView cloud,
@@ -171,22 +161,55 @@ struct ErrorsByRange {
   }
 };
 
-}  // namespace
+/// Height errors over ground points and over all points.
+struct PairOfErrors {
+  HeightErrorsByRange ground, everywhere;
+};
 
-HeightScore score_heights(CloudView cloud, std::span<const Truth> truth,
-                          std::span<const float> true_ground, std::span<const float> heights) {
+/// Errors of heights at the points with a known true height that `is_included` selects by index.
+template <class IsIncluded>
+PairOfErrors errors_of(CloudView cloud, std::span<const Truth> truth,
+                       std::span<const float> true_ground, std::span<const float> heights,
+                       IsIncluded is_included) {
   ErrorsByRange ground;
   ErrorsByRange everywhere;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Point p = cloud[i];
     const double true_height = static_cast<double>(p.z) - static_cast<double>(true_ground[i]);
-    if (!std::isfinite(true_height)) continue;
+    if (!std::isfinite(true_height) || !is_included(i)) continue;
     const double error = static_cast<double>(heights[i]) - true_height;
     const std::size_t band = band_of(p, height_bands);
     everywhere.add(band, error);
     if (truth[i] == Truth::ground) ground.add(band, error);
   }
   return {.ground = ground.summary(), .everywhere = everywhere.summary()};
+}
+
+}  // namespace
+
+HeightScore score_heights(CloudView cloud, std::span<const Truth> truth,
+                          std::span<const float> true_ground, std::span<const float> heights) {
+  const PairOfErrors errors =
+      errors_of(cloud, truth, true_ground, heights, [](std::size_t) { return true; });
+  return {.ground = errors.ground,
+          .everywhere = errors.everywhere,
+          .common_ground = {},
+          .common_everywhere = {}};
+}
+
+void score_common_heights(CloudView cloud, std::span<const Truth> truth,
+                          std::span<const float> true_ground,
+                          std::span<const std::vector<float>> heights,
+                          std::span<HeightScore* const> scores) {
+  const auto have_all = [&](std::size_t i) {
+    return std::ranges::none_of(heights, [i](const auto& own) { return std::isnan(own[i]); });
+  };
+  for (std::size_t m = 0; m < scores.size(); ++m) {
+    const PairOfErrors errors = errors_of(cloud, truth, true_ground, heights[m], have_all);
+    scores[m]->has_common = true;
+    scores[m]->common_ground = errors.ground;
+    scores[m]->common_everywhere = errors.everywhere;
+  }
 }
 
 }  // namespace flagstone::eval

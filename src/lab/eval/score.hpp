@@ -18,7 +18,8 @@
 
 namespace flagstone::eval {
 /// Confusion matrix of labels and ground truth; section IV-B of the paper, equation (1). Counts are
-/// points, or BEV cells that count once each. All metrics are ratios from 0 to 1, or NaN if they
+/// points, or BEV cells that count once each. For moving points, read "moving" instead of "ground".
+/// All metrics are ratios from 0 to 1, or NaN if they
 /// are undefined. Without ground in the ground truth only the accuracy is defined; without points
 /// labelled ground the precision is undefined.
 struct Confusion {
@@ -74,6 +75,16 @@ Confusion compare(std::span<const Label> labels, std::span<const Truth> truth);
 /// Upper ends of the bands of horizontal range with separate scores, metres; the first band begins
 /// at 0.
 inline constexpr std::array<float, 4> range_bands = {10, 20, 40, 80};
+
+/// Index of the range band of a point; bands.size() beyond the last band and for non-finite points.
+/// Counts band ends instead of branching, because branches would often be mispredicted.
+template <std::size_t Count>
+std::uint32_t band_of(Point p, const std::array<float, Count>& bands) {
+  const float squared_range = p.x * p.x + p.y * p.y;
+  std::uint32_t band = 0;
+  for (const float end : bands) band += squared_range < end * end ? 0 : 1;
+  return band;
+}
 
 /// Side of the cells of the bird's-eye view (BEV), metres. The cells cover the square up to the end
 /// of the last band.
@@ -140,6 +151,10 @@ struct HeightScore {
   HeightErrorsByRange ground;  ///< ground points in the ground truth
   /// All points, including points on objects that hide the ground.
   HeightErrorsByRange everywhere;
+  /// Whether the sets of common points are set.
+  bool has_common = false;
+  /// The points of these sets for which every method with heights provides one.
+  HeightErrorsByRange common_ground, common_everywhere;
 };
 
 /// Scores heights above the ground, one per point; NaN for points without a height. `true_ground`
@@ -147,5 +162,12 @@ struct HeightScore {
 /// points.
 HeightScore score_heights(CloudView cloud, std::span<const Truth> truth,
                           std::span<const float> true_ground, std::span<const float> heights);
+
+/// Sets the common points of `scores`, the scores of several methods for one scan, from the heights
+/// of each method. Other parameters as score_heights().
+void score_common_heights(CloudView cloud, std::span<const Truth> truth,
+                          std::span<const float> true_ground,
+                          std::span<const std::vector<float>> heights,
+                          std::span<HeightScore* const> scores);
 
 }  // namespace flagstone::eval

@@ -132,7 +132,7 @@ std::string pooled_table(const Json& results) {
   return table(results.at("methods"), columns);
 }
 
-// Height errors over one set of points ("ground" or "everywhere") in each range band.
+// Height errors over one set of points, such as "ground" or "everywhere", in each range band.
 std::string height_table(const Json& methods, const Json& bands, std::string_view points) {
   using enum Format;
   std::vector<Column> columns = {{"", "Method", "/title", text, false}};
@@ -149,6 +149,19 @@ std::string height_table(const Json& methods, const Json& bands, std::string_vie
   return table(methods, columns);
 }
 
+// Tables of the points for which every method provides a height, if several methods have heights.
+std::string common_height_tables(const Json& methods, const Json& bands) {
+  const auto has_common = [](const Json& method) {
+    return method.at("heights").contains("common_ground");
+  };
+  if (std::ranges::none_of(methods, has_common)) return {};
+  return fmt::format(
+      "<h3>Ground points for which every method provides a height</h3>\n{}"
+      "<h3>All points for which every method provides a height</h3>\n{}",
+      height_table(methods, bands, "common_ground"),
+      height_table(methods, bands, "common_everywhere"));
+}
+
 std::string height_section(const Json& methods) {
   Json judged = Json::array();
   for (const Json& method : methods)
@@ -157,14 +170,52 @@ std::string height_section(const Json& methods) {
   const Json& bands = judged.front().at("heights").at("ground").at("by_range");
   return fmt::format(
       "<section>\n<h2>Heights above the ground</h2>\n<h3>Ground points</h3>\n{}"
-      "<h3>All points</h3>\n{}"
+      "<h3>All points</h3>\n{}{}"
       "<p class=\"note\">Estimated height minus true height, by distance from the sensor, averaged "
       "over the scans. Median and 95 %: median and 95th percentile of the absolute error. Bias: "
       "mean error; a positive bias means that the estimated ground is too low. Coverage: fraction "
       "of the points for which the method provides a height. All points: ground points and points "
       "on objects that hide the ground.</p>\n"
       "</section>\n",
-      height_table(judged, bands, "ground"), height_table(judged, bands, "everywhere"));
+      height_table(judged, bands, "ground"), height_table(judged, bands, "everywhere"),
+      common_height_tables(judged, bands));
+}
+
+/// One row per source and range band; the last band of a source covers all bands.
+Json moving_rows(const Json& sources) {
+  Json rows = Json::array();
+  for (const Json& source : sources) {
+    const auto add = [&](const Json& figures, const std::string& band) {
+      Json row = figures;
+      row["title"] = fmt::format("{}, {}", source.at("name").get<std::string>(), band);
+      rows.push_back(std::move(row));
+    };
+    for (const Json& band : source.at("by_range")) add(band, band_text(band));
+    add(source, "all");
+  }
+  return rows;
+}
+
+std::string moving_section(const Json& results) {
+  if (!results.contains("moving")) return {};
+  using enum Format;
+  const std::array<Column, 8> columns = {{
+      {"", "Source and range", "/title", text, false},
+      {"Micro-average, %", "IoU", "/iou", percent, false},
+      {"Micro-average, %", "Recall", "/recall", percent, false},
+      {"Micro-average, %", "Precision", "/precision", percent, false},
+      {"Micro-average, %", "Kept", "/kept", percent, false},
+      {"IoU over scans, %", "mean", "/mean_iou/mean", percent, false},
+      {"IoU over scans, %", "± 95 %", "/mean_iou/ci95", percent, false},
+      {"Points", "moving", "/moving_points", number, false},
+  }};
+  return fmt::format(
+      "<section>\n<h2>Moving points</h2>\n{}"
+      "<p class=\"note\">Moving points in the ground truth are those with the moving classes of "
+      "SemanticKITTI. Kept: static points that are not ground and not marked as moving. IoU over "
+      "scans: mean over the scans with moving points, and the half-width of its 95 % confidence "
+      "interval. Points beyond the last range are not scored.</p>\n</section>\n\n",
+      table(moving_rows(results.at("moving")), columns));
 }
 
 std::string f1_of_scan(const Json& method, const std::string& name) {
@@ -217,6 +268,9 @@ std::string picture_gallery(std::span<const ReportPicture> pictures) {
 }
 
 std::string title_of(const Json& results) {
+  if (results.at("methods").empty()) {
+    return fmt::format("Moving points of {} ({})", dataset_names(results), scan_count(results));
+  }
   return fmt::format("Ground segmentation of {} ({}), protocol {}", dataset_names(results),
                      scan_count(results), results.at("protocol").get<std::string>());
 }
@@ -228,23 +282,26 @@ std::string eval_report(const Json& results, std::span<const ReportPicture> pict
   const std::string title = title_of(results);
   const std::string heading = escaped(title);
   const std::string fact_list = facts(results);
+  const std::string moving_html = moving_section(results);
+  const std::string failed_html = failed_scans(results.at("failed"));
+  if (methods.empty()) {
+    return page(title,
+                fmt::format("<h1>{}</h1>\n<dl class=\"facts\">\n{}</dl>\n\n{}{}", heading,
+                            fact_list, moving_html, failed_html),
+                Json::object(), "");
+  }
   const std::string methods_html = method_table(methods);
   const std::string pooled_html = pooled_table(results);
   const std::string heights_html = height_section(methods);
   const std::string worst_html = worst_scans(methods);
-  const std::string failed_html = failed_scans(results.at("failed"));
   const std::string pictures_html = picture_gallery(pictures);
   const std::string rows = std::to_string(methods.size());
   const std::array slots = {
-      Slot{"heading", heading},
-      Slot{"facts", fact_list},
-      Slot{"method_table", methods_html},
-      Slot{"pooled_table", pooled_html},
-      Slot{"heights", heights_html},
-      Slot{"worst", worst_html},
-      Slot{"failed", failed_html},
-      Slot{"pictures", pictures_html},
-      Slot{"rows", rows},
+      Slot{"heading", heading},           Slot{"facts", fact_list},
+      Slot{"method_table", methods_html}, Slot{"pooled_table", pooled_html},
+      Slot{"heights", heights_html},      Slot{"moving", moving_html},
+      Slot{"worst", worst_html},          Slot{"failed", failed_html},
+      Slot{"pictures", pictures_html},    Slot{"rows", rows},
   };
   return page(title, fill(embedded::eval_html, slots), plot_data(results), embedded::eval_js);
 }

@@ -27,6 +27,9 @@ ScanOutcome outcome_with(double true_positives) {
   made.heights->ground.by_range[1] = {
       .points = 7, .given = 6, .median = 1.0 / 3, .percentile95 = 0.5, .bias = -0.25};
   made.heights->everywhere.all.points = 8;
+  made.heights->has_common = true;
+  made.heights->common_ground.all.points = 9;
+  made.heights->common_everywhere.by_range[2].given = 10;
   ScanOutcome outcome;
   outcome.methods = {made, made};
   outcome.read_ms = 0.1;
@@ -39,7 +42,7 @@ class CheckpointFile : public testing::Test {
   std::map<std::string, ScanOutcome> resumed(const std::string& evaluation) {
     Checkpoint checkpoint;
     std::map<std::string, ScanOutcome> finished;
-    const Status status = checkpoint.resume(file_, evaluation, 2, finished);
+    const Status status = checkpoint.resume(file_, evaluation, {.methods = 2}, finished);
     EXPECT_TRUE(status.ok()) << status.message();
     return finished;
   }
@@ -73,6 +76,53 @@ TEST_F(CheckpointFile, RestoresAddedScansExactly) {
   EXPECT_EQ(heights.percentile95, 0.5);
   EXPECT_EQ(heights.bias, -0.25);
   EXPECT_EQ(outcome.methods[0].heights->everywhere.all.points, 8U);
+  EXPECT_TRUE(outcome.methods[0].heights->has_common);
+  EXPECT_EQ(outcome.methods[0].heights->common_ground.all.points, 9U);
+  EXPECT_EQ(outcome.methods[0].heights->common_everywhere.by_range[2].given, 10U);
+}
+
+TEST_F(CheckpointFile, RestoresMovingPointsExactly) {
+  ScanOutcome scored = outcome_with(1);
+  MovingOutcome& moving = scored.moving.emplace_back();
+  moving.score.by_range[1] = {.points = {1, 2, 3, 4}, .obstacles = 5, .kept = 6};
+  moving.score.all = moving.score.by_range[1];
+  ScanOutcome other_sources = outcome_with(1);
+  {
+    Checkpoint checkpoint;
+    ASSERT_TRUE(checkpoint.start(file_, "one").ok());
+    checkpoint.add("05/000001", scored);
+    checkpoint.add("05/000002", other_sources);
+  }
+  Checkpoint checkpoint;
+  std::map<std::string, ScanOutcome> finished;
+
+  const Status status = checkpoint.resume(file_, "one", {.methods = 2, .moving = 1}, finished);
+
+  ASSERT_TRUE(status.ok()) << status.message();
+  ASSERT_EQ(finished.size(), 1U) << "a scan with other sources is evaluated again";
+  const MovingScore& score = finished.at("05/000001").moving.at(0).score;
+  EXPECT_EQ(score.by_range[1].points.true_positives, 1);
+  EXPECT_EQ(score.by_range[1].points.true_negatives, 4);
+  EXPECT_EQ(score.by_range[1].obstacles, 5);
+  EXPECT_EQ(score.by_range[1].kept, 6);
+  EXPECT_EQ(score.all.points.false_negatives, 3);
+  EXPECT_EQ(score.all.kept, 6);
+}
+
+TEST_F(CheckpointFile, OmitsScansWithFailedMovingPoints) {
+  ScanOutcome failed = outcome_with(1);
+  failed.moving.emplace_back().error = "moving points map: no such file";
+  {
+    Checkpoint checkpoint;
+    ASSERT_TRUE(checkpoint.start(file_, "one").ok());
+    checkpoint.add("05/000001", failed);
+  }
+  Checkpoint checkpoint;
+  std::map<std::string, ScanOutcome> finished;
+
+  ASSERT_TRUE(checkpoint.resume(file_, "one", {.methods = 2, .moving = 1}, finished).ok());
+
+  EXPECT_TRUE(finished.empty());
 }
 
 TEST_F(CheckpointFile, RestoresScansWithoutHeights) {
@@ -101,7 +151,7 @@ TEST_F(CheckpointFile, ATruncatedLineLosesOnlyItsScan) {
   {
     Checkpoint checkpoint;
     std::map<std::string, ScanOutcome> finished;
-    ASSERT_TRUE(checkpoint.resume(file_, "one", 2, finished).ok());
+    ASSERT_TRUE(checkpoint.resume(file_, "one", {.methods = 2}, finished).ok());
     checkpoint.add("c", outcome_with(3));
   }
   const auto finished = resumed("one");
@@ -114,7 +164,7 @@ TEST_F(CheckpointFile, RejectsTheCheckpointOfAnotherEvaluation) {
   Checkpoint checkpoint;
   std::map<std::string, ScanOutcome> finished;
 
-  const Status status = checkpoint.resume(file_, "two", 2, finished);
+  const Status status = checkpoint.resume(file_, "two", {.methods = 2}, finished);
 
   EXPECT_EQ(status.code(), StatusCode::invalid_argument);
   EXPECT_THAT(status.message(), HasSubstr("delete the file"));
@@ -125,7 +175,7 @@ TEST_F(CheckpointFile, RejectsAndKeepsAnyOtherFile) {
   Checkpoint checkpoint;
   std::map<std::string, ScanOutcome> finished;
 
-  EXPECT_EQ(checkpoint.resume(file_, "one", 2, finished).code(), StatusCode::bad_file);
+  EXPECT_EQ(checkpoint.resume(file_, "one", {.methods = 2}, finished).code(), StatusCode::bad_file);
   EXPECT_EQ(fs::file_size(file_), 9u);
 }
 

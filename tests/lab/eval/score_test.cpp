@@ -259,6 +259,32 @@ TEST(HeightScore, SeparatesGroundPointsFromAllPoints) {
   EXPECT_NEAR(scored.everywhere.all.median, 0.5, tiny);
 }
 
+TEST(HeightScore, CommonPointsHaveAHeightFromEveryMethod) {
+  const std::vector<float> values = {5, 0, 1, 6, 0, 1, 7, 0, 1, 30, 0, 1};
+  const CloudView cloud(values.data(), 4);
+  const std::vector<Truth> truth = {Truth::ground, Truth::ground, Truth::not_ground, Truth::ground};
+  const std::vector<float> true_ground(4, 1.0F);
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<std::vector<float>> heights = {{0.1F, 0.2F, 0.3F, 0.4F},
+                                                   {none, 0.5F, 0.6F, 0.7F}};
+  std::vector<HeightScore> scores;
+  for (const auto& own : heights) scores.push_back(score_heights(cloud, truth, true_ground, own));
+  EXPECT_FALSE(scores[0].has_common);
+
+  score_common_heights(cloud, truth, true_ground, heights, std::array{&scores[0], &scores[1]});
+
+  EXPECT_EQ(scores[0].ground.all.points, 3U) << "unchanged";
+  for (const HeightScore& score : scores) {
+    EXPECT_TRUE(score.has_common);
+    EXPECT_EQ(score.common_ground.all.points, 2U);
+    EXPECT_EQ(score.common_ground.all.given, 2U);
+    EXPECT_EQ(score.common_ground.by_range[0].points, 1U);
+    EXPECT_EQ(score.common_everywhere.all.points, 3U);
+  }
+  EXPECT_FLOAT_EQ(static_cast<float>(scores[0].common_ground.by_range[0].median), 0.2F);
+  EXPECT_FLOAT_EQ(static_cast<float>(scores[1].common_ground.by_range[0].median), 0.5F);
+}
+
 TEST(HeightScore, RangeBandsEndAt20And40And80Metres) {
   const HeightErrorsByRange ground =
       score({{1, 1.5F}, {19.9F, 1.5F}, {20.1F, 2}, {39.9F, 2}, {40.1F, 3}, {79.9F, 3}, {90, 5}})

@@ -179,6 +179,46 @@ TEST(EvalReport, RejectsResultsInAnotherFormat) {
   EXPECT_THROW((void)eval_report(results, {}), Json::exception);
 }
 
+/// Moving points of one source.
+Json example_moving() {
+  Json figures = {{"iou", 0.4321},      {"recall", 0.5},
+                  {"precision", 0.6},   {"kept", 0.9876},
+                  {"points", 5000},     {"moving_points", 777},
+                  {"marked_points", 9}, {"mean_iou", {{"mean", 0.3}, {"ci95", nullptr}}}};
+  Json source = figures;
+  source["name"] = "my <map>";
+  source["by_range"] = {figures};
+  source["by_range"][0]["from"] = 0;
+  source["by_range"][0]["to"] = 10;
+  return source;
+}
+
+TEST(EvalReport, ShowsMovingPointsByRange) {
+  Json results = example_eval(1, 10);
+  EXPECT_THAT(body_of(eval_report(results, {})), Not(HasSubstr("Moving points")));
+  results["moving"] = {example_moving()};
+
+  const std::string body = body_of(eval_report(results, {}));
+
+  EXPECT_THAT(body, HasSubstr("<h2>Moving points</h2>"));
+  EXPECT_THAT(body, HasSubstr("my &lt;map&gt;, 0–10 m"));
+  EXPECT_THAT(body, HasSubstr("my &lt;map&gt;, all"));
+  EXPECT_EQ(occurrences(body, "<td>43.21</td>"), 2);
+  EXPECT_EQ(occurrences(body, "<td>777</td>"), 2);
+}
+
+TEST(EvalReport, HasOnlyMovingPointsWithoutMethods) {
+  Json results = example_eval(1, 10);
+  results["methods"] = Json::array();
+  results["moving"] = {example_moving()};
+
+  const std::string body = body_of(eval_report(results, {}));
+
+  EXPECT_THAT(body, HasSubstr("<h1>Moving points of kitti, simulated (10 scans)</h1>"));
+  EXPECT_THAT(body, HasSubstr("<h2>Moving points</h2>"));
+  EXPECT_THAT(body, Not(HasSubstr("<h2>Methods</h2>")));
+}
+
 TEST(EvalReport, EscapesAllTextFromTheData) {
   const std::string attack = "</script><script>alert('\"1&')</script>";
   Json results = example_eval(1, 2);
