@@ -26,6 +26,7 @@ from flagstone.codes import Label, Verdict
 from flagstone.ground_map import GroundMap, Levelling, MapGrid, MapSample
 from flagstone.ground_surface import Grid, GroundSample, GroundSurface
 from flagstone.label_vote import LabelVote
+from flagstone.moving_points import MovingMask, MovingObject, MovingPoints
 from flagstone.segmentation import Mount, Segmentation
 from flagstone.segmenters import Patchwork, Segmenter, Surface, make_segmenter, method_names
 from flagstone.sensors import Sensor, sensors
@@ -45,6 +46,9 @@ __all__ = [
     "MapSample",
     "MapSummary",
     "Mount",
+    "MovingMask",
+    "MovingObject",
+    "MovingPoints",
     "Patchwork",
     "Score",
     "Segmentation",

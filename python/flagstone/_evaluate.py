@@ -26,6 +26,8 @@ PathLike = str | os.PathLike[str]
 
 _ratios = ("precision", "recall", "f1", "accuracy", "iou")
 _height_metrics = ("median", "percentile95", "bias")
+_moving_ratios = ("iou", "recall", "precision", "kept")
+_moving_counts = ("points", "moving_points", "marked_points")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -43,11 +45,18 @@ class Evaluation:
             ground-truth heights, also `height_median_0_20m` and so on: metres, over ground points.
         ranges: One row per method and range interval, with the points of all scans together: `method`, `from` and `to`
             (horizontal range, metres; the row up to infinity covers all points), the five ratios, `points`.
-        heights: One row per method, `points` (`ground`, or `all`, which includes points over hidden ground) and range
-            interval: `count` of points, `with_height` (fraction that has a height), and means over scans of the
-            `median` and `percentile95` of the absolute error and of the `bias`, in metres. Each has `..._std` and
-            `..._ci95`. Empty if the dataset has no ground-truth heights.
-        failed: One row per scan that could not be read, or that a method failed on: `scan`, `error`.
+        heights: One row per method, `points` and range interval. `points` is `ground`, or `all`, which includes points
+            over hidden ground. If several methods have heights, it is also `common ground` and `common all`: the
+            points for which every method provides a height. `count` of points, `with_height` (fraction that has a
+            height), and means over scans of the `median` and `percentile95` of the absolute error and of the `bias`,
+            in metres. Each has `..._std` and `..._ci95`. Empty if the dataset has no ground-truth heights.
+        moving: One row per entry of the argument `moving` and range interval: `name`, `from` and `to` (horizontal
+            range, metres; the row from 0 to 80 m covers all scored points), `iou`, `recall` and `precision` of the
+            moving points of all scans together; `kept`, the fraction of the static points that are not ground and
+            not marked; `iou_mean` over the scans with moving points, `iou_mean_std` and `iou_mean_ci95`; and the
+            numbers `points`, `moving_points` (in the ground truth) and `marked_points`. Empty without the argument.
+        failed: One row per scan that could not be read, or that a method or an entry of `moving` failed on: `scan`,
+            `error`.
         unscored: Scans omitted because none of their points is scored.
         without_ground: Number of scans whose ground truth contains no ground. Only their accuracy is defined. Their
             precision, recall, F1 and IoU are NaN and are excluded from the means.
@@ -56,12 +65,14 @@ class Evaluation:
         threads: Number of scans processed in parallel; `hz` depends on it.
         machine: CPU and number of cores.
         date: Day of the run, YYYY-MM-DD.
+        scan_count: Number of scans that were read and scored.
     """
 
     methods: pandas.DataFrame
     scans: pandas.DataFrame
     ranges: pandas.DataFrame
     heights: pandas.DataFrame
+    moving: pandas.DataFrame
     failed: pandas.DataFrame
     unscored: tuple[str, ...]
     without_ground: int
@@ -70,13 +81,16 @@ class Evaluation:
     threads: int
     machine: str
     date: str
+    scan_count: int
 
     def _heading(self) -> str:
-        count = self.scans["scan"].nunique()
+        count = self.scan_count
         scans = "1 scan" if count == 1 else f"{count} scans"
         return f"{scans} of {', '.join(self.datasets)}, protocol {self.protocol}"
 
     def _brief(self) -> pandas.DataFrame:
+        if self.methods.empty:
+            return self.moving
         columns = ["scans", "precision", "recall", "f1", "f1_ci95", "accuracy", "iou", "hz"]
         brief: pandas.DataFrame = self.methods[columns]
         return brief
@@ -106,6 +120,7 @@ def evaluate(
     settings: Mapping[str, Mapping[str, Any]] | None = None,
     labels: Mapping[str, PathLike] | None = None,
     label_map: Literal["flagstone", "semantic-kitti"] = "flagstone",
+    moving: Mapping[str, PathLike] | None = None,
     threads: int | None = None,
 ) -> Evaluation:
     """Scores methods on labelled scans, as `flagstone eval` does.
@@ -124,8 +139,11 @@ def evaluate(
         preset: Settings that Patchwork starts from: `"default"`, `"paper"` or `"reference"`.
         config: TOML file of Patchwork settings, as `flagstone config` prints them.
         settings: Settings by method name: `{"surface": {"point": {"margin": 0.2}}, "gpf": {"segments": 5}}`.
-        labels: Labels written by other programs, each scored like a method: a name and its directory.
+        labels: Labels written by other programs or by `flagstone.map`, each scored like a method: a name and its
+            directory.
         label_map: Codes in `labels`: `"flagstone"` (1 is ground) or `"semantic-kitti"` (classes of the protocol).
+        moving: Moving points to score: a name and its directory, the output of `flagstone.map` or one file per scan:
+            `NAME.npy` (not 0: moves) or `NAME.label` (SemanticKITTI classes; 251 to 259 move).
         threads: Number of scans to process in parallel, 1 to 1,024; all cores by default. Use 1 to compare `hz`.
 
     Returns:
@@ -162,6 +180,7 @@ def evaluate(
             dict(settings or {}),
             [f"{name}={os.fspath(folder)}" for name, folder in (labels or {}).items()],
             label_map == "semantic-kitti",
+            [f"{name}={os.fspath(folder)}" for name, folder in (moving or {}).items()],
             threads,
             draw,
             terminal_columns,
@@ -185,10 +204,13 @@ def _read(results_json: str, table: bytes) -> Evaluation:
     methods = results["methods"]
     names = {"method": str, "scan": str}
     return Evaluation(
-        methods=pd.DataFrame([_method_row(method) for method in methods]).set_index("method"),
+        methods=pd.DataFrame([_method_row(method) for method in methods], columns=_method_columns).set_index("method"),
         scans=pd.read_csv(io.BytesIO(table), dtype=names, keep_default_na=False, na_values=[""]),
-        ranges=pd.DataFrame([row for method in methods for row in _range_rows(method)]),
+        ranges=pd.DataFrame([row for method in methods for row in _range_rows(method)], columns=_range_columns),
         heights=pd.DataFrame([row for method in methods for row in _height_rows(method)], columns=_height_columns),
+        moving=pd.DataFrame(
+            [row for source in results.get("moving", []) for row in _moving_rows(source)], columns=_moving_columns
+        ),
         failed=pd.DataFrame(results["failed"], columns=["scan", "error"]),
         unscored=tuple(results["unscored"]),
         without_ground=results["without_ground"],
@@ -197,6 +219,7 @@ def _read(results_json: str, table: bytes) -> Evaluation:
         threads=results["threads"],
         machine=results["machine"],
         date=results["date"],
+        scan_count=results["scans"],
     )
 
 
@@ -212,6 +235,13 @@ def _mean_std_ci95(name: str, metric: Mapping[str, float | None]) -> dict[str, f
     }
 
 
+_method_columns = [
+    *("method", "title", "scans"),
+    *(f"{ratio}{kind}" for ratio in _ratios for kind in ("", "_std", "_ci95")),
+    *("f1_pooled", "f1_by_area", "hz", "hz_slowest_1_percent"),
+]
+
+
 def _method_row(method: Mapping[str, Any]) -> dict[str, Any]:
     row: dict[str, Any] = {key: method[key] for key in ("title", "scans")}
     for ratio in _ratios:
@@ -221,6 +251,9 @@ def _method_row(method: Mapping[str, Any]) -> dict[str, Any]:
     row["hz"] = _number(method["hz"])
     row["hz_slowest_1_percent"] = _number(method["hz_slowest_1_percent"])
     return {"method": method["name"], **row}
+
+
+_range_columns = ["method", "from", "to", *_ratios, "points"]
 
 
 def _range_rows(method: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -243,9 +276,17 @@ _height_columns = [
 ]
 
 
+_height_points = (
+    ("ground", "ground"),
+    ("all", "everywhere"),
+    ("common ground", "common_ground"),
+    ("common all", "common_everywhere"),
+)
+
+
 def _height_rows(method: Mapping[str, Any]) -> list[dict[str, Any]]:
     rows = []
-    for points, key in (("ground", "ground"), ("all", "everywhere")):
+    for points, key in _height_points:
         heights = method.get("heights", {}).get(key)
         if heights is None:
             continue
@@ -256,3 +297,25 @@ def _height_rows(method: Mapping[str, Any]) -> list[dict[str, Any]]:
                 row.update(_mean_std_ci95(metric, band[metric]))
             rows.append(row)
     return rows
+
+
+_moving_columns = [
+    *("name", "from", "to", *_moving_ratios),
+    *("iou_mean", "iou_mean_std", "iou_mean_ci95"),
+    *_moving_counts,
+]
+
+
+def _moving_rows(source: Mapping[str, Any]) -> list[dict[str, Any]]:
+    everything = {**source, "from": 0.0, "to": source["by_range"][-1]["to"]}
+    return [
+        {
+            "name": source["name"],
+            "from": band["from"],
+            "to": band["to"],
+            **{ratio: _number(band[ratio]) for ratio in _moving_ratios},
+            **_mean_std_ci95("iou_mean", band["mean_iou"]),
+            **{count: int(band[count]) for count in _moving_counts},
+        }
+        for band in (*source["by_range"], everything)
+    ]

@@ -58,7 +58,7 @@ class MapSummary:
     problems: tuple[str, ...] = ()
     """One line per decision and problem: scans that were labelled alone or failed, poses that do not fit."""
     exports: tuple[Path, ...] = ()
-    """The files of `geotiff`, `recording` and `animation` that were written."""
+    """The files of `geotiff`, `las`, `recording` and `animation` that were written."""
 
     def open(self) -> MappedRun:
         """Opens the output directory, as `flagstone.maps.read_run` does."""
@@ -81,6 +81,7 @@ def map(
     pose_topic: str | None = None,
     geotiff: bool = False,
     crs: str | int | None = None,
+    las: bool = False,
     recording: bool = False,
     animation: bool = False,
     sensor: PathLike | None = None,
@@ -115,6 +116,7 @@ def map(
             PoseWithCovarianceStamped, `"/tf"`, or `"/tf:FRAME"` for the poses in frame FRAME.
         geotiff: Write the map as `ground.tif` (install `flagstone[geotiff]`).
         crs: Coordinate reference system of the poses for `ground.tif`, for example `"EPSG:25832"`.
+        las: Write the static points as `static.las` (install `flagstone[las]`); needs `voxel`.
         recording: Write `recording.rrd` for the viewer of Rerun (install `flagstone[viewer]`).
         animation: Write `animation.gif` (install `flagstone[plot]`).
         sensor: Sensor to derive settings from: a name from `flagstone.sensors()`, or a `.toml` file.
@@ -138,8 +140,10 @@ def map(
     Warns:
         RuntimeWarning: Some scans failed or were labelled alone, or an export was not written.
     """
-    exports = Exports(geotiff, crs, recording, animation)
+    exports = Exports(geotiff=geotiff, crs=crs, las=las, recording=recording, animation=animation)
     exports.check()
+    if las and voxel == 0:
+        raise ValueError("las: needs the static points (expected voxel above 0)")
     problems: list[str] = []
     given = InputRequest(os.fspath(run), os.fspath(poses), os.fspath(output), topic, pose_topic, columns)
 
@@ -180,7 +184,7 @@ def map(
 
 def _warn(summary: MapSummary, exports: Exports) -> None:
     """Warns if some scans or exports are not as wanted."""
-    unwritten = exports.geotiff + exports.recording + exports.animation - len(summary.exports)
+    unwritten = exports.geotiff + exports.las + exports.recording + exports.animation - len(summary.exports)
     counts = [(summary.failed, "failed"), (summary.alone, "labelled alone")]
     parts = [f"{count} of {summary.scans} scans {what}" for count, what in counts if count > 0]
     if unwritten:

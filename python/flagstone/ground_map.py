@@ -8,7 +8,8 @@ import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, overload
+from pathlib import Path
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -25,11 +26,12 @@ class Levelling(NamedTuple):
     """The correction of a pose in height, pitch and roll that fits a scan to the map.
 
     The plane to subtract from heights in the world frame is offset + slope_x (x - X) + slope_y (y - Y), where (X, Y) is
-    the position of the sensor. Without a correction, it is 0.
+    the position of the sensor.
     """
 
     applied: bool = False
-    """False if there are too few common cells, or if the scan and the map differ by more than `max_correction`."""
+    """False if there are too few common cells, or if the scan and the map differ by more than `max_correction`. The
+    plane is then the plane of the scan before."""
     cells: int = 0
     """Number of cells that are known in both the scan and the map."""
     offset: float = 0.0
@@ -142,22 +144,60 @@ class GroundMap:
         window: After each scan, tiles farther from the sensor than this are removed, metres, 50 to 1e6. None: the map
             keeps everything.
         max_correction: Largest height difference between a scan and the map that is treated as an error of the pose,
-            metres, 0 to 100. Scans that differ more are added without a correction.
+            metres, 0 to 100, beyond the correction of the scan before. Scans that differ more are added with the
+            correction of the scan before.
+        max_memory: Largest memory of the cells, bytes. Beyond it, the tiles that were not measured for the longest time
+            are kept in files in `directory`. The limit does not change any result. None: no limit.
+        directory: Directory for these files, created if it does not exist. The files belong to this map: use another
+            directory for each map, and remove it after the map.
+
+    A map can be pickled, unless it has a memory limit.
 
     Raises:
-        ValueError: A value is out of its range.
+        ValueError: A value is out of its range, or only one of `max_memory` and `directory` is given.
+        OSError: The directory cannot be created.
     """
 
     def __init__(
-        self, *, cell: float = 0.5, max_range: float = 40, window: float | None = None, max_correction: float = 1
+        self,
+        *,
+        cell: float = 0.5,
+        max_range: float = 40,
+        window: float | None = None,
+        max_correction: float = 1,
+        max_memory: int | None = None,
+        directory: str | os.PathLike[str] | None = None,
     ) -> None:
+        if (max_memory is None) != (directory is None):
+            raise ValueError("max_memory: needs a directory for tiles (expected both or neither)")
+        if max_memory is not None and max_memory < 1:
+            raise ValueError(f"max_memory: {max_memory} is out of range (expected at least 1 byte, or None)")
         self._cell = float(cell)
+        self._settings: dict[str, Any] = {
+            "cell": cell,
+            "max_range": max_range,
+            "window": window,
+            "max_correction": max_correction,
+        }
+        self._directory = directory
         self._core = _core.GroundMap(
-            cell=cell, max_range=max_range, window=none_as_zero("window", window), max_correction=max_correction
+            cell=cell,
+            max_range=max_range,
+            window=none_as_zero("window", window),
+            max_correction=max_correction,
+            max_memory=max_memory or 0,
+            directory=os.fspath(directory) if directory is not None else "",
         )
+        if directory is not None:
+            Path(directory).mkdir(parents=True, exist_ok=True)
 
     def __repr__(self) -> str:
         return f"GroundMap({self.scans} scans, {self.cells} cells of {self._cell:g} m)"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self._directory is not None:
+            raise TypeError("a map with a memory limit cannot be pickled (use to_bytes)")
+        return restored, (GroundMap, self._settings, self.to_bytes())
 
     def add(self, points: PointsLike, result: Segmentation, pose: npt.ArrayLike) -> Levelling:
         """Levels a scan to the map and adds it.
@@ -249,6 +289,22 @@ class GroundMap:
             last_scan=last_scan,
         )
 
+    def to_bytes(self) -> bytes:
+        """The state of the map as bytes, without the settings.
+
+        Raises:
+            OSError: A tile beyond `max_memory` cannot be read.
+        """
+        return self._core.to_bytes()
+
+    def from_bytes(self, data: bytes) -> None:
+        """Replaces the map by that of `to_bytes`. Scans that are added later give the same map as without a break.
+
+        Raises:
+            ValueError: The bytes are damaged, or of a map with another `cell`. The map does not change.
+        """
+        self._core.from_bytes(data)
+
     def write(self, directory: str | os.PathLike[str]) -> None:
         """Writes the map as one NumPy file per tile and `map.json`, as `flagstone map` does.
 
@@ -280,7 +336,14 @@ class GroundMap:
     @property
     def nbytes(self) -> int:
         """Memory in use, bytes."""
-        return self._core.bytes()
+        return self._core.nbytes()
+
+
+def restored(kind: Any, settings: dict[str, Any], data: bytes) -> Any:
+    """A map, vote or finder of moving points from a pickle."""
+    state = kind(**settings)
+    state.from_bytes(data)
+    return state
 
 
 def pose_rows(pose: npt.ArrayLike) -> npt.NDArray[np.float64]:

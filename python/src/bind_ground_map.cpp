@@ -10,110 +10,36 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <mutex>
-#include <shared_mutex>
+#include <span>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "app/ground_map_files.hpp"
-#include "app/level_scan.hpp"
 #include "bindings.hpp"
+#include "files/io/map_files.hpp"
 #include "flagstone/ground_map.hpp"
 #include "flagstone/label_vote.hpp"
-#include "points.hpp"
-#include "result.hpp"
+#include "run_scans.hpp"
 
 namespace nb = nanobind;
 
 namespace flagstone::python {
 namespace {
 
-using PoseRows = nb::ndarray<const double, nb::shape<3, 4>, nb::c_contig, nb::device::cpu>;
+using Flags = nb::ndarray<const bool, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Positions = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-template <class Number>
-using Array = nb::ndarray<nb::numpy, Number>;
 
-Pose pose_of(const PoseRows& rows) {
-  Pose pose;
-  for (std::size_t row = 0; row < 3; ++row) {
-    const double* const from = rows.data() + 4 * row;
-    std::copy_n(from, 3, pose.rotation.begin() + static_cast<std::ptrdiff_t>(3 * row));
-    pose.position[row] = from[3];
-  }
-  return pose;
-}
-
-/// An array that Python will own.
-template <class Number>
-class NewArray {
+class SharedGroundMap : public Shared<GroundMap> {
  public:
-  explicit NewArray(std::vector<std::size_t> shape, Number value = {}) : shape_(std::move(shape)) {
-    std::size_t count = 1;
-    for (const std::size_t length : shape_) count *= length;
-    numbers_ = std::make_unique<Number[]>(count + 1);  // NumPy needs an address for empty arrays
-    std::fill_n(numbers_.get(), count, value);
-  }
-
-  [[nodiscard]] Number* data() noexcept { return numbers_.get(); }
-
-  Array<Number> release() {
-    nb::capsule owner(numbers_.get(),
-                      [](void* memory) noexcept { delete[] static_cast<Number*>(memory); });
-    return Array<Number>(numbers_.release(), shape_.size(), shape_.data(), owner);
-  }
-
- private:
-  std::vector<std::size_t> shape_;
-  std::unique_ptr<Number[]> numbers_;
-};
-
-/// A Levelling in Python, which is a tuple.
-using LevellingTuple = std::tuple<bool, std::size_t, double, double, double>;
-
-Levelling levelling_of(const LevellingTuple& tuple) {
-  const auto& [applied, cells, offset, slope_x, slope_y] = tuple;
-  return {
-      .applied = applied, .cells = cells, .offset = offset, .slope_x = slope_x, .slope_y = slope_y};
-}
-
-nb::tuple tuple_of(const Levelling& levelling) {
-  return nb::make_tuple(levelling.applied, levelling.cells, levelling.offset, levelling.slope_x,
-                        levelling.slope_y);
-}
-
-/// A scan from Python, in the level frame. Creating it needs the GIL; using it does not.
-class GivenScan {
- public:
-  GivenScan(nb::handle x, nb::handle y, nb::handle z, const Result& result, const PoseRows& pose)
-      : points_(x, y, z), result_(result), pose_(pose_of(pose)) {}
-
-  /// Calls `use(cloud, segmentation, pose)`. May throw std::bad_alloc.
-  template <class Use>
-  Status with_level(Use use) {
-    const CloudView cloud = points_.view(copy_);
-    const Segmentation& segmentation = result_.segmentation();
-    level_.set(cloud, result_.mount(), pose_);
-    return use(level_.cloud(), segmentation, level_.pose());
-  }
-
- private:
-  Points points_;
-  const Result& result_;
-  Pose pose_;
-  std::vector<float> copy_;
-  app::LevelScan level_;
-};
-
-/// A map that threads can share: scans are added one at a time, and queries run in parallel.
-class SharedGroundMap {
- public:
-  SharedGroundMap(double cell, double max_range, double window, double max_correction)
-      : map_({.cell = cell,
-              .max_range = max_range,
-              .window = window,
-              .max_correction = max_correction}) {}
+  /// `max_memory` in bytes; 0: no limit, and `directory` is not used.
+  SharedGroundMap(double cell, double max_range, double window, double max_correction,
+                  std::size_t max_memory, const std::string& directory)
+      : Shared(GroundMap({.cell = cell,
+                          .max_range = max_range,
+                          .window = window,
+                          .max_correction = max_correction,
+                          .max_memory = max_memory},
+                         max_memory > 0 ? std::make_shared<io::TileFiles>(directory) : nullptr)) {}
 
   using Fit = Status (GroundMap::*)(CloudView, const Segmentation&, const Pose&, Levelling&);
 
@@ -122,30 +48,12 @@ class SharedGroundMap {
                 const PoseRows& pose) {
     GivenScan scan(x, y, z, result, pose);
     Levelling levelling;
-    Status status;
-    {
-      const nb::gil_scoped_release released;
-      const std::unique_lock lock(mutex_);
-      status = scan.with_level(
-          [&](CloudView cloud, const Segmentation& segmentation, const Pose& level_pose) {
-            return (map_.*fit)(cloud, segmentation, level_pose, levelling);
-          });
-    }
-    raise_if_failed(status);
+    change_with(scan, [&](GroundMap& map, CloudView cloud, const Segmentation& segmentation,
+                          const Pose& level_pose) {
+      return (map.*fit)(cloud, segmentation, level_pose, levelling);
+    });
     return tuple_of(levelling);
   }
-
-  /// Calls `use(map)` without the GIL, while no scan is added.
-  template <class Use>
-  auto read(Use use) const {
-    const nb::gil_scoped_release released;
-    const std::shared_lock lock(mutex_);
-    return use(map_);
-  }
-
- private:
-  mutable std::shared_mutex mutex_;
-  GroundMap map_;
 };
 
 std::size_t common_size(const Positions& x, const Positions& y) {
@@ -246,74 +154,61 @@ nb::tuple grid_of(const SharedGroundMap& shared, std::int64_t first_column, std:
                         contradictions.release(), last_scans.release());
 }
 
-/// Votes that threads can share: scans are added one at a time, and labelled in parallel.
-class SharedLabelVote {
+class SharedLabelVote : public Shared<LabelVote> {
  public:
   SharedLabelVote(double voxel, double voxel_height, float min_height, float max_height,
                   double max_range, double window)
-      : vote_({.voxel = voxel,
-               .voxel_height = voxel_height,
-               .min_height = min_height,
-               .max_height = max_height,
-               .max_range = max_range,
-               .window = window}) {}
+      : Shared(LabelVote({.voxel = voxel,
+                          .voxel_height = voxel_height,
+                          .min_height = min_height,
+                          .max_height = max_height,
+                          .max_range = max_range,
+                          .window = window})) {}
 
+  /// `moving`: one per point, true for points that do not vote; or empty.
   void add(nb::handle x, nb::handle y, nb::handle z, const Result& result, const PoseRows& pose,
-           const LevellingTuple& levelling) {
+           const LevellingTuple& levelling, const Flags& moving) {
     GivenScan scan(x, y, z, result, pose);
-    Status status;
-    {
-      const nb::gil_scoped_release released;
-      const std::unique_lock lock(mutex_);
-      status = scan.with_level(
-          [&](CloudView cloud, const Segmentation& segmentation, const Pose& level_pose) {
-            return vote_.add(cloud, segmentation, level_pose, levelling_of(levelling));
-          });
+    const std::span<const bool> excluded(moving.data(), moving.size());
+    if (!excluded.empty() && excluded.size() != result.segmentation().labels().size()) {
+      throw nb::value_error("moving: has another length than the points");
     }
-    raise_if_failed(status);
+    change_with(scan, [&](LabelVote& vote, CloudView cloud, const Segmentation& segmentation,
+                          const Pose& level_pose) {
+      if (excluded.empty()) {
+        return vote.add(cloud, segmentation, level_pose, levelling_of(levelling));
+      }
+      Segmentation without = segmentation;
+      for (std::size_t i = 0; i < excluded.size(); ++i) {
+        if (excluded[i]) without.mutable_labels()[i] = Label::out_of_range;
+      }
+      return vote.add(cloud, without, level_pose, levelling_of(levelling));
+    });
   }
 
   Array<std::uint8_t> relabel(nb::handle x, nb::handle y, nb::handle z, const Result& result,
                               const PoseRows& pose, const LevellingTuple& levelling) const {
     GivenScan scan(x, y, z, result, pose);
     NewArray<std::uint8_t> labels({result.segmentation().labels().size()});
-    Status status;
-    {
-      const nb::gil_scoped_release released;
-      const std::shared_lock lock(mutex_);
-      status = scan.with_level(
+    raise_if_failed(read([&](const LabelVote& vote) {
+      return scan.with_level(
           [&](CloudView cloud, const Segmentation& segmentation, const Pose& level_pose) {
-            return vote_.relabel(
+            return vote.relabel(
                 cloud, segmentation, level_pose, levelling_of(levelling),
                 {reinterpret_cast<Label*>(labels.data()), segmentation.labels().size()});
           });
-    }
-    raise_if_failed(status);
+    }));
     return labels.release();
   }
-
-  [[nodiscard]] std::size_t voxels() const {
-    const nb::gil_scoped_release released;
-    const std::shared_lock lock(mutex_);
-    return vote_.voxels();
-  }
-  [[nodiscard]] std::size_t bytes() const {
-    const nb::gil_scoped_release released;
-    const std::shared_lock lock(mutex_);
-    return vote_.bytes();
-  }
-
- private:
-  mutable std::shared_mutex mutex_;
-  LabelVote vote_;
 };
 
 }  // namespace
 
 void bind_ground_map(nb::module_& module) {
   nb::class_<SharedGroundMap>(module, "GroundMap")
-      .def(nb::init<double, double, double, double>(), nb::kw_only(), nb::arg("cell"),
-           nb::arg("max_range"), nb::arg("window"), nb::arg("max_correction"))
+      .def(nb::init<double, double, double, double, std::size_t, const std::string&>(),
+           nb::kw_only(), nb::arg("cell"), nb::arg("max_range"), nb::arg("window"),
+           nb::arg("max_correction"), nb::arg("max_memory"), nb::arg("directory"))
       .def(
           "add",
           [](SharedGroundMap& map, nb::handle x, nb::handle y, nb::handle z, const Result& result,
@@ -361,9 +256,12 @@ void bind_ground_map(nb::module_& module) {
            [](const SharedGroundMap& shared) {
              return shared.read([](const GroundMap& map) { return map.cells(); });
            })
-      .def("bytes", [](const SharedGroundMap& shared) {
-        return shared.read([](const GroundMap& map) { return map.bytes(); });
-      });
+      .def("nbytes",
+           [](const SharedGroundMap& shared) {
+             return shared.read([](const GroundMap& map) { return map.bytes(); });
+           })
+      .def("to_bytes", &SharedGroundMap::to_bytes)
+      .def("from_bytes", &SharedGroundMap::from_bytes, nb::arg("data"));
   module.attr("ground_map_tile_width") = GroundMap::tile_width;
 
   nb::class_<SharedLabelVote>(module, "LabelVote")
@@ -371,17 +269,25 @@ void bind_ground_map(nb::module_& module) {
            nb::arg("voxel"), nb::arg("voxel_height"), nb::arg("min_height"), nb::arg("max_height"),
            nb::arg("max_range"), nb::arg("window"))
       .def("add", &SharedLabelVote::add, nb::arg("x"), nb::arg("y"), nb::arg("z"),
-           nb::arg("result"), nb::arg("pose"), nb::arg("levelling"),
+           nb::arg("result"), nb::arg("pose"), nb::arg("levelling"), nb::arg("moving"),
            nb::sig("def add(self, x: object, y: object, z: object, result: Result, pose: "
                    "numpy.typing.NDArray[numpy.float64], levelling: tuple[bool, int, float, "
-                   "float, float]) -> None"))
+                   "float, float], moving: numpy.typing.NDArray[numpy.bool_]) -> None"))
       .def("relabel", &SharedLabelVote::relabel, nb::arg("x"), nb::arg("y"), nb::arg("z"),
            nb::arg("result"), nb::arg("pose"), nb::arg("levelling"),
            nb::sig("def relabel(self, x: object, y: object, z: object, result: Result, pose: "
                    "numpy.typing.NDArray[numpy.float64], levelling: tuple[bool, int, float, "
                    "float, float]) -> numpy.typing.NDArray[numpy.uint8]"))
-      .def("voxels", &SharedLabelVote::voxels)
-      .def("bytes", &SharedLabelVote::bytes);
+      .def("voxels",
+           [](const SharedLabelVote& shared) {
+             return shared.read([](const LabelVote& vote) { return vote.voxels(); });
+           })
+      .def("nbytes",
+           [](const SharedLabelVote& shared) {
+             return shared.read([](const LabelVote& vote) { return vote.bytes(); });
+           })
+      .def("to_bytes", &SharedLabelVote::to_bytes)
+      .def("from_bytes", &SharedLabelVote::from_bytes, nb::arg("data"));
 }
 
 }  // namespace flagstone::python

@@ -150,7 +150,8 @@ nb::typed<nb::tuple, std::string, nb::bytes, std::vector<std::string>> evaluate(
     const std::optional<nb::int_>& columns, const std::string& sensor, const Height& sensor_height,
     const Tilt& tilt, const std::string& preset, const std::string& config,
     const Settings& settings, const std::vector<std::string>& labels, bool labels_are_classes,
-    const std::optional<nb::int_>& threads, nb::object draw, std::size_t terminal_columns) {
+    const std::vector<std::string>& moving, const std::optional<nb::int_>& threads, nb::object draw,
+    std::size_t terminal_columns) {
   const config::MethodChoice choice{.methods = std::move(methods),
                                     .preset = preset,
                                     .sensor = sensor,
@@ -170,9 +171,11 @@ nb::typed<nb::tuple, std::string, nb::bytes, std::vector<std::string>> evaluate(
   std::vector<std::string> messages =
       run({std::move(draw), terminal_columns}, [&](const app::RunCallbacks& callbacks) {
         app::Evaluation evaluation(
-            options, app::methods_to_evaluate(choice, labels,
-                                              labels_are_classes ? io::LabelMap::semantic_kitti
-                                                                 : io::LabelMap::flagstone));
+            options,
+            app::methods_to_evaluate(
+                choice, labels,
+                labels_are_classes ? io::LabelMap::semantic_kitti : io::LabelMap::flagstone),
+            app::moving_to_evaluate(moving));
         const eval::Results results = evaluation.run(callbacks);
         if (results.scans == 0) return;
         constexpr auto replace = nlohmann::json::error_handler_t::replace;  // not UTF-8
@@ -259,8 +262,8 @@ void bind_runs(nb::module_& module) {
              nb::arg("sequences"), nb::arg("every"), nb::arg("columns").none(), nb::arg("sensor"),
              nb::arg("sensor_height").none(), nb::arg("tilt").none(), nb::arg("preset"),
              nb::arg("config"), nb::arg("settings"), nb::arg("labels"),
-             nb::arg("labels_are_classes"), nb::arg("threads").none(), nb::arg("draw").none(),
-             nb::arg("terminal_columns"));
+             nb::arg("labels_are_classes"), nb::arg("moving"), nb::arg("threads").none(),
+             nb::arg("draw").none(), nb::arg("terminal_columns"));
   [[maybe_unused]] const nb::class_<app::MapRequest> request(module, "MapRequest");
   module.def("map_request", &map_request, nb::arg("run"), nb::arg("poses"), nb::arg("output"),
              nb::arg("labels"), nb::arg("delay"), nb::arg("heights"), nb::arg("voxel"),

@@ -19,6 +19,7 @@ void bind_score(nanobind::module_& module);
 void bind_runs(nanobind::module_& module);
 void bind_doctor(nanobind::module_& module);
 void bind_ground_map(nanobind::module_& module);
+void bind_moving_points(nanobind::module_& module);
 
 /// Throws the Python exception for a failed status: MemoryError, ValueError, FileNotFoundError or
 /// OSError.

@@ -50,4 +50,5 @@ NB_MODULE(_core, module) {
   bind_runs(module);
   bind_doctor(module);
   bind_ground_map(module);
+  bind_moving_points(module);
 }

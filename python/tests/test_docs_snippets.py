@@ -261,7 +261,7 @@ def value_on_stand_ins(option: str, value: str, method: str, directory: Path) ->
             return "00"
         case "--reference":
             return str(directory / "scan.label")
-        case "--labels":
+        case "--labels" | "--moving" if "=" in value:
             return f"{value.partition('=')[0]}={directory / 'labels'}"
         case "--poses":
             return str(directory / "run" / "poses.txt")

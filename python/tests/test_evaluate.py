@@ -190,3 +190,73 @@ def test_a_dataset_name_can_start_with_a_dash(simulated: Path, tmp_path: Path, m
     (tmp_path / "-scans").symlink_to(simulated)
     monkeypatch.chdir(tmp_path)
     assert flagstone.evaluate("-scans", methods=["patchwork"]).datasets == ("-scans",)
+
+
+@pytest.fixture(scope="module")
+def moving_scans(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A simulated sequence with traffic, and in `map` and `shifted` its moving points."""
+    folder = tmp_path_factory.mktemp("moving")
+    flagstone.simulate(folder, scene="urban_street", sensor="vlp-16", frames=3)
+    for name in ("map", "shifted"):
+        (folder / name / "moving").mkdir(parents=True)
+    for file in (folder / "sequences" / "00" / "labels").iterdir():
+        moves = np.isin(np.fromfile(file, np.uint32), np.arange(252, 260))
+        for name, marks in (("map", moves), ("shifted", np.roll(moves, 5))):
+            np.save(folder / name / "moving" / f"{file.stem}.moving.npy", marks.astype(np.uint16))
+    return folder
+
+
+def test_moving_points_are_scored_by_range(moving_scans: Path) -> None:
+    sources = {name: moving_scans / name for name in ("map", "shifted")}
+    evaluation = flagstone.evaluate(moving_scans, methods="none", moving=sources)
+
+    moving = evaluation.moving
+    assert moving["name"].tolist() == ["map"] * 5 + ["shifted"] * 5
+    assert moving["from"].tolist() == [0, 10, 20, 40, 0] * 2
+    assert moving["to"].tolist() == [10, 20, 40, 80, 80] * 2
+    exact = moving.iloc[4]
+    assert (exact["iou"], exact["recall"], exact["precision"], exact["kept"]) == (1, 1, 1, 1)
+    assert exact["iou_mean"] == 1
+    assert exact["moving_points"] == exact["marked_points"] > 0
+    assert moving.iloc[:4]["moving_points"].sum() == exact["moving_points"]
+    assert 0 < moving.iloc[9]["iou"] < 1
+    assert evaluation.methods.empty
+    assert evaluation.scans.empty
+    assert repr(evaluation).startswith(f"3 scans of {moving_scans.name}, ")
+
+
+def test_moving_metrics_match_an_independent_count(moving_scans: Path) -> None:
+    evaluation = flagstone.evaluate(moving_scans, methods="none", moving={"shifted": moving_scans / "shifted"})
+
+    tp = fp = fn = kept = obstacles = 0
+    for file in sorted((moving_scans / "sequences" / "00" / "labels").iterdir()):
+        classes = np.fromfile(file, np.uint32)
+        points = np.fromfile(file.parents[1] / "velodyne" / f"{file.stem}.bin", np.float32).reshape(-1, 4)
+        marked = np.load(moving_scans / "shifted" / "moving" / f"{file.stem}.moving.npy") != 0
+        scored = (classes > 1) & (np.hypot(points[:, 0], points[:, 1]) < 80)
+        moves = (classes >= 251) & (classes <= 259)
+        obstacle = scored & ~moves & ~np.isin(classes, [40, 44, 48, 49, 60, 72])
+        tp += (scored & moves & marked).sum()
+        fp += (scored & ~moves & marked).sum()
+        fn += (scored & moves & ~marked).sum()
+        obstacles += obstacle.sum()
+        kept += (obstacle & ~marked).sum()
+    everything = evaluation.moving.iloc[-1]
+    assert everything["iou"] == tp / (tp + fp + fn)
+    assert everything["recall"] == tp / (tp + fn)
+    assert everything["precision"] == tp / (tp + fp)
+    assert everything["kept"] == kept / obstacles
+
+
+def test_moving_is_empty_without_the_argument(evaluation: flagstone.Evaluation) -> None:
+    assert evaluation.moving.empty
+    assert "iou" in evaluation.moving.columns
+
+
+def test_missing_moving_points_are_listed_as_failed(moving_scans: Path, tmp_path: Path) -> None:
+    with pytest.warns(RuntimeWarning, match=r"3 failures.*moving points map: .*000000\.npy"):
+        evaluation = flagstone.evaluate(moving_scans, methods="none", moving={"map": tmp_path})
+    assert len(evaluation.failed) == 3
+    assert np.isnan(evaluation.moving["iou"]).all()
+    with pytest.raises(ValueError, match=r"moving map=.*nowhere is not a directory"):
+        flagstone.evaluate(moving_scans, moving={"map": tmp_path / "nowhere"})

@@ -155,6 +155,7 @@ def test_a_scan_that_cannot_be_read_is_one_line(street: Path, tmp_path: Path) ->
         ({"topic": "/points"}, "topic: .* is not a bag"),
         ({"pose_topic": "/odom"}, "pose_topic: .* is not a bag"),
         ({"crs": "EPSG:25832"}, "crs: is used only by geotiff"),
+        ({"las": True, "voxel": 0}, "las: needs the static points"),
     ],
 )
 def test_an_invalid_argument_is_an_error_before_anything_is_written(
@@ -342,26 +343,28 @@ def test_a_run_without_poses_is_mapped(street: Path, mapped: flagstone.MapSummar
 
 
 def test_exports_are_written_and_listed(street: Path, tmp_path: Path) -> None:
-    for package, extra in (("rasterio", "geotiff"), ("rerun", "viewer"), ("PIL", "plot")):
+    for package, extra in (("rasterio", "geotiff"), ("laspy", "las"), ("rerun", "viewer"), ("PIL", "plot")):
         pytest.importorskip(package, reason=f"needs the extra {extra}")
     import PIL.Image
     import rasterio
 
     done = command(
         *("map", street, "--poses", street / "poses.txt", "-o", tmp_path / "out", "--rate", "10"),
-        *("--sensor", "vlp-16", "--geotiff", "--crs", "EPSG:25832", "--recording", "--animation"),
+        *("--sensor", "vlp-16", "--geotiff", "--crs", "EPSG:25832", "--las", "--recording", "--animation"),
     )
 
     assert done.returncode == 0, done.stderr
-    names = [tmp_path / "out" / name for name in ("ground.tif", "recording.rrd", "animation.gif")]
-    assert done.stdout.splitlines()[-3:] == [str(name) for name in names]
+    names = [tmp_path / "out" / name for name in ("ground.tif", "static.las", "recording.rrd", "animation.gif")]
+    assert done.stdout.splitlines()[-4:] == [str(name) for name in names]
     with rasterio.open(names[0]) as file:
         assert file.crs.to_epsg() == 25832
         known = int(np.isfinite(file.read(1)).sum())
     ground = flagstone.maps.read_ground_map(tmp_path / "out")
     assert known == int(np.isfinite(ground.height).sum())
-    assert names[1].read_bytes()[:3] == b"RRF"
-    with PIL.Image.open(names[2]) as animation:
+    static = flagstone.io.read(tmp_path / "out" / "static.ply")
+    assert (flagstone.io.read(names[1])["classification"] == 1 + static["label"]).all()
+    assert names[2].read_bytes()[:3] == b"RRF"
+    with PIL.Image.open(names[3]) as animation:
         assert animation.n_frames > SCANS / 2
 
 
@@ -382,6 +385,7 @@ def test_a_missing_package_is_named_before_the_run_is_mapped(
 ) -> None:
     for package, argument, extra in (
         ("rasterio", "geotiff", "geotiff"),
+        ("laspy", "las", "las"),
         ("rerun", "recording", "viewer"),
         ("PIL", "animation", "plot"),
     ):
@@ -401,6 +405,7 @@ def test_the_command_without_the_package_names_what_to_install(street: Path, tmp
         (("--poses", "kiss-icp"), "odometry"),
         (("--poses", "poses.mcap"), "bag"),
         (("--poses", street / "poses.txt", "--geotiff"), "geotiff"),
+        (("--poses", street / "poses.txt", "--las"), "las"),
     ):
         done = command("map", street, "-o", tmp_path / "out", *options, package=False)
         assert done.returncode == 2
@@ -416,12 +421,27 @@ def test_a_usage_error_of_the_command_is_one_line(street: Path, tmp_path: Path) 
         (("--poses", "kiss-icp", "--delay", "3", "--voxel", "0.001"), "--voxel: "),
         (("--poses", "missing.mcap"), "missing.mcap: "),
         (("--poses", street / "poses.txt", "--crs", "EPSG:25832"), "--crs"),
+        (("--poses", street / "poses.txt", "--las", "--voxel", "0"), "--las: needs the static points"),
     ):
         done = command("map", street, "-o", tmp_path / "out", *options)
         assert done.returncode == 2, done.stderr
         assert done.stderr.count("\n") == 1
         assert message in done.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_the_result_as_json_has_the_problems(street: Path, tmp_path: Path) -> None:
+    lines = (street / "poses.txt").read_text().splitlines()
+    lines[3] = " ".join(["nan"] * 12)
+    (tmp_path / "poses.txt").write_text("\n".join(lines) + "\n")
+    done = command(
+        *("map", street, "--poses", tmp_path / "poses.txt", "-o", tmp_path / "out", "--rate", "10"),
+        *("--sensor", "vlp-16", "--json"),
+    )
+    result = json.loads(done.stdout)
+    assert (result["mapped"], result["alone"]) == (SCANS - 1, 1)
+    assert "line 4 is not finite" in result["problems"][0]
+    assert result["problems"] == json.loads((tmp_path / "out" / "run.json").read_text())["problems"]
 
 
 def test_the_result_is_the_one_in_run_json(mapped: flagstone.MapSummary) -> None:

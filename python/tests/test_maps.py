@@ -379,6 +379,52 @@ def test_a_damaged_run_is_one_line(
     assert "\n" not in str(raised.value)
 
 
+# Static cloud
+
+
+@pytest.fixture
+def with_cloud(damaged: Path) -> Path:
+    """A mapped run with four static points far from the origin."""
+    points = np.zeros(4, [(axis, np.float64) for axis in "xyz"])
+    points["x"] = 689_000.123 + np.arange(4)
+    points["y"] = 5_335_000.25
+    points["z"] = [510.0, 510.5, 511.0, 520.25]
+    heights = np.array([0.0, 0.5, 1.0, np.nan], np.float32)
+    flagstone.io.write(damaged / "static.ply", points, labels=np.array([1, 1, 0, 0]), heights=heights)
+    return damaged
+
+
+@pytest.mark.parametrize("extension", ["las", "laz"])
+def test_static_points_are_written_as_las(extension: str, with_cloud: Path, tmp_path: Path) -> None:
+    pytest.importorskip("laspy", reason="needs laspy, of the extra las")
+    path = tmp_path / f"static.{extension}"
+
+    maps.write_static_cloud(with_cloud, path)
+
+    written, expected = flagstone.io.read(path), flagstone.io.read(with_cloud / "static.ply")
+    assert written["classification"].tolist() == [2, 2, 1, 1]
+    for axis in "xyz":
+        np.testing.assert_allclose(written[axis], expected[axis], atol=0.0005)
+    np.testing.assert_array_equal(written["height"], expected["height"])
+
+
+def test_static_points_are_written_in_other_formats(with_cloud: Path, tmp_path: Path) -> None:
+    maps.write_static_cloud(with_cloud, tmp_path / "static.pcd")
+    written, expected = flagstone.io.read(tmp_path / "static.pcd"), flagstone.io.read(with_cloud / "static.ply")
+    for name in ("x", "y", "z", "height", "label"):
+        np.testing.assert_array_equal(written[name], expected[name])
+
+
+def test_a_run_without_static_points_is_one_line(directory: Path, with_cloud: Path, tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"static.ply: file does not exist \(expected .* voxel size above 0"):
+        maps.write_static_cloud(directory, tmp_path / "static.las")
+    points = np.zeros(1, [(axis, np.float64) for axis in "xyz"])
+    flagstone.io.write(with_cloud / "static.ply", points)
+    with pytest.raises(ValueError, match=r"static.ply: no property height"):
+        maps.write_static_cloud(with_cloud, tmp_path / "static.las")
+    assert list(tmp_path.glob("static*")) == []
+
+
 @pytest.mark.parametrize(
     ("module", "extra", "write"),
     [

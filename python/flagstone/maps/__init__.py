@@ -9,6 +9,7 @@ from flagstone.maps._animation import write_animation
 from flagstone.maps._geotiff import write_geotiff
 from flagstone.maps._recording import write_recording
 from flagstone.maps._run_files import MappedRun, MappedScan, read_run
+from flagstone.maps._static_cloud import write_static_cloud
 from flagstone.maps._tiles import read_ground_map
 
 __all__ = [
@@ -19,4 +20,5 @@ __all__ = [
     "write_animation",
     "write_geotiff",
     "write_recording",
+    "write_static_cloud",
 ]

@@ -12,6 +12,7 @@ from flagstone._optional import needs
 from flagstone.maps._animation import write_animation
 from flagstone.maps._geotiff import system_of, write_geotiff
 from flagstone.maps._recording import write_recording
+from flagstone.maps._static_cloud import write_static_cloud
 
 
 class Exports(NamedTuple):
@@ -21,6 +22,8 @@ class Exports(NamedTuple):
     """ground.tif: the map."""
     crs: str | int | None = None
     """Coordinate reference system of the poses, for ground.tif."""
+    las: bool = False
+    """static.las: the points that do not move."""
     recording: bool = False
     """recording.rrd: the run in the viewer of Rerun."""
     animation: bool = False
@@ -38,6 +41,8 @@ class Exports(NamedTuple):
         if self.geotiff:
             rasterio = needs("rasterio", extra="geotiff")
             system_of(rasterio, self.crs)
+        if self.las:
+            needs("laspy", extra="las")
         if self.recording:
             needs("rerun", extra="viewer")
         if self.animation:
@@ -52,6 +57,7 @@ class Exports(NamedTuple):
         written = []
         for wanted, name, write in (
             (self.geotiff, "ground.tif", self._write_geotiff),
+            (self.las, "static.las", write_static_cloud),
             (self.recording, "recording.rrd", write_recording),
             (self.animation, "animation.gif", write_animation),
         ):

@@ -22,7 +22,13 @@ def run(options: dict[str, Any], paths: list[str]) -> int:
     Returns:
         Exit code: 0, success; 1, an export was not written.
     """
-    exports = Exports(options["geotiff"], options["crs"] or None, options["recording"], options["animation"])
+    exports = Exports(
+        geotiff=options["geotiff"],
+        crs=options["crs"] or None,
+        las=options["las"],
+        recording=options["recording"],
+        animation=options["animation"],
+    )
     try:
         if options["part"] == "export":
             return _export(exports, Path(paths[2]), options["json"])
