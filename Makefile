@@ -8,7 +8,7 @@ PREFIX ?= /usr/local
 MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence bench-codec latency soak-test surface-figures
 
 .PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
-        bench-compare bench-bags $(MEASUREMENTS) surface-study worlds-study invariance-study contact-sheet \
+        bench-compare bench-bags $(MEASUREMENTS) surface-study worlds-study invariance-study runs-study contact-sheet \
         map-image clean
 .DEFAULT_GOAL := build
 
@@ -82,6 +82,9 @@ worlds-study: build ## measure both methods in all simulated scenes, write table
 
 invariance-study: build ## shuffle, double, turn and flip real scans, write tables of docs/benchmarks/robustness.md; WORK: a directory with 1 GB free
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/invariance_study.py run --work $(or $(WORK),out/invariance)
+
+runs-study: build ## measure labels, maps and moving points of simulated and real runs, write tables of docs/benchmarks/runs.md; WORK: a directory with 25 GB free
+	@scripts/setup plot && "$$(scripts/python plotting)" bench/runs_study.py run --work $(or $(WORK),out/runs)
 
 contact-sheet: build ## draw every scene as seen by three sensors: docs/images/worlds.png; SHEET: options of bench/contact_sheet.py
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/contact_sheet.py $(SHEET)
