@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "flagstone/cloud_view.hpp"
+#include "flagstone/label.hpp"
 #include "flagstone/segmentation.hpp"
 #include "flagstone/status.hpp"
 
@@ -173,6 +174,21 @@ class GroundMap {
 
   /// Same as at(x, y).height, but faster.
   [[nodiscard]] double height(double x, double y) const noexcept;
+
+  /// Writes the height of each point of a scan above the map, metres; NaN where the map is unknown
+  /// and for points that are not finite. `levelling`: as add() or level() returned it for the scan.
+  /// invalid_argument if the sizes differ or the pose is not finite or not a rotation. Never
+  /// throws.
+  Status heights(CloudView cloud, const Pose& pose, const Levelling& levelling,
+                 std::span<float> heights) const;
+
+  /// Changes labels `ground` of a scan to `nonground` where a point is above the map by more than
+  /// the default PointRule::margin, 0.24 m. Far away, a scan has few points on the ground, and its
+  /// surface can follow the points on objects; the map has the ground from nearer scans. If the map
+  /// is unknown at a point, its label stays. `levelling`: as for heights(). Errors as add(), and
+  /// invalid_argument if `labels` has another size than the cloud. Never throws.
+  Status relabel(CloudView cloud, const Segmentation& result, const Pose& pose,
+                 const Levelling& levelling, std::span<Label> labels) const;
 
   /// The tiles with a height, sorted by y, then by x. May throw std::bad_alloc.
   [[nodiscard]] std::vector<TileIndex> tiles() const;

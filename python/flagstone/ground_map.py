@@ -242,6 +242,58 @@ class GroundMap:
         heights = self._core.height_at(flat_x, flat_y)
         return heights.reshape(shape) if shape else float(heights[0])
 
+    def heights(
+        self, points: PointsLike, result: Segmentation, pose: npt.ArrayLike, levelling: Levelling
+    ) -> npt.NDArray[np.float32]:
+        """Heights of the points of a scan above the map.
+
+        Args:
+            points: (N, >=3), the scan, as `Segmenter.segment` accepts it.
+            result: Result of segmenting the points by a method that computes heights, such as `Surface`.
+            pose: (4, 4) or (3, 4), as `add` accepts it.
+            levelling: What `add` or `level` returned for this scan.
+
+        Returns:
+            (N,): metres; NaN where the map is unknown and for points that are not finite.
+
+        Raises:
+            TypeError: The points are not floats, or not in CPU memory.
+            ValueError: The result is not of these points, or the pose is not a finite rotation and position.
+            MemoryError: There is not enough memory.
+        """
+        return self._core.heights(*columns_of(points), result._result, pose_rows(pose), levelling)
+
+    def relabel(
+        self,
+        points: PointsLike,
+        result: Segmentation,
+        pose: npt.ArrayLike,
+        levelling: Levelling,
+        labels: npt.ArrayLike | None = None,
+    ) -> npt.NDArray[np.uint8]:
+        """The labels of a scan after a comparison with the map.
+
+        Points that are labelled ground but are more than 0.24 m above the map become `nonground`. Far away, a scan has
+        few points on the ground, and its surface can follow the points on objects; the map has the ground from nearer
+        scans. If the map is unknown at a point, its label stays. See `heights` for the other arguments and errors.
+
+        Args:
+            points: The scan.
+            result: Its result.
+            pose: Its pose.
+            levelling: Its levelling.
+            labels: (N,): code of each point, such as from `LabelVote.relabel`. By default, the labels of the result.
+
+        Returns:
+            (N,): a new array.
+
+        Raises:
+            ValueError: `labels` has another length than the points.
+        """
+        changed = np.array(result.labels if labels is None else labels, dtype=np.uint8, order="C")
+        self._core.relabel(*columns_of(points), result._result, pose_rows(pose), levelling, changed)
+        return changed
+
     def at(self, x: npt.ArrayLike, y: npt.ArrayLike) -> MapSample:
         """Height, normal, slope, deviation and counts at given positions. See `height` for the arguments."""
         flat_x, flat_y, shape = _flattened(x, y)

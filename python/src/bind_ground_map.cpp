@@ -26,6 +26,7 @@ namespace nb = nanobind;
 namespace flagstone::python {
 namespace {
 
+using WritableLabels = nb::ndarray<std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Flags = nb::ndarray<const bool, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Positions = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
@@ -53,6 +54,29 @@ class SharedGroundMap : public Shared<GroundMap> {
       return (map.*fit)(cloud, segmentation, level_pose, levelling);
     });
     return tuple_of(levelling);
+  }
+
+  Array<float> heights(nb::handle x, nb::handle y, nb::handle z, const Result& result,
+                       const PoseRows& pose, const LevellingTuple& levelling) const {
+    GivenScan scan(x, y, z, result, pose);
+    const std::size_t count = result.segmentation().labels().size();
+    NewArray<float> heights({count});
+    read_with(scan, [&](const GroundMap& map, CloudView cloud, const Segmentation&,
+                        const Pose& level_pose) {
+      return map.heights(cloud, level_pose, levelling_of(levelling), {heights.data(), count});
+    });
+    return heights.release();
+  }
+
+  /// Changes `labels`.
+  void relabel(nb::handle x, nb::handle y, nb::handle z, const Result& result, const PoseRows& pose,
+               const LevellingTuple& levelling, const WritableLabels& labels) const {
+    GivenScan scan(x, y, z, result, pose);
+    const std::span written(reinterpret_cast<Label*>(labels.data()), labels.size());
+    read_with(scan, [&](const GroundMap& map, CloudView cloud, const Segmentation& segmentation,
+                        const Pose& level_pose) {
+      return map.relabel(cloud, segmentation, level_pose, levelling_of(levelling), written);
+    });
   }
 };
 
@@ -190,14 +214,11 @@ class SharedLabelVote : public Shared<LabelVote> {
                               const PoseRows& pose, const LevellingTuple& levelling) const {
     GivenScan scan(x, y, z, result, pose);
     NewArray<std::uint8_t> labels({result.segmentation().labels().size()});
-    raise_if_failed(read([&](const LabelVote& vote) {
-      return scan.with_level(
-          [&](CloudView cloud, const Segmentation& segmentation, const Pose& level_pose) {
-            return vote.relabel(
-                cloud, segmentation, level_pose, levelling_of(levelling),
-                {reinterpret_cast<Label*>(labels.data()), segmentation.labels().size()});
-          });
-    }));
+    read_with(scan, [&](const LabelVote& vote, CloudView cloud, const Segmentation& segmentation,
+                        const Pose& level_pose) {
+      return vote.relabel(cloud, segmentation, level_pose, levelling_of(levelling),
+                          {reinterpret_cast<Label*>(labels.data()), segmentation.labels().size()});
+    });
     return labels.release();
   }
 };
@@ -223,6 +244,16 @@ void bind_ground_map(nb::module_& module) {
           nb::arg("x"), nb::arg("y"), nb::arg("z"), nb::arg("result"), nb::arg("pose"),
           nb::sig("def level(self, x: object, y: object, z: object, result: Result, pose: "
                   "numpy.typing.NDArray[numpy.float64]) -> tuple[bool, int, float, float, float]"))
+      .def("heights", &SharedGroundMap::heights, nb::arg("x"), nb::arg("y"), nb::arg("z"),
+           nb::arg("result"), nb::arg("pose"), nb::arg("levelling"),
+           nb::sig("def heights(self, x: object, y: object, z: object, result: Result, pose: "
+                   "numpy.typing.NDArray[numpy.float64], levelling: tuple[bool, int, float, "
+                   "float, float]) -> numpy.typing.NDArray[numpy.float32]"))
+      .def("relabel", &SharedGroundMap::relabel, nb::arg("x"), nb::arg("y"), nb::arg("z"),
+           nb::arg("result"), nb::arg("pose"), nb::arg("levelling"), nb::arg("labels"),
+           nb::sig("def relabel(self, x: object, y: object, z: object, result: Result, pose: "
+                   "numpy.typing.NDArray[numpy.float64], levelling: tuple[bool, int, float, "
+                   "float, float], labels: numpy.typing.NDArray[numpy.uint8]) -> None"))
       .def("height_at", &heights_at, nb::arg("x"), nb::arg("y"),
            nb::sig("def height_at(self, x: numpy.typing.NDArray[numpy.float64], y: "
                    "numpy.typing.NDArray[numpy.float64]) -> numpy.typing.NDArray[numpy.float64]"))

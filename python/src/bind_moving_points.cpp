@@ -67,38 +67,29 @@ class SharedMovingPoints : public Shared<MovingPoints> {
 }  // namespace
 
 void bind_moving_points(nb::module_& module) {
-  nb::class_<SharedMovingPoints>(module, "MovingPoints")
+  nb::class_<SharedMovingPoints> moving_points(module, "MovingPoints");
+  const auto def_find = [&](const char* name, const char* signature,
+                            SharedMovingPoints::Find find) {
+    moving_points.def(
+        name,
+        [find](SharedMovingPoints& moving, nb::handle x, nb::handle y, nb::handle z,
+               const Result& result, const PoseRows& pose, const LevellingTuple& levelling,
+               double time) { return moving.find(find, x, y, z, result, pose, levelling, time); },
+        nb::arg("x"), nb::arg("y"), nb::arg("z"), nb::arg("result"), nb::arg("pose"),
+        nb::arg("levelling"), nb::arg("time"), nb::sig(signature));
+  };
+  constexpr auto arguments =
+      "(self, x: object, y: object, z: object, result: Result, pose: "
+      "numpy.typing.NDArray[numpy.float64], levelling: tuple[bool, int, float, float, float], "
+      "time: float) -> tuple[numpy.typing.NDArray[numpy.uint32], "
+      "numpy.typing.NDArray[numpy.uint32], numpy.typing.NDArray[numpy.float32], "
+      "numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]";
+  def_find("add", (std::string("def add") + arguments).c_str(), &MovingPoints::add);
+  def_find("find", (std::string("def find") + arguments).c_str(), &MovingPoints::find);
+  moving_points
       .def(nb::init<double, double, float, float, double, double>(), nb::kw_only(),
            nb::arg("beam_spacing"), nb::arg("max_range"), nb::arg("min_height"),
            nb::arg("max_height"), nb::arg("delay"), nb::arg("window"))
-      .def(
-          "add",
-          [](SharedMovingPoints& moving, nb::handle x, nb::handle y, nb::handle z,
-             const Result& result, const PoseRows& pose, const LevellingTuple& levelling,
-             double time) {
-            return moving.find(&MovingPoints::add, x, y, z, result, pose, levelling, time);
-          },
-          nb::arg("x"), nb::arg("y"), nb::arg("z"), nb::arg("result"), nb::arg("pose"),
-          nb::arg("levelling"), nb::arg("time"),
-          nb::sig("def add(self, x: object, y: object, z: object, result: Result, pose: "
-                  "numpy.typing.NDArray[numpy.float64], levelling: tuple[bool, int, float, float, "
-                  "float], time: float) -> tuple[numpy.typing.NDArray[numpy.uint32], "
-                  "numpy.typing.NDArray[numpy.uint32], numpy.typing.NDArray[numpy.float32], "
-                  "numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]"))
-      .def(
-          "find",
-          [](SharedMovingPoints& moving, nb::handle x, nb::handle y, nb::handle z,
-             const Result& result, const PoseRows& pose, const LevellingTuple& levelling,
-             double time) {
-            return moving.find(&MovingPoints::find, x, y, z, result, pose, levelling, time);
-          },
-          nb::arg("x"), nb::arg("y"), nb::arg("z"), nb::arg("result"), nb::arg("pose"),
-          nb::arg("levelling"), nb::arg("time"),
-          nb::sig("def find(self, x: object, y: object, z: object, result: Result, pose: "
-                  "numpy.typing.NDArray[numpy.float64], levelling: tuple[bool, int, float, float, "
-                  "float], time: float) -> tuple[numpy.typing.NDArray[numpy.uint32], "
-                  "numpy.typing.NDArray[numpy.uint32], numpy.typing.NDArray[numpy.float32], "
-                  "numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]"))
       .def("beam_spacing",
            [](const SharedMovingPoints& shared) {
              return shared.read([](const MovingPoints& moving) { return moving.beam_spacing(); });

@@ -137,6 +137,17 @@ class Shared {
     }));
   }
 
+  /// Calls `use(state, cloud, segmentation, pose)` for a scan, as read() does.
+  template <class Use>
+  void read_with(GivenScan& scan, const Use& use) const {
+    raise_if_failed(read([&](const State& state) {
+      return scan.with_level(
+          [&](CloudView cloud, const Segmentation& segmentation, const Pose& pose) {
+            return use(state, cloud, segmentation, pose);
+          });
+    }));
+  }
+
   [[nodiscard]] nanobind::bytes to_bytes() const {
     std::vector<std::byte> bytes;
     raise_if_failed(read([&](const State& state) { return state.to_bytes(bytes); }));

@@ -216,6 +216,40 @@ def test_the_vote_does_not_change_other_labels(run: Run) -> None:
     np.testing.assert_array_equal(labels[kept], result.labels[kept])
 
 
+def test_the_map_corrects_labels_after_the_vote(run: Run) -> None:
+    voted = corrected = 0
+    for scan, result, pose, levelling, classes in zip(
+        run.scans, run.results, run.poses, run.levellings, run.classes, strict=True
+    ):
+        truth = np.isin(classes & 0xFFFF, GROUND_CLASSES)
+        labels = run.vote.relabel(scan, result, pose, levelling)
+        after = run.map.relabel(scan, result, pose, levelling, labels)
+        voted += int((truth != (labels == flagstone.Label.GROUND)).sum())
+        corrected += int((truth != (after == flagstone.Label.GROUND)).sum())
+    assert corrected < voted
+
+
+def test_only_labels_above_the_map_change(run: Run) -> None:
+    arguments = (run.scans[3], run.results[3], run.poses[3], run.levellings[3])
+    labels = run.results[3].labels
+    changed = run.map.relabel(*arguments) != labels
+    assert changed.any()
+    assert (labels[changed] == flagstone.Label.GROUND).all()
+    assert (run.map.relabel(*arguments)[changed] == flagstone.Label.NONGROUND).all()
+    assert (run.map.heights(*arguments)[changed] > 0.24).all()
+
+
+def test_heights_above_the_map_are_close_to_those_of_the_scan(run: Run) -> None:
+    heights = run.map.heights(run.scans[3], run.results[3], run.poses[3], run.levellings[3])
+    assert heights.dtype == np.float32
+    assert np.nanmedian(np.abs(heights - run.results[3].heights)) < 0.03
+
+
+def test_labels_of_another_length_are_an_error(run: Run) -> None:
+    with pytest.raises(ValueError, match="the number of labels differs from the number of points"):
+        run.map.relabel(run.scans[3], run.results[3], run.poses[3], run.levellings[3], [1, 2])
+
+
 def test_threads_can_share_a_map_and_a_vote(run: Run) -> None:
     ground, vote = flagstone.GroundMap(), flagstone.LabelVote()
     failures: list[BaseException] = []

@@ -58,9 +58,10 @@ class Robot:
         levelling = self.ground.add(scan.points, scan.result, scan.pose)
         self.levellings.append(levelling)
         mask = self.moving.add(scan.points, scan.result, scan.pose, levelling, scan.time)
-        arguments = (scan.points, scan.result, scan.pose, levelling, mask.moving)
-        self.vote.add(*arguments)
-        return self.vote.relabel(*arguments), mask
+        arguments = (scan.points, scan.result, scan.pose, levelling)
+        self.vote.add(*arguments, mask.moving)
+        labels = self.vote.relabel(*arguments, mask.moving)
+        return self.ground.relabel(*arguments, labels), mask
 
 
 def test_a_robot_has_the_live_labels_and_moving_points_of_a_mapped_run(

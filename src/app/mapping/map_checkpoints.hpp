@@ -51,8 +51,8 @@ class MapCheckpoints {
   Status save(const MapProgress& progress, const RunMapper& mapper);
 
   /// Reads the last checkpoint. `mapper`: a new one with the same settings; `reread` as for
-  /// RunMapper::load(). None if there is no checkpoint, it is damaged or it is of another number of
-  /// scans; `mapper` is then unspecified.
+  /// RunMapper::load(). Returns nothing if no checkpoint exists, if it is damaged, or if it was
+  /// written for another number of scans; `mapper` is then unspecified.
   std::optional<MapProgress> load(std::size_t scans, RunMapper& mapper,
                                   const RunMapper::Reread& reread);
 

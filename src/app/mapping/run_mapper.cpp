@@ -69,8 +69,7 @@ Status RunMapper::vote_for(RunScan& scan) {
       status = vote_.add(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling,
                          scan.labels);
     }
-    label_moving_points(scan.moving, scan.labels);
-    return status;
+    return status.ok() ? correct(scan, scan.labels) : status;
   }
   const WithoutMovingPoints excluded(scan);
   return vote_.add(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling);
@@ -129,27 +128,24 @@ Status RunMapper::relabel(const RunScan& scan, std::vector<Label>& labels) const
   if (!scan.fits) return {};
   const Status status =
       vote_.relabel(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling, labels);
+  return status.ok() ? correct(scan, labels) : status;
+}
+
+// Labels after the vote: neither points above the map nor moving points are ground.
+Status RunMapper::correct(const RunScan& scan, std::vector<Label>& labels) const {
   label_moving_points(scan.moving, labels);
-  return status;
+  return map_.relabel(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling, labels);
 }
 
 void RunMapper::heights_above_map(const RunScan& scan, std::vector<float>& heights) const {
-  const CloudView cloud = scan.level.cloud();
   heights.assign(scan.result.heights().begin(), scan.result.heights().end());
   if (!scan.fits) return;
-  const auto& [rotation, position] = scan.level.pose();
+  std::vector<float> above_map(heights.size());
+  if (!map_.heights(scan.level.cloud(), scan.level.pose(), scan.levelling, above_map).ok()) return;
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const Label label = scan.result.labels()[i];
     if (label == Label::invalid || label == Label::out_of_range) continue;
-    const Point p = cloud[i];
-    const auto axis = [&, &r = rotation, &t = position](std::size_t row) {
-      return t[row] + r[3 * row] * double{p.x} + r[3 * row + 1] * double{p.y} +
-             r[3 * row + 2] * double{p.z};
-    };
-    const double x = axis(0);
-    const double y = axis(1);
-    const double height = axis(2) - scan.levelling.at(x, y, position) - map_.height(x, y);
-    if (std::isfinite(height)) heights[i] = static_cast<float>(height);
+    if (std::isfinite(above_map[i])) heights[i] = above_map[i];
   }
 }
 

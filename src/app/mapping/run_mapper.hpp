@@ -37,8 +37,8 @@ struct RunScan {
   LevelScan level;      ///< with the pose
   Levelling levelling;  ///< of the pose; set by RunMapper
   MovingMask moving;    ///< set by RunMapper
-  /// Labels with the votes of the scans so far, and `nonground` for all moving points; set by
-  /// RunMapper. Empty for LabelSource::offline.
+  /// Labels with the votes of the scans so far, and `nonground` for all points above the map and
+  /// all moving points; set by RunMapper. Empty for LabelSource::offline.
   std::vector<Label> labels;
   /// False: the ground of the scan does not fit the map, and the scan was not used.
   bool fits = true;
@@ -80,7 +80,8 @@ class RunMapper {
   /// Finishes the remaining scans.
   Status finish(const Use& finished);
 
-  /// Writes labels of a finished scan with the votes of all scans so far, for LabelSource::offline.
+  /// Writes labels of a finished scan with the votes and the map of all scans so far, for
+  /// LabelSource::offline.
   /// Several threads may call it at the same time.
   Status relabel(const RunScan& scan, std::vector<Label>& labels) const;
 
@@ -110,6 +111,7 @@ class RunMapper {
 
  private:
   Status vote_for(RunScan& scan);
+  Status correct(const RunScan& scan, std::vector<Label>& labels) const;
   Status finish_first(const Use& finished);
 
   RunMapperConfig config_;

@@ -15,15 +15,12 @@
 
 #include "library/core/floating_point_mode.hpp"
 #include "library/core/setting.hpp"
-#include "library/ground_map/last_levelling.hpp"
 #include "library/ground_map/level_fit.hpp"
+#include "library/ground_map/map_tiles.hpp"
 #include "library/ground_map/poses.hpp"
-#include "library/ground_map/scan_heights.hpp"
 #include "library/ground_map/state_bytes.hpp"
-#include "library/ground_map/tile_archive.hpp"
 #include "library/ground_map/tile_bytes.hpp"
 #include "library/ground_map/tile_indices.hpp"
-#include "library/ground_map/tiles.hpp"
 
 namespace flagstone {
 
@@ -44,7 +41,6 @@ void GroundMapConfig::check() const {
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 // Adds a height to the hypothesis of the cell that it fits; otherwise it replaces the second one.
 void add_height(MapCell& cell, float height, float variance) noexcept {
   const auto fits = [&](const HeightEvidence& evidence) {
@@ -65,45 +61,6 @@ void add_height(MapCell& cell, float height, float variance) noexcept {
 }
 
 }  // namespace
-
-namespace {
-
-// Expected error of the height of a cell that has one, metres. Variances are added for: levelling;
-// the measurements, as if they were independent; how much they differ, since errors of scans from
-// nearby are alike and do not average out; and, in proportion to its weight, the distance to the
-// height that contradicts.
-float deviation_of(const MapCell& cell) noexcept {
-  constexpr float levelling = 0.005F;  // metres
-  const HeightEvidence& best = cell.best;
-  const HeightEvidence& other = cell.other;
-  const float between = other.height - best.height;
-  return std::sqrt(levelling * levelling + (1 + best.scatter) / best.weight +
-                   other.weight / (best.weight + other.weight) * between * between);
-}
-
-}  // namespace
-
-class GroundMap::Tiles {
- public:
-  GroundMapConfig config;
-  CellTiles cells;
-  std::unique_ptr<TileArchive> archive;  // of a map with a TileStore, otherwise null
-  double base = 0;  // z of the sensor in the first scan; stored heights are relative to it
-  std::size_t scans = 0;
-  LastLevelling last;
-
-  /// Reads those tiles of the heights that are in the store.
-  Status recall(std::span<const MeasuredHeight> heights);
-
-  /// Stores the tiles beyond the memory limit.
-  Status unload();
-
-  /// A cell in memory or in the store; without heights if the map does not have it.
-  [[nodiscard]] MapCell cell(CellIndex index) const noexcept {
-    if (const MapCell* const found = cells.find(index); found != nullptr) return *found;
-    return archive ? archive->cell(index) : MapCell();
-  }
-};
 
 Status GroundMap::Tiles::recall(std::span<const MeasuredHeight> heights) {
   if (!archive) return {};
@@ -162,12 +119,7 @@ const GroundMapConfig& GroundMap::config() const noexcept { return tiles_->confi
 Status GroundMap::fit(CloudView cloud, const Segmentation& result, const Pose& pose,
                       std::span<const MeasuredHeight>& heights, Levelling& levelling) {
   levelling = {};
-  if (cloud.size() != result.labels().size() || cloud.size() != result.heights().size()) {
-    return Status(StatusCode::invalid_argument,
-                  "ground map: the result has no heights of this cloud (expected the result of a "
-                  "method such as surface for the same cloud)");
-  }
-  if (!is_valid(pose)) return invalid_pose();
+  if (Status status = check_scan("ground map", cloud, result, pose); !status.ok()) return status;
   constexpr float max_range_for_level = 30;  // metres
   heights = builder_->heights.measure(cloud, result, pose, tiles_->config);
   if (Status status = tiles_->recall(heights); !status.ok()) return status;
@@ -244,112 +196,6 @@ Status GroundMap::add(CloudView cloud, const Segmentation& result, const Pose& p
     map.cells.remove_beyond(here, map.config.window / map.config.cell);
   }
   return {};
-}
-
-namespace {
-
-/// The four cells around a position, with their weights.
-struct Corners {
-  std::array<MapCell, 4> cells{};  // x ascending, then y
-  double u = 0, v = 0;             // 0..1 between the centres
-
-  template <class Cells>  // cells.cell(index) is a cell
-  Corners(const Cells& map, double x, double y, double size) noexcept {
-    const double column = x / size - 0.5;
-    const double row = y / size - 0.5;
-    if (!(std::abs(x) <= max_world_position) || !(std::abs(y) <= max_world_position)) return;
-    const auto first_column = static_cast<std::int64_t>(std::floor(column));
-    const auto first_row = static_cast<std::int64_t>(std::floor(row));
-    u = column - std::floor(column);
-    v = row - std::floor(row);
-    for (std::size_t k = 0; k < 4; ++k) {
-      cells[k] = map.cell({.x = first_column + static_cast<std::int64_t>(k & 1U),
-                           .y = first_row + static_cast<std::int64_t>(k >> 1U)});
-    }
-  }
-
-  [[nodiscard]] double weight(std::size_t k) const noexcept {
-    return ((k & 1U) != 0 ? u : 1 - u) * ((k >> 1U) != 0 ? v : 1 - v);
-  }
-  [[nodiscard]] double height() const noexcept {
-    double sum = 0;
-    double known = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (!has_height(cells[k])) continue;
-      sum += weight(k) * double{cells[k].best.height};
-      known += weight(k);
-    }
-    return known > 0.5 ? sum / known : unknown;
-  }
-  [[nodiscard]] const MapCell& nearest() const noexcept {
-    return cells[(u >= 0.5 ? 1U : 0U) + (v >= 0.5 ? 2U : 0U)];
-  }
-  [[nodiscard]] bool all() const noexcept { return std::ranges::all_of(cells, has_height); }
-};
-
-}  // namespace
-
-double GroundMap::height(double x, double y) const noexcept {
-  return tiles_->base + Corners(*tiles_, x, y, tiles_->config.cell).height();
-}
-
-MapSample GroundMap::at(double x, double y) const noexcept {
-  constexpr float none = std::numeric_limits<float>::quiet_NaN();
-  const Corners corners(*tiles_, x, y, tiles_->config.cell);
-  MapSample sample{.height = tiles_->base + corners.height(),
-                   .normal = {none, none, none},
-                   .slope = none,
-                   .deviation = none};
-  if (const MapCell& cell = corners.nearest(); has_height(cell)) {
-    sample.deviation = deviation_of(cell);
-    sample.scans = cell.best.scans;
-    sample.contradictions = cell.other.scans;
-    sample.age = static_cast<std::uint32_t>(tiles_->scans) - cell.last_scan;
-  }
-  if (corners.all()) {
-    const auto z = [&](std::size_t k) { return double{corners.cells[k].best.height}; };
-    const double size = tiles_->config.cell;
-    const double rise_x = ((1 - corners.v) * (z(1) - z(0)) + corners.v * (z(3) - z(2))) / size;
-    const double rise_y = ((1 - corners.u) * (z(2) - z(0)) + corners.u * (z(3) - z(1))) / size;
-    const double length = std::sqrt(1 + rise_x * rise_x + rise_y * rise_y);
-    sample.normal = {static_cast<float>(-rise_x / length), static_cast<float>(-rise_y / length),
-                     static_cast<float>(1 / length)};
-    sample.slope = static_cast<float>(std::atan(std::hypot(rise_x, rise_y)));
-  }
-  return sample;
-}
-
-std::vector<TileIndex> GroundMap::tiles() const {
-  std::vector<TileIndex> indices;
-  tiles_->cells.for_each([&](TileIndex index, const CellTiles::Tile& tile) {
-    if (std::ranges::any_of(tile, has_height)) indices.push_back(index);
-  });
-  if (tiles_->archive)
-    tiles_->archive->for_each([&](TileIndex index) { indices.push_back(index); });
-  sort_tiles(indices);
-  return indices;
-}
-
-bool GroundMap::read_tile(TileIndex index, MapTile& tile) const noexcept {
-  const CellTiles::Tile* cells = tiles_->cells.tile(index);
-  std::unique_ptr<CellTiles::Tile> stored;
-  if (cells == nullptr && tiles_->archive && tiles_->archive->contains(index)) {
-    stored.reset(new (std::nothrow) CellTiles::Tile());
-    if (stored == nullptr || !tiles_->archive->read(index, *stored).ok()) return false;
-    cells = stored.get();
-  }
-  if (cells == nullptr || std::ranges::none_of(*cells, has_height)) return false;
-  constexpr float none = std::numeric_limits<float>::quiet_NaN();
-  for (std::size_t k = 0; k < MapTile::cells; ++k) {
-    const MapCell& cell = (*cells)[k];
-    const bool known = has_height(cell);
-    tile.height[k] = known ? static_cast<float>(tiles_->base + double{cell.best.height}) : none;
-    tile.deviation[k] = known ? deviation_of(cell) : none;
-    tile.scans[k] = cell.best.scans;
-    tile.contradictions[k] = cell.other.scans;
-    tile.last_scan[k] = cell.last_scan;
-  }
-  return true;
 }
 
 namespace {
@@ -452,14 +298,5 @@ Status GroundMap::from_bytes(std::span<const std::byte> bytes) {
     return Status(StatusCode::out_of_memory);
   }
 }
-
-std::size_t GroundMap::scans() const noexcept { return tiles_->scans; }
-
-std::size_t GroundMap::cells() const noexcept {
-  return tiles_->cells.cells_with_height() +
-         (tiles_->archive ? tiles_->archive->cells_with_height() : 0);
-}
-
-std::size_t GroundMap::bytes() const noexcept { return tiles_->cells.bytes(); }
 
 }  // namespace flagstone

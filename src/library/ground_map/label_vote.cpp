@@ -38,15 +38,6 @@ void LabelVoteConfig::check() const {
 
 namespace {
 
-Status check_scan(CloudView cloud, const Segmentation& result, const Pose& pose) {
-  if (cloud.size() != result.labels().size() || result.heights().size() != cloud.size()) {
-    return Status(StatusCode::invalid_argument,
-                  "label vote: the result has no heights of this cloud (expected the result of a "
-                  "method such as surface for the same cloud)");
-  }
-  return is_valid(pose) ? Status() : invalid_pose();
-}
-
 Status check_labels(CloudView cloud, std::span<const Label> labels) {
   if (labels.size() == cloud.size()) return {};
   return Status(StatusCode::invalid_argument,
@@ -193,7 +184,7 @@ Status LabelVote::add(CloudView cloud, const Segmentation& result, const Pose& p
 
 Status LabelVote::add_scan(CloudView cloud, const Segmentation& result, const Pose& pose,
                            const Levelling& levelling, const std::span<Label>* labels) {
-  if (Status status = check_scan(cloud, result, pose); !status.ok()) return status;
+  if (Status status = check_scan("label vote", cloud, result, pose); !status.ok()) return status;
   const ScopedFloatingPointMode mode;
   const LevelledScan scan(votes_->config, cloud, result, pose, levelling);
   try {
@@ -209,7 +200,7 @@ Status LabelVote::add_scan(CloudView cloud, const Segmentation& result, const Po
 
 Status LabelVote::relabel(CloudView cloud, const Segmentation& result, const Pose& pose,
                           const Levelling& levelling, std::span<Label> labels) const {
-  if (Status status = check_scan(cloud, result, pose); !status.ok()) return status;
+  if (Status status = check_scan("label vote", cloud, result, pose); !status.ok()) return status;
   if (Status status = check_labels(cloud, labels); !status.ok()) return status;
   const ScopedFloatingPointMode mode;
   const LevelledScan scan(votes_->config, cloud, result, pose, levelling);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace flagstone {
 
@@ -30,6 +31,16 @@ Status invalid_pose() {
   return Status(StatusCode::invalid_argument,
                 "pose: is not a rotation and a position (expected finite numbers, orthonormal axes "
                 "and positions up to 10,000 km)");
+}
+
+Status check_scan(const char* user, CloudView cloud, const Segmentation& result, const Pose& pose) {
+  if (cloud.size() != result.labels().size() || cloud.size() != result.heights().size()) {
+    return Status(StatusCode::invalid_argument,
+                  std::string(user) +
+                      ": the result has no heights of this cloud (expected the result of a method "
+                      "such as surface for the same cloud)");
+  }
+  return is_valid(pose) ? Status() : invalid_pose();
 }
 
 }  // namespace flagstone

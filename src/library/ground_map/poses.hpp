@@ -36,4 +36,8 @@ inline WorldVector rotated_back(const Pose& pose, double x, double y, double z) 
 /// The error for a pose that is not valid.
 Status invalid_pose();
 
+/// An error if the result has no heights of this cloud or the pose is not valid. `user` begins the
+/// message.
+Status check_scan(const char* user, CloudView cloud, const Segmentation& result, const Pose& pose);
+
 }  // namespace flagstone

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "library/ground_map/ground_scan.hpp"
@@ -350,6 +351,78 @@ TEST(GroundMap, QueriesAcceptAnyNumber) {
     EXPECT_TRUE(std::isnan(map.height(x, 0))) << x;
     EXPECT_TRUE(std::isnan(map.at(0, x).height)) << x;
   }
+}
+
+/// A scan of the ground with one point `up` metres above it.
+struct RaisedScan {
+  RaisedScan(const Pose& pose, float up) : scan(hills, pose) {
+    labels.assign(scan.result.labels().begin(), scan.result.labels().end());
+    raised = labels.size() / 2;
+    scan.xyz[3 * raised + 2] += up;
+  }
+
+  GroundScan scan;
+  std::vector<Label> labels;
+  std::size_t raised = 0;  // index of the point
+};
+
+TEST(GroundMap, PointsFarAboveTheKnownMapAreNotGround) {
+  GroundMap map;
+  const Pose pose = upright_pose(hills, 3, 4);
+  const Levelling levelling = add(map, GroundScan(hills, pose), pose);
+  for (const auto& [up, label] : {std::pair(0.2F, Label::ground), {0.3F, Label::nonground}}) {
+    RaisedScan raised(pose, up);
+    ASSERT_TRUE(
+        map.relabel(raised.scan.view(), raised.scan.result, pose, levelling, raised.labels).ok());
+    EXPECT_EQ(raised.labels[raised.raised], label);
+    EXPECT_EQ(std::ranges::count(raised.labels, Label::nonground), label == Label::ground ? 0 : 1);
+  }
+}
+
+TEST(GroundMap, OnlyLabelsOfGroundChangeAndOnlyWhereTheMapIsKnown) {
+  GroundMap map;
+  const Pose pose = upright_pose(hills, 3, 4);
+  const Pose far = upright_pose(hills, 300, 4);
+  const Levelling levelling = add(map, GroundScan(hills, pose), pose);
+
+  RaisedScan noise(pose, 1);
+  noise.labels[noise.raised] = Label::noise;
+  ASSERT_TRUE(
+      map.relabel(noise.scan.view(), noise.scan.result, pose, levelling, noise.labels).ok());
+  EXPECT_EQ(noise.labels[noise.raised], Label::noise);
+
+  RaisedScan unknown(far, 1);
+  ASSERT_TRUE(map.relabel(unknown.scan.view(), unknown.scan.result, far, {}, unknown.labels).ok());
+  EXPECT_EQ(unknown.labels[unknown.raised], Label::ground);
+}
+
+TEST(GroundMap, HeightsOfPointsAreThoseAboveTheMapAfterLevelling) {
+  GroundMap map;
+  const Pose pose = upright_pose(hills, 3, 4);
+  add(map, GroundScan(hills, pose), pose);
+  const RaisedScan raised(pose, 2);
+  const Pose off = wrong(pose, 0.4, 0.01);
+  const Levelling levelling = add(map, raised.scan, off);
+  std::vector<float> heights(raised.labels.size());
+  ASSERT_TRUE(map.heights(raised.scan.view(), off, levelling, heights).ok());
+  EXPECT_NEAR(heights[raised.raised], 2, 0.05);
+  EXPECT_LT(std::abs(heights[raised.raised + 1]), 0.05);
+
+  const GroundMap empty;
+  ASSERT_TRUE(empty.heights(raised.scan.view(), off, levelling, heights).ok());
+  EXPECT_TRUE(std::ranges::all_of(heights, [](float height) { return std::isnan(height); }));
+}
+
+TEST(GroundMap, RejectsValuesThatAreNotOnePerPoint) {
+  GroundMap map;
+  const Pose pose = upright_pose(hills, 3, 4);
+  const GroundScan scan(hills, pose);
+  std::vector<float> heights(scan.result.labels().size() - 1);
+  std::vector<Label> labels(scan.result.labels().size() + 1);
+  EXPECT_THAT(map.heights(scan.view(), pose, {}, heights).message(),
+              testing::HasSubstr("the number of heights differs from the number of points"));
+  EXPECT_THAT(map.relabel(scan.view(), scan.result, pose, {}, labels).message(),
+              testing::HasSubstr("the number of labels differs from the number of points"));
 }
 
 TEST(GroundMap, RejectsInvalidPosesAndStaysAsItWas) {
