@@ -23,6 +23,11 @@ class PointArrays {
     for (Buffer<float>* array : {&x_, &y_, &z_}) array->reserve(padded);
     size_ = 0;
   }
+  /// Sets the number of points. Their coordinates are unspecified. May throw std::bad_alloc.
+  void resize(std::size_t count) {
+    start(count);
+    size_ = count;
+  }
   void push_back(const Point& point) noexcept {
     x_.data()[size_] = point.x;
     y_.data()[size_] = point.y;
@@ -37,9 +42,15 @@ class PointArrays {
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] Point operator[](std::size_t k) const noexcept {
+    return {.x = x()[k], .y = y()[k], .z = z()[k]};
+  }
   [[nodiscard]] const float* x() const noexcept { return x_.data(); }
   [[nodiscard]] const float* y() const noexcept { return y_.data(); }
   [[nodiscard]] const float* z() const noexcept { return z_.data(); }
+  [[nodiscard]] float* x() noexcept { return x_.data(); }
+  [[nodiscard]] float* y() noexcept { return y_.data(); }
+  [[nodiscard]] float* z() noexcept { return z_.data(); }
 
  private:
   Buffer<float> x_, y_, z_;

@@ -2,117 +2,112 @@
 // SPDX-License-Identifier: MIT
 #include "library/moving_points/looks.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
-namespace flagstone {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "library/moving_points/looks.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target.h includes this file once per instruction set.
+#include "library/core/simd/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace flagstone::HWY_NAMESPACE {
 namespace {
-
-constexpr std::array intervals{0.3, 0.5, 0.8, 1.0, 1.2, 1.5, 1.8, 2.0, 2.5,
-                               3.0, 3.5, 4.0, 4.5, 5.0, 6.0, 7.0, 8.0};  // seconds
-
-// The scan nearest to `target`, on the side of `time` of the target, or null. Of two scans that are
-// equally near, the earlier one, even if their times are rounded.
-const ScanView* nearest_view(const std::deque<ScanView>& scans, double time, double target) {
-  const ScanView* nearest = nullptr;
-  for (const ScanView& scan : scans) {
-    const bool same_side = target < time ? scan.time < time : scan.time > time;
-    if (!same_side) continue;
-    constexpr double rounding = 1e-4;  // seconds
-    if (nearest == nullptr ||
-        std::abs(scan.time - target) < std::abs(nearest->time - target) - rounding) {
-      nearest = &scan;
-    }
-  }
-  return nearest;
-}
-
-void select_views(const std::deque<ScanView>& scans, double time, double scale,
-                  std::vector<const ScanView*>& selected) {
-  selected.clear();
-  for (const double side : {-1.0, 1.0}) {
-    for (const double interval : intervals) {
-      const double target = time + side * interval * scale;
-      const ScanView* const view = nearest_view(scans, time, target);
-      if (view == nullptr) continue;
-      const double tolerance = 0.25 * interval * scale + 0.06;  // seconds
-      const bool is_new = std::ranges::find(selected, view) == selected.end();
-      if (is_new && std::abs(view->time - target) <= tolerance) selected.push_back(view);
-    }
-  }
-}
 
 // A range with its margin for errors of poses and measurements, in units of RangeImage::unit.
 struct RangeInterval {
-  int low, high;
+  std::uint16_t low, high;  // exclusive, inclusive
 
   explicit RangeInterval(float range) noexcept {
     constexpr float units_per_metre = 1 / RangeImage::unit;
     const float margin = 0.4F + 0.01F * range;  // metres
-    low = static_cast<int>((range - margin) * units_per_metre);
-    high = static_cast<int>((range + margin) * units_per_metre);
-  }
-  [[nodiscard]] bool contains(std::uint16_t measured) const noexcept {
-    return measured > low && measured <= high;
+    low = static_cast<std::uint16_t>((range - margin) * units_per_metre);
+    high = static_cast<std::uint16_t>((range + margin) * units_per_metre);
   }
 };
 
-bool has_object(const RangePixel& pixel, const RangeInterval& range) noexcept {
-  return pixel.farthest_object != 0 &&
-         (range.contains(pixel.nearest_object) || range.contains(pixel.farthest_object));
-}
-
-bool is_occupied(const RangePixel* pixel, const RangeInterval& range) noexcept {
-  constexpr std::ptrdiff_t up = RangeImage::stride;
-  for (const std::ptrdiff_t row : {std::ptrdiff_t{0}, up, -up}) {
-    for (const std::ptrdiff_t column : {0, 1, -1}) {
-      if (has_object(pixel[row + column], range)) return true;
-    }
+#if HWY_TARGET == HWY_SCALAR
+// One of three pixels in a row has an object in the interval.
+HWY_INLINE bool has_object(const ObjectRanges* pixels, const RangeInterval& range) {
+  const auto contains = [&](std::uint16_t measured) {
+    return measured > range.low && measured <= range.high;
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (contains(pixels[k].nearest) || contains(pixels[k].farthest)) return true;
   }
   return false;
 }
 
+// The object is in the pixel after `pixels` or one of its eight neighbours.
+HWY_INLINE bool is_occupied(const ObjectRanges* pixels, const RangeInterval& range) {
+  constexpr std::ptrdiff_t up = RangeImage::stride;
+  return has_object(pixels, range) || has_object(pixels + up, range) ||
+         has_object(pixels - up, range);
+}
+#else
+// An object is in the pixel after `pixels` or one of its eight neighbours. Three pixels of a row
+// are three quarters of a vector.
+HWY_INLINE bool is_occupied(const ObjectRanges* pixels, const RangeInterval& range) {
+  const hn::Full128<std::uint16_t> d;
+  const auto first = hn::Set(d, static_cast<std::uint16_t>(range.low + 1));
+  const auto last = hn::Set(d, static_cast<std::uint16_t>(range.high - range.low - 1));
+  const auto in_row = [&](std::ptrdiff_t row) HWY_ATTR {
+    const auto ranges =
+        hn::LoadU(d, reinterpret_cast<const std::uint16_t*>(pixels + row * RangeImage::stride));
+    const auto from_first = hn::Sub(ranges, first);  // modulo 2^16: lower ranges become large
+    return hn::Eq(hn::Min(from_first, last), from_first);
+  };
+  const auto found = hn::Or(hn::Or(in_row(0), in_row(1)), in_row(-1));
+  return !hn::AllFalse(d, hn::And(found, hn::FirstN(d, 6)));
+}
+#endif
+
 // The ray of the pixel passes the point closely and ends behind it, and no edge of an object is
 // next to it.
-bool is_seen_through(const RangePixel* pixel, const RangeInterval& range, float metres,
-                     float elevation) noexcept {
+HWY_INLINE bool is_seen_through(NearestPoint nearest, const ObjectRanges* pixels,
+                                const RangeInterval& range, float metres, float elevation) {
   constexpr float max_distance_of_ray = 0.3F;  // metres
-  if (pixel->nearest == RangePixel::nothing || pixel->nearest <= range.high) return false;
-  const float measured = static_cast<float>(pixel->elevation) * RangeImage::elevation_unit;
+  if (nearest.range() == no_range || nearest.range() <= range.high) return false;
+  const float measured = static_cast<float>(nearest.elevation()) * RangeImage::elevation_unit;
   if (!(metres * std::abs(measured - elevation) < max_distance_of_ray)) return false;
-  return pixel[-1].nearest_object > range.low && pixel[1].nearest_object > range.low;
+  return pixels[0].nearest > range.low && pixels[2].nearest > range.low;
 }
 
-}  // namespace
-
-void select_views(const std::deque<ScanView>& scans, double time,
-                  std::vector<const ScanView*>& selected) {
-  constexpr std::size_t min_views = 8;
-  constexpr double min_scale = 0.05;
-  select_views(scans, time, 1, selected);
-  if (selected.size() >= min_views || scans.empty()) return;
-  const double covered =
-      std::max(std::abs(scans.front().time - time), std::abs(scans.back().time - time));
-  select_views(scans, time, std::clamp(covered / intervals.back(), min_scale, 1.0), selected);
-}
-
-void add_looks(const RangeImage& image, const Directions& directions,
-               std::vector<LookCounts>& counts) noexcept {
+void look_at_points(const RangeImage& image, const Directions& directions,
+                    std::vector<LookCounts>& counts) {
   constexpr float min_range = 0.5F;   // metres; nearer, directions are not reliable
   constexpr float max_range = 200.F;  // metres
   for (std::size_t k = 0; k < counts.size(); ++k) {
     const float metres = directions.range(k);
     if (!(metres > min_range) || !(metres < max_range)) continue;
-    const RangePixel* const pixel = image.pixel(directions.row(k), directions.column(k));
+    const std::size_t place = image.place(directions.row(k), directions.column(k));
+    const ObjectRanges* const pixels = image.objects() + place - 1;
     const RangeInterval range(metres);
-    if (is_occupied(pixel, range)) {
+    if (is_occupied(pixels, range)) {
       ++counts[k].occupied;
-    } else if (is_seen_through(pixel, range, metres, directions.elevation(k))) {
+    } else if (is_seen_through(image.nearest()[place], pixels, range, metres,
+                               directions.elevation(k))) {
       ++counts[k].through;
     }
   }
 }
 
+}  // namespace
+}  // namespace flagstone::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace flagstone {
+namespace {
+HWY_EXPORT(look_at_points);
+}  // namespace
+
+void add_looks(const RangeImage& image, const Directions& directions,
+               std::vector<LookCounts>& counts) noexcept {
+  HWY_DYNAMIC_DISPATCH(look_at_points)(image, directions, counts);
+}
+
 }  // namespace flagstone
+#endif

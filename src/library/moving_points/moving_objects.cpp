@@ -10,9 +10,7 @@
 namespace flagstone {
 namespace {
 
-constexpr float object_column_width = 0.4F;  // metres
-constexpr int half_width = 256;              // columns
-constexpr int width = 2 * half_width;
+constexpr int width = MovingObjects::grid.width;
 constexpr unsigned min_moving_points = 8;
 
 // From a column to its eight neighbours.
@@ -29,15 +27,6 @@ void add(std::uint16_t& count, std::uint32_t by) noexcept {
 }
 
 }  // namespace
-
-std::uint32_t MovingObjects::column_of(float x, float y) noexcept {
-  constexpr int edge = 1;  // columns without points, so that every used column has neighbours
-  const float column = x * (1 / object_column_width) + half_width;
-  const float row = y * (1 / object_column_width) + half_width;
-  const auto is_inside = [](float index) { return index >= edge && index < width - edge; };
-  if (!is_inside(column) || !is_inside(row)) return outside;
-  return static_cast<std::uint32_t>(row) * width + static_cast<std::uint32_t>(column);
-}
 
 // Calls `use(points with evidence)` for each connected set of columns that belong; its columns are
 // in component_.

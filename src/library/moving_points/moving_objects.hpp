@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "library/moving_points/column_grid.hpp"
+
 namespace flagstone {
 
 /// Groups the points of one scan into objects, in columns of 0.4 m, and finds those that move.
@@ -16,13 +18,12 @@ class MovingObjects {
   /// The result of all looks, for one point.
   enum class Evidence : std::uint8_t { none, moving, fixed };
 
-  static constexpr std::uint32_t outside = ~std::uint32_t{0};
+  /// The columns.
+  static constexpr ColumnGrid grid{
+      .offset_x = 102.4F, .offset_y = 102.4F, .per_metre = 2.5F, .width = 512};
 
-  /// The column at (x, y), metres from the sensor along the axes of the world frame; `outside` if
-  /// it is too far away.
-  static std::uint32_t column_of(float x, float y) noexcept;
-
-  /// Starts with the column of each point; no column is `outside`. May throw std::bad_alloc.
+  /// Starts with the column of each point; no point is outside of the grid. May throw
+  /// std::bad_alloc.
   void start(std::span<const std::uint32_t> columns);
 
   /// One point in this many of the column needs evidence: 1 in a column of few points.

@@ -22,6 +22,7 @@
 #include "library/moving_points/looks.hpp"
 #include "library/moving_points/moving_objects.hpp"
 #include "library/moving_points/occupied_columns.hpp"
+#include "library/moving_points/scan_points.hpp"
 #include "library/moving_points/scan_view_bytes.hpp"
 
 namespace flagstone {
@@ -54,45 +55,22 @@ struct Scan {
   const Pose& pose;
   LevelledPose levelled;
   double time;
-  std::array<float, 6> to_world;  ///< first two rows of the rotation
-
-  /// From the sensor to a point along the x and y axes of the world frame, metres.
-  [[nodiscard]] std::pair<float, float> offset(const Point& p) const noexcept {
-    const auto& m = to_world;
-    return {m[0] * p.x + m[1] * p.y + m[2] * p.z, m[3] * p.x + m[4] * p.y + m[5] * p.z};
-  }
 };
 
 Scan scan_of(CloudView cloud, const Segmentation& result, const Pose& pose,
              const Levelling& levelling, double time) noexcept {
-  std::array<float, 6> to_world{};
-  std::ranges::transform(std::span(pose.rotation).first(to_world.size()), to_world.begin(),
-                         [](double value) { return static_cast<float>(value); });
   return {.cloud = cloud,
           .labels = result.labels(),
           .heights = result.heights(),
           .pose = pose,
           .levelled = LevelledPose(pose, levelling),
-          .time = time,
-          .to_world = to_world};
-}
-
-Status check_scan(CloudView cloud, const Segmentation& result, const Pose& pose) {
-  if (cloud.size() != result.labels().size() || cloud.size() != result.heights().size()) {
-    return Status(StatusCode::invalid_argument,
-                  "moving points: the result has no heights of this cloud (expected the result of "
-                  "a method such as surface for the same cloud)");
-  }
-  return is_valid(pose) ? Status() : invalid_pose();
+          .time = time};
 }
 
 // One row per beam; `spacing` in degrees.
 float rows_per_radian(double spacing) noexcept {
   return static_cast<float>(180 / (std::numbers::pi * spacing));
 }
-
-// Higher points can be parts of bridges or trees above a road.
-constexpr float max_standing_height = 2.2F;  // metres
 
 // A hash of the coordinates, 32 bits: samples do not depend on the order of the points.
 std::uint64_t hash_of(const Point& p) noexcept {
@@ -133,14 +111,14 @@ class MovingPoints::Finder {
   };
 
   void measure_grid(const Scan& scan);
-  void select_candidates(const Scan& scan);
+  void read(const Scan& scan);
   void select_samples(const Scan& scan);
   void look(const Scan& scan);
   void judge();
-  void describe(const Scan& scan, MovingMask& mask);
+  void describe(MovingMask& mask);
   void find(const Scan& scan, MovingMask& mask);
-  void build_image(const Scan& scan, const MovingMask& mask, RangeImage& image);
-  void count_columns(const Scan& scan, const MovingMask& mask);
+  void build_image(RangeImage& image);
+  void count_columns(const Scan& scan);
 
   MovingPointsConfig config_;
   PixelGrid grid_;
@@ -148,15 +126,14 @@ class MovingPoints::Finder {
   OccupiedColumns columns_;
   std::array<double, 2> forgotten_{};  // position when columns were forgotten last
 
-  // Working memory for one scan. Candidates are the points that could move, samples a part of them.
-  PointArrays points_;
-  std::vector<std::uint32_t> indices_;  // of the candidates in the scan
-  std::vector<std::uint32_t> object_columns_;
+  // Working memory for one scan. Samples are a part of the points that could move.
+  std::array<float, 6> to_world_{};  // first two rows of the rotation
+  ScanPoints points_;
   std::vector<MovingObjects::Sample> samples_;
   std::vector<std::uint32_t> looked_;  // indices of the samples that need looks
-  std::vector<LookCounts> counts_;     // of these samples
+  PointArrays looked_points_;
+  std::vector<LookCounts> counts_;  // of these samples
   std::vector<const ScanView*> views_;
-  std::vector<std::uint8_t> is_object_;
   Directions directions_;
   MovingObjects objects_;
   std::vector<ObjectLooks> looks_;
@@ -165,61 +142,60 @@ class MovingPoints::Finder {
 void MovingPoints::Finder::measure_grid(const Scan& scan) {
   double spacing = config_.beam_spacing;
   if (spacing == 0) {
-    points_.start(scan.cloud.size());
+    PointArrays points;
+    points.start(scan.cloud.size());
     for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
-      if (scan.labels[i] != Label::invalid) points_.push_back(scan.cloud[i]);
+      if (scan.labels[i] != Label::invalid) points.push_back(scan.cloud[i]);
     }
-    points_.finish();
-    spacing = measured_beam_spacing(points_);
+    points.finish();
+    spacing = measured_beam_spacing(points);
   }
   grid_.rows_per_radian = rows_per_radian(spacing);
 }
 
-void MovingPoints::Finder::select_candidates(const Scan& scan) {
-  indices_.clear();
-  object_columns_.clear();
-  const auto max_range = static_cast<float>(config_.max_range);
-  for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
-    if (scan.labels[i] != Label::nonground) continue;
-    const float height = scan.heights[i];
-    if (height <= config_.min_height || height > config_.max_height) continue;  // known heights
-    const Point p = scan.cloud[i];
-    if (!(p.x * p.x + p.y * p.y + p.z * p.z < max_range * max_range)) continue;
-    const auto [dx, dy] = scan.offset(p);
-    const std::uint32_t column = MovingObjects::column_of(dx, dy);
-    if (column == MovingObjects::outside) continue;
-    indices_.push_back(static_cast<std::uint32_t>(i));
-    object_columns_.push_back(column);
-  }
+void MovingPoints::Finder::read(const Scan& scan) {
+  columns_.start(scan.pose.position[0], scan.pose.position[1]);
+  std::ranges::transform(std::span(scan.pose.rotation).first(to_world_.size()), to_world_.begin(),
+                         [](double value) { return static_cast<float>(value); });
+  points_.read(scan.cloud, scan.labels, scan.heights,
+               {.to_world = to_world_,
+                .max_range = static_cast<float>(config_.max_range),
+                .min_height = static_cast<float>(config_.min_height),
+                .max_height = static_cast<float>(config_.max_height),
+                .objects = MovingObjects::grid,
+                .columns = columns_.grid()});
 }
 
 // Only a part of the points of each column needs evidence. Those in columns that are always
 // occupied need no looks: they do not move.
 void MovingPoints::Finder::select_samples(const Scan& scan) {
-  objects_.start(object_columns_);
+  const std::span<const std::uint32_t> candidates = points_.candidates();
+  const std::span<const std::uint32_t> columns = points_.candidate_columns();
+  objects_.start(columns);
   columns_.look_around(scan.pose.position[0], scan.pose.position[1]);
   samples_.clear();
   looked_.clear();
-  points_.start(indices_.size());
-  for (std::size_t k = 0; k < indices_.size(); ++k) {
-    const Point p = scan.cloud[indices_[k]];
-    const std::uint32_t column = object_columns_[k];
-    if ((hash_of(p) * objects_.points_per_sample(column)) >> 32U != 0) continue;
-    const auto [dx, dy] = scan.offset(p);
-    const bool is_fixed = columns_.is_occupied(dx, dy);
-    samples_.push_back({.column = column, .evidence = is_fixed ? Evidence::fixed : Evidence::none});
+  looked_points_.start(candidates.size());
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Point p = points_.points()[candidates[k]];
+    if ((hash_of(p) * objects_.points_per_sample(columns[k])) >> 32U != 0) continue;
+    const auto& m = to_world_;
+    const bool is_fixed = columns_.is_occupied(m[0] * p.x + m[1] * p.y + m[2] * p.z,
+                                               m[3] * p.x + m[4] * p.y + m[5] * p.z);
+    samples_.push_back(
+        {.column = columns[k], .evidence = is_fixed ? Evidence::fixed : Evidence::none});
     if (is_fixed) continue;
     looked_.push_back(static_cast<std::uint32_t>(samples_.size() - 1));
-    points_.push_back(p);
+    looked_points_.push_back(p);
   }
-  points_.finish();
+  looked_points_.finish();
 }
 
 void MovingPoints::Finder::look(const Scan& scan) {
   counts_.assign(looked_.size(), {});
   select_views(scans_, scan.time, views_);
   for (const ScanView* const view : views_) {
-    directions_.compute(points_, scan.levelled.to(view->pose), grid_);
+    directions_.compute(looked_points_, scan.levelled.to(view->pose), grid_);
     add_looks(view->image, directions_, counts_);
   }
 }
@@ -233,18 +209,20 @@ void MovingPoints::Finder::judge() {
   }
 }
 
-void MovingPoints::Finder::describe(const Scan& scan, MovingMask& mask) {
+void MovingPoints::Finder::describe(MovingMask& mask) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   mask.objects.assign(objects_.count(), {.min = {infinity, infinity, infinity},
                                          .max = {-infinity, -infinity, -infinity}});
   looks_.assign(mask.objects.size(), {});
-  for (std::size_t k = 0; k < indices_.size(); ++k) {
-    const std::uint32_t number = objects_.object_in(object_columns_[k]);
+  const std::span<const std::uint32_t> candidates = points_.candidates();
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const std::uint32_t number = objects_.object_in(points_.candidate_columns()[k]);
     if (number == 0) continue;
-    mask.objects_of_points[indices_[k]] = number;
+    mask.objects_of_points[candidates[k]] = number;
+    points_.mark_moving(candidates[k]);
     MovingObject& object = mask.objects[number - 1];
     ++object.points;
-    const Point point = scan.cloud[indices_[k]];
+    const Point point = points_.points()[candidates[k]];
     const std::array<float, 3> p{point.x, point.y, point.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       object.min[axis] = std::min(object.min[axis], p[axis]);
@@ -265,47 +243,24 @@ void MovingPoints::Finder::describe(const Scan& scan, MovingMask& mask) {
 
 void MovingPoints::Finder::find(const Scan& scan, MovingMask& mask) {
   mask.objects_of_points.assign(scan.cloud.size(), 0);
-  select_candidates(scan);
+  read(scan);
   select_samples(scan);
   look(scan);
   judge();
   objects_.find(samples_);
-  describe(scan, mask);
+  describe(mask);
 }
 
 // Without moving points: where they were, another vehicle may pass.
-void MovingPoints::Finder::build_image(const Scan& scan, const MovingMask& mask,
-                                       RangeImage& image) {
-  points_.start(scan.cloud.size());
-  is_object_.clear();
-  for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
-    const Label label = scan.labels[i];
-    if (label == Label::invalid || label == Label::noise) continue;
-    points_.push_back(scan.cloud[i]);
-    is_object_.push_back(label == Label::nonground && mask.objects_of_points[i] == 0 ? 1 : 0);
-  }
-  points_.finish();
-  directions_.compute(points_, identity_transform, grid_);
-  image.build(directions_, is_object_);
+void MovingPoints::Finder::build_image(RangeImage& image) {
+  directions_.compute(points_.points(), identity_transform, grid_);
+  image.build(directions_, points_.is_object());
 }
 
-void MovingPoints::Finder::count_columns(const Scan& scan, const MovingMask& mask) {
-  constexpr float max_range = 40;  // metres; farther away, a scan does not see all objects
-  constexpr float min_standing_height = 0.25F;  // metres
-  columns_.start(scan.pose.position[0], scan.pose.position[1]);
-  for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
-    const float height = scan.heights[i];
-    const bool is_ground = scan.labels[i] == Label::ground;
-    const bool is_object = scan.labels[i] == Label::nonground && height > min_standing_height &&
-                           height < max_standing_height && mask.objects_of_points[i] == 0;
-    if (!is_ground && !is_object) continue;
-    const Point p = scan.cloud[i];
-    if (!(p.x * p.x + p.y * p.y < max_range * max_range)) continue;
-    const auto [dx, dy] = scan.offset(p);
-    // Shorter than the range if the sensor is upright, otherwise possibly a little longer.
-    constexpr float reach = OccupiedColumns::reach;
-    if (std::max(std::abs(dx), std::abs(dy)) > reach) continue;
-    columns_.add(dx, dy, is_object);
+void MovingPoints::Finder::count_columns(const Scan& scan) {
+  for (std::size_t k = 0; k < points_.points().size(); ++k) {
+    const auto [column, is_object] = points_.in_column(k);
+    columns_.add(column, is_object);
   }
   columns_.finish();
   if (config_.window > 0) {
@@ -331,9 +286,9 @@ Status MovingPoints::Finder::add(const Scan& scan, MovingMask& mask) {
   }
   view.time = scan.time;
   view.pose = scan.levelled;
-  build_image(scan, mask, view.image);
+  build_image(view.image);
   scans_.push_back(std::move(view));
-  count_columns(scan, mask);
+  count_columns(scan);
   return {};
 }
 
@@ -344,7 +299,7 @@ Status MovingPoints::Finder::find_again(const Scan& scan, MovingMask& mask) {
                   "moving points: no scan of this time is in memory (add it first)");
   }
   find(scan, mask);
-  build_image(scan, mask, same->image);
+  build_image(same->image);
   return {};
 }
 
@@ -426,7 +381,7 @@ MovingPoints& MovingPoints::operator=(MovingPoints&&) noexcept = default;
 
 Status MovingPoints::add(CloudView cloud, const Segmentation& result, const Pose& pose,
                          const Levelling& levelling, double time, MovingMask& mask) {
-  if (Status status = check_scan(cloud, result, pose); !status.ok()) return status;
+  if (Status status = check_scan("moving points", cloud, result, pose); !status.ok()) return status;
   try {
     return finder_->add(scan_of(cloud, result, pose, levelling, time), mask);
   } catch (const std::bad_alloc&) {
@@ -436,7 +391,7 @@ Status MovingPoints::add(CloudView cloud, const Segmentation& result, const Pose
 
 Status MovingPoints::find(CloudView cloud, const Segmentation& result, const Pose& pose,
                           const Levelling& levelling, double time, MovingMask& mask) {
-  if (Status status = check_scan(cloud, result, pose); !status.ok()) return status;
+  if (Status status = check_scan("moving points", cloud, result, pose); !status.ok()) return status;
   try {
     return finder_->find_again(scan_of(cloud, result, pose, levelling, time), mask);
   } catch (const std::bad_alloc&) {

@@ -20,15 +20,17 @@ std::size_t OccupiedColumns::index_in_tile(std::int64_t x, std::int64_t y) noexc
   return static_cast<std::size_t>((y & mask) * tile_width + (x & mask));
 }
 
-OccupiedColumns::Window::Window(double x, double y, std::int32_t columns) noexcept
+OccupiedColumns::Window::Window(double x, double y, std::uint32_t columns) noexcept
     : first_x(static_cast<std::int64_t>(std::floor(x / width)) - columns / 2),
       first_y(static_cast<std::int64_t>(std::floor(y / width)) - columns / 2),
-      offset_x(static_cast<float>(x - static_cast<double>(first_x) * width)),
-      offset_y(static_cast<float>(y - static_cast<double>(first_y) * width)) {}
+      grid{.offset_x = static_cast<float>(x - static_cast<double>(first_x) * width),
+           .offset_y = static_cast<float>(y - static_cast<double>(first_y) * width),
+           .per_metre = static_cast<float>(1 / width),
+           .width = columns} {}
 
 void OccupiedColumns::start(double x, double y) {
-  seen_.assign(std::size_t{scan_width} * scan_width, 0);
   scan_ = Window(x, y, scan_width);
+  seen_.assign(scan_.grid.outside() + 1, 0);
 }
 
 void OccupiedColumns::finish() {
@@ -57,8 +59,8 @@ void OccupiedColumns::finish() {
 void OccupiedColumns::look_around(double x, double y) {
   constexpr unsigned min_scans = 4;
   constexpr unsigned min_ratio = 9;  // of scans with an object to scans without one
-  occupied_.assign(std::size_t{window_width} * window_width, 0);
   around_ = Window(x, y, window_width);
+  occupied_.assign(around_.grid.outside() + 1, 0);
   const std::int64_t end_x = around_.first_x + window_width;
   const std::int64_t end_y = around_.first_y + window_width;
   std::int64_t next_y = 0;

@@ -13,6 +13,7 @@
 #include "flagstone/ground_map.hpp"
 #include "library/ground_map/state_bytes.hpp"
 #include "library/ground_map/tile_index_hash.hpp"
+#include "library/moving_points/column_grid.hpp"
 
 namespace flagstone {
 
@@ -20,18 +21,16 @@ namespace flagstone {
 /// the scans with empty ground.
 class OccupiedColumns {
  public:
-  /// Largest distance of points from the sensor, metres.
-  static constexpr float reach = 41;
-
   /// Starts the next scan, of a sensor at (x, y), world frame, metres. May throw std::bad_alloc.
   void start(double x, double y);
 
-  /// Adds a point of that scan, (dx, dy) metres from the sensor along the axes of the world frame,
-  /// at most `reach`. `is_object`: it is part of an object, otherwise ground.
-  void add(float dx, float dy, bool is_object) noexcept {
-    const auto column = static_cast<std::int32_t>((dx + scan_.offset_x) * columns_per_metre);
-    const auto row = static_cast<std::int32_t>((dy + scan_.offset_y) * columns_per_metre);
-    seen_[index_in_square(row, column, scan_width)] |= static_cast<std::uint8_t>(is_object ? 2 : 1);
+  /// The columns around that sensor.
+  [[nodiscard]] const ColumnGrid& grid() const noexcept { return scan_.grid; }
+
+  /// Adds a point of that scan by its column in grid(), which may be outside. `is_object`: it is
+  /// part of an object, otherwise ground.
+  void add(std::uint32_t column, bool is_object) noexcept {
+    seen_[column] |= static_cast<std::uint8_t>(is_object ? 2 : 1);
   }
 
   /// Counts that scan. May throw std::bad_alloc, and then counts nothing.
@@ -41,14 +40,11 @@ class OccupiedColumns {
   /// std::bad_alloc.
   void look_around(double x, double y);
 
-  /// True if an object was in nearly all scans that measured the column at (dx, dy) metres, at most
-  /// `max_offset`, from the position of look_around().
+  /// True if an object was in nearly all scans that measured the column at (dx, dy) metres, each at
+  /// most 102 from the position of look_around().
   [[nodiscard]] bool is_occupied(float dx, float dy) const noexcept {
-    const auto column = static_cast<std::int32_t>((dx + around_.offset_x) * columns_per_metre);
-    const auto row = static_cast<std::int32_t>((dy + around_.offset_y) * columns_per_metre);
-    return occupied_[index_in_square(row, column, window_width)] != 0;
+    return occupied_[around_.grid.column_at(dx, dy)] != 0;
   }
-  static constexpr float max_offset = 103;  ///< metres
 
   /// Forgets the tiles of columns whose centre is farther than `distance` from (x, y), metres.
   void forget_beyond(double x, double y, double distance) noexcept;
@@ -70,35 +66,26 @@ class OccupiedColumns {
   using Tile = std::array<Counts, std::size_t{tile_width} * tile_width>;
 
   static constexpr double width = 0.5;  // of a column, metres
-  static constexpr float columns_per_metre = 2;
 
   /// A square of columns around a position.
   struct Window {
     std::int64_t first_x = 0, first_y = 0;  // the first column
-    // The position, from the corner of that column, metres.
-    float offset_x = 0, offset_y = 0;
+    ColumnGrid grid;
 
     Window() = default;
-    Window(double x, double y, std::int32_t columns) noexcept;
+    Window(double x, double y, std::uint32_t columns) noexcept;
   };
-  static constexpr std::int32_t scan_width =
-      2 * static_cast<std::int32_t>(reach * columns_per_metre) + 2;
-  static constexpr std::int32_t window_width =
-      2 * static_cast<std::int32_t>(max_offset * columns_per_metre) + 2;
+  static constexpr std::uint32_t scan_width = 166;    // columns
+  static constexpr std::uint32_t window_width = 414;  // columns
 
-  static std::size_t index_in_square(std::int32_t row, std::int32_t column,
-                                     std::int32_t columns) noexcept {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-           static_cast<std::size_t>(column);
-  }
   static TileIndex tile_of(std::int64_t x, std::int64_t y) noexcept;
   static std::size_t index_in_tile(std::int64_t x, std::int64_t y) noexcept;
 
   std::unordered_map<TileIndex, std::unique_ptr<Tile>, TileIndexHash> tiles_;
   Window scan_;
-  std::vector<std::uint8_t> seen_;  // in the columns of scan_
+  std::vector<std::uint8_t> seen_;  // in the columns of scan_, and outside
   Window around_;
-  std::vector<std::uint8_t> occupied_;  // the columns of around_
+  std::vector<std::uint8_t> occupied_;  // the columns of around_, and outside
 };
 
 }  // namespace flagstone

@@ -14,17 +14,38 @@
 
 namespace flagstone {
 
-/// The ranges that one scan measured in one direction, in units of RangeImage::unit.
-struct RangePixel {
-  static constexpr std::uint16_t nothing = std::numeric_limits<std::uint16_t>::max();
+/// A range of RangeImage that was not measured, in its units.
+inline constexpr std::uint16_t no_range = std::numeric_limits<std::uint16_t>::max();
 
-  std::uint16_t nearest = nothing;  ///< of all points
-  std::int16_t elevation = 0;       ///< of that point, in units of RangeImage::elevation_unit
-  /// @name Points of static objects
-  /// @{
-  std::uint16_t nearest_object = nothing;
-  std::uint16_t farthest_object = 0;  ///< 0: no such point
-  /// @}
+/// The nearest point of any kind in one direction, as one number that orders them: by range, then
+/// by elevation.
+class NearestPoint {
+ public:
+  NearestPoint() = default;  ///< no point
+  NearestPoint(std::uint16_t range, std::int16_t elevation) noexcept
+      : key_(std::uint32_t{range} << 16U | static_cast<std::uint16_t>(elevation - lowest)) {}
+
+  /// In units of RangeImage::unit; `no_range` if nothing was measured.
+  [[nodiscard]] std::uint16_t range() const noexcept {
+    return static_cast<std::uint16_t>(key_ >> 16U);
+  }
+  /// In units of RangeImage::elevation_unit.
+  [[nodiscard]] std::int16_t elevation() const noexcept {
+    return static_cast<std::int16_t>(static_cast<std::int32_t>(key_ & 0xFFFFU) + lowest);
+  }
+
+  friend auto operator<=>(NearestPoint, NearestPoint) = default;
+
+ private:
+  static constexpr std::int32_t lowest = std::numeric_limits<std::int16_t>::min();
+
+  std::uint32_t key_ = ~std::uint32_t{0};
+};
+
+/// The ranges of static objects in one direction, in units of RangeImage::unit.
+struct ObjectRanges {
+  std::uint16_t nearest = no_range;
+  std::uint16_t farthest = 0;  ///< 0: no object
 };
 
 /// Ranges of one scan, by direction.
@@ -35,16 +56,19 @@ class RangeImage {
   static constexpr float max_range = 650;           ///< metres; points beyond are omitted
 
   /// Fills the image from the directions of `is_object.size()` points. `is_object`: 1 for points of
-  /// static objects, 0 for ground and moving points. The order of the points does not matter. May
-  /// throw std::bad_alloc.
+  /// static objects, 0 for ground and moving points. Points at the sensor are omitted. The order of
+  /// the points does not matter. May throw std::bad_alloc.
   void build(const Directions& directions, std::span<const std::uint8_t> is_object);
 
-  /// The pixel in a column, 0 to PixelGrid::columns - 1, of any row. The pixels to the left and
-  /// right follow in memory, those above and below at a distance of `stride`.
-  [[nodiscard]] const RangePixel* pixel(int row, int column) const noexcept {
+  /// The place of a pixel in the arrays of nearest points and objects: of a column, 0 to
+  /// PixelGrid::columns - 1, and any row. The pixels to the left and right follow in memory, those
+  /// above and below at a distance of `stride`, and at least one more after all of them.
+  [[nodiscard]] std::size_t place(int row, int column) const noexcept {
     const int k = std::clamp(row - first_row_, -empty_rows + 1, rows_ + empty_rows - 2);
-    return pixels_.data() + static_cast<std::ptrdiff_t>(k + empty_rows) * stride + column + 1;
+    return static_cast<std::size_t>((k + empty_rows) * stride + column + 1);
   }
+  [[nodiscard]] const NearestPoint* nearest() const noexcept { return nearest_.data(); }
+  [[nodiscard]] const ObjectRanges* objects() const noexcept { return objects_.data(); }
 
   /// Pixels per row: column -1 repeats the last one, and another one after the last column repeats
   /// the first one.
@@ -58,15 +82,17 @@ class RangeImage {
   Status read(StateReader& reader);
 
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return pixels_.capacity() * sizeof(RangePixel);
+    return nearest_.capacity() * sizeof(NearestPoint) + objects_.capacity() * sizeof(ObjectRanges);
   }
 
  private:
   static constexpr int empty_rows = 3;  // below and above: their neighbours exist, too
 
+  void clear(int first_row, int rows);
   void repeat_edges() noexcept;  // columns -1 and PixelGrid::columns
 
-  std::vector<RangePixel> pixels_ = std::vector<RangePixel>(std::size_t{2} * empty_rows * stride);
+  std::vector<NearestPoint> nearest_ = std::vector<NearestPoint>(2 * empty_rows * stride);
+  std::vector<ObjectRanges> objects_ = std::vector<ObjectRanges>(2 * empty_rows * stride);
   int first_row_ = 0;
   int rows_ = 0;
 };

@@ -11,16 +11,13 @@ namespace {
 
 constexpr std::size_t columns = PixelGrid::columns;
 
-bool is_measured(const RangePixel& pixel) noexcept { return pixel.nearest != RangePixel::nothing; }
-
-bool is_possible(const RangePixel& pixel) noexcept {
+bool is_possible(NearestPoint nearest, const ObjectRanges& objects) noexcept {
   constexpr auto largest = static_cast<std::uint16_t>(RangeImage::max_range / RangeImage::unit + 1);
-  if (pixel.nearest > largest) return false;
-  const bool has_object = pixel.nearest_object != RangePixel::nothing;
-  return has_object
-             ? pixel.nearest <= pixel.nearest_object &&
-                   pixel.nearest_object <= pixel.farthest_object && pixel.farthest_object <= largest
-             : pixel.farthest_object == 0;
+  if (nearest.range() > largest) return false;
+  const bool has_object = objects.nearest != no_range;
+  return has_object ? nearest.range() <= objects.nearest && objects.nearest <= objects.farthest &&
+                          objects.farthest <= largest
+                    : objects.farthest == 0;
 }
 
 }  // namespace
@@ -29,15 +26,16 @@ void RangeImage::write(StateWriter& writer) const {
   writer.add(std::int32_t{first_row_});
   writer.add(std::int32_t{rows_});
   for (int row = 0; row < rows_; ++row) {
-    const RangePixel* const pixels = pixel(first_row_ + row, 0);
-    const PresenceBits<columns> measured([&](std::size_t k) { return is_measured(pixels[k]); });
+    const std::size_t first = place(first_row_ + row, 0);
+    const PresenceBits<columns> measured(
+        [&](std::size_t k) { return nearest_[first + k].range() != no_range; });
     measured.write(writer);
     for (std::size_t k = 0; k < columns; ++k) {
       if (!measured[k]) continue;
-      writer.add(pixels[k].nearest);
-      writer.add(static_cast<std::uint16_t>(pixels[k].elevation));
-      writer.add(pixels[k].nearest_object);
-      writer.add(pixels[k].farthest_object);
+      writer.add(nearest_[first + k].range());
+      writer.add(static_cast<std::uint16_t>(nearest_[first + k].elevation()));
+      writer.add(objects_[first + k].nearest);
+      writer.add(objects_[first + k].farthest);
     }
   }
 }
@@ -53,9 +51,7 @@ Status RangeImage::read(StateReader& reader) {
     return bad_state(begin, "the rows of a range image are impossible",
                      "rows from -1000 to 999, and their pixels");
   }
-  first_row_ = first_row;
-  rows_ = rows;
-  pixels_.assign(static_cast<std::size_t>(rows_ + 2 * empty_rows) * stride, RangePixel{});
+  clear(first_row, rows);
   for (int row = 0; row < rows_; ++row) {
     PresenceBits<columns> measured;
     const std::size_t offset = reader.offset();
@@ -63,16 +59,17 @@ Status RangeImage::read(StateReader& reader) {
       return bad_state(offset, "a row of a range image is incomplete",
                        "one bit per column, then the pixels");
     }
-    RangePixel* const pixels = pixels_.data() + (row + empty_rows) * stride + 1;
+    const std::size_t first = place(first_row_ + row, 0);
     for (std::size_t k = 0; k < columns; ++k) {
       if (!measured[k]) continue;
       const std::size_t offset_of_pixel = reader.offset();
-      RangePixel& pixel = pixels[k];
-      pixel.nearest = reader.read<std::uint16_t>();
-      pixel.elevation = reader.read<std::int16_t>();
-      pixel.nearest_object = reader.read<std::uint16_t>();
-      pixel.farthest_object = reader.read<std::uint16_t>();
-      if (reader.failed() || !is_possible(pixel)) {
+      const auto range = reader.read<std::uint16_t>();
+      const NearestPoint nearest(range, reader.read<std::int16_t>());
+      nearest_[first + k] = nearest;
+      ObjectRanges& objects = objects_[first + k];
+      objects.nearest = reader.read<std::uint16_t>();
+      objects.farthest = reader.read<std::uint16_t>();
+      if (reader.failed() || !is_possible(nearest, objects)) {
         return bad_state(offset_of_pixel, "an impossible pixel of a range image",
                          "ranges up to 650 m, those of objects behind the nearest one");
       }

@@ -15,7 +15,7 @@ using Evidence = MovingObjects::Evidence;
 class Points {
  public:
   Points& add(float x, float y, Evidence evidence, int count = 8) {
-    const std::uint32_t column = MovingObjects::column_of(x, y);
+    const std::uint32_t column = MovingObjects::grid.column_at(x, y);
     for (int k = 0; k < count; ++k) {
       columns_.push_back(column);
       samples_.push_back({.column = column, .evidence = evidence});
@@ -35,7 +35,7 @@ class Points {
 };
 
 std::uint32_t object_at(const MovingObjects& objects, float x, float y) {
-  return objects.object_in(MovingObjects::column_of(x, y));
+  return objects.object_in(MovingObjects::grid.column_at(x, y));
 }
 
 TEST(MovingObjects, AWholeObjectMovesIfMostOfItsPointsMove) {
@@ -74,7 +74,7 @@ TEST(MovingObjects, SeparateObjectsHaveDifferentNumbers) {
 
 TEST(MovingObjects, AScanHasNoInfluenceOnTheNextOne) {
   MovingObjects objects;
-  const std::uint32_t column = MovingObjects::column_of(3, 3);
+  const std::uint32_t column = MovingObjects::grid.column_at(3, 3);
   const std::vector<std::uint32_t> columns(10, column);
   objects.start(columns);
   objects.find(std::vector(10, MovingObjects::Sample{column, Evidence::moving}));
@@ -87,7 +87,7 @@ TEST(MovingObjects, AScanHasNoInfluenceOnTheNextOne) {
 
 TEST(MovingObjects, ASampleSpeaksForTheOtherPointsOfADenseColumn) {
   MovingObjects objects;
-  const std::uint32_t column = MovingObjects::column_of(3, 3);
+  const std::uint32_t column = MovingObjects::grid.column_at(3, 3);
   objects.start(std::vector<std::uint32_t>(320, column));
   EXPECT_EQ(objects.points_per_sample(column), 10U);
   objects.find(std::vector{MovingObjects::Sample{column, Evidence::moving}});
@@ -96,15 +96,9 @@ TEST(MovingObjects, ASampleSpeaksForTheOtherPointsOfADenseColumn) {
 
 TEST(MovingObjects, EachPointOfASparseColumnIsASample) {
   MovingObjects objects;
-  const std::uint32_t column = MovingObjects::column_of(3, 3);
+  const std::uint32_t column = MovingObjects::grid.column_at(3, 3);
   objects.start(std::vector<std::uint32_t>(32, column));
   EXPECT_EQ(objects.points_per_sample(column), 1U);
-}
-
-TEST(MovingObjects, ColumnsBeyond100MetresAreOutside) {
-  EXPECT_NE(MovingObjects::column_of(-101, 101), MovingObjects::outside);
-  EXPECT_EQ(MovingObjects::column_of(103, 0), MovingObjects::outside);
-  EXPECT_EQ(MovingObjects::column_of(0, -1e12F), MovingObjects::outside);
 }
 
 }  // namespace

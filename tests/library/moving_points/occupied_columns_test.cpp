@@ -4,14 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
 namespace flagstone {
 namespace {
 
 void add_scans(OccupiedColumns& columns, int count, bool is_object) {
   for (int k = 0; k < count; ++k) {
     columns.start(1, -10);
-    columns.add(2.2F, 2.9F, false);  // the ground below an object
-    if (is_object) columns.add(2.2F, 2.9F, true);
+    const std::uint32_t column = columns.grid().column_at(2.2F, 2.9F);
+    columns.add(column, false);  // the ground below an object
+    if (is_object) columns.add(column, true);
     columns.finish();
   }
 }
@@ -51,6 +54,19 @@ TEST(OccupiedColumns, OtherPositionsSeeTheSameColumns) {
     columns.look_around(x, x);
     EXPECT_TRUE(columns.is_occupied(static_cast<float>(3.2 - x), static_cast<float>(-7.1 - x)));
     EXPECT_FALSE(columns.is_occupied(static_cast<float>(3.6 - x), static_cast<float>(-7.1 - x)));
+  }
+}
+
+TEST(OccupiedColumns, PointsOutsideAreNotCounted) {
+  OccupiedColumns columns;
+  for (int k = 0; k < 4; ++k) {
+    columns.start(0, 0);
+    columns.add(columns.grid().column_at(60, 0), true);
+    columns.finish();
+  }
+  columns.look_around(0, 0);
+  for (const float x : {-200.F, -101.F, 0.F, 60.F, 101.F, 200.F}) {
+    EXPECT_FALSE(columns.is_occupied(x, 0));
   }
 }
 
