@@ -165,13 +165,17 @@ class Study(Runs):
 
     def map(self, run, kind, noise):
         """Maps a run, and returns the output directory. Offline maps have heights."""
-        output = f"$WORK/mapped/{run.name}/{noise}-{kind}"
+        options = f"--labels {kind} --voxel 0{' --heights' if kind == 'offline' else ''}"
+        return self.map_directory(run, run.directory, self.poses(run, noise), options, f"{noise}-{kind}")
+
+    def map_directory(self, run, directory, poses, options, name):
+        """Maps scans of a run, and returns the output directory."""
+        output = f"$WORK/mapped/{run.name}/{name}"
         command = (
-            f"flagstone map {run.directory} --poses {self.poses(run, noise)} --sensor-height {run.height:g}"
-            f" --labels {kind} --voxel 0{' --heights' if kind == 'offline' else ''} --output {output}"
+            f"flagstone map {directory} --poses {poses} --sensor-height {run.height:g} {options} --output {output}"
         )
         if self.reuse(output, command) is None:
-            show_progress(f"mapping {run.name}, {noise} poses, {kind}")
+            show_progress(f"mapping {directory}, {name}")
             self.remember(output, command, json.loads(self.call(f"{command} --json")))
         return output
 
@@ -390,14 +394,7 @@ def difference_of(study, run, noise, parts):
         name = f"{noise}-{number}"
         directory = study.part_of(run, name, scans)
         (study.path(directory) / "poses.txt").write_text("".join(poses[scans]))
-        output = f"$WORK/mapped/{run.name}/part-{name}"
-        command = (
-            f"flagstone map {directory} --poses {directory}/poses.txt --sensor-height {run.height:g} --voxel 0"
-            f" --output {output}"
-        )
-        if study.reuse(output, command) is None:
-            show_progress(f"mapping {directory}")
-            study.remember(output, command, json.loads(study.call(f"{command} --json")))
+        output = study.map_directory(run, directory, f"{directory}/poses.txt", "--voxel 0", f"part-{name}")
         outputs.append(study.path(output))
     return map_difference(*outputs)
 

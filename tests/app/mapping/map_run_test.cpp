@@ -214,6 +214,14 @@ class InterruptedMapRun : public MapRun {
     return wanted;
   }
 
+  /// The files of a run that is mapped at once, by name.
+  auto files_without_a_break(const MapRequest& request) {
+    map(request);
+    const auto files = cli::files_below(request.output);
+    fs::remove_all(request.output);
+    return files;
+  }
+
   /// Maps until `scans` are mapped, then ends as if the process was killed.
   void map_until(const MapRequest& request, std::size_t scans) const {
     struct Killed {};
@@ -270,9 +278,7 @@ TEST_F(InterruptedMapRun, CanBeInterruptedAgain) {
   MapRequest wanted = request();
   wanted.labels = LabelSource::delayed;
   wanted.delay = 0.5;
-  map(wanted);
-  const auto expected = cli::files_below(wanted.output);
-  fs::remove_all(wanted.output);
+  const auto expected = files_without_a_break(wanted);
   for (const std::size_t scans : {3U, 4U, 9U, 20U}) map_until(wanted, scans);
   EXPECT_EQ(resume(wanted), 20U);
   EXPECT_EQ(cli::files_below(wanted.output), expected);
@@ -282,9 +288,7 @@ TEST_F(InterruptedMapRun, DoesNotReadTheScansBeforeTheCheckpointAgain) {
   MapRequest wanted = request();
   wanted.labels = LabelSource::live;
   wanted.voxel = 0;
-  map(wanted);
-  const auto expected = cli::files_below(wanted.output);
-  fs::remove_all(wanted.output);
+  const auto expected = files_without_a_break(wanted);
   map_until(wanted, 6);
   for (int scan = 0; scan < 6; ++scan) {
     io::put_file(copy() / "velodyne" / fmt::format("{:06}.bin", scan), "");
@@ -295,9 +299,7 @@ TEST_F(InterruptedMapRun, DoesNotReadTheScansBeforeTheCheckpointAgain) {
 
 TEST_F(InterruptedMapRun, UsesTheLastCompleteCheckpoint) {
   const MapRequest wanted = request();
-  map(wanted);
-  const auto expected = cli::files_below(wanted.output);
-  fs::remove_all(wanted.output);
+  const auto expected = files_without_a_break(wanted);
   map_until(wanted, 8);
   // Killed while it wrote the next checkpoint.
   const fs::path state = wanted.output / "state";

@@ -10,14 +10,12 @@
 #include <vector>
 
 #include "flagstone/moving_points.hpp"
-#include "library/core/random.hpp"
-#include "library/ground_map/state_bytes.hpp"
+#include "library/ground_map/state_checks.hpp"
 #include "library/moving_points/box_scene.hpp"
 
 namespace flagstone {
 namespace {
 
-using Bytes = std::vector<std::byte>;
 using testing::HasSubstr;
 
 /// The scans of a sensor that passes a parked car, a house and a moving car, five per second.
@@ -71,19 +69,6 @@ MovingPoints after(std::size_t scans, const MovingPointsConfig& config = {}) {
   return moving;
 }
 
-Bytes bytes_of(const MovingPoints& moving) {
-  Bytes bytes;
-  EXPECT_TRUE(moving.to_bytes(bytes).ok());
-  return bytes;
-}
-
-// With the right checksum, so that other checks are reached.
-Bytes sealed(Bytes bytes) {
-  bytes.resize(bytes.size() - 8);
-  StateWriter(bytes).finish();
-  return bytes;
-}
-
 TEST(MovingPointsState, IsTheSameAfterARoundTrip) {
   for (const std::size_t scans : {0U, 1U, 4U}) {
     const MovingPoints moving = after(scans);
@@ -115,49 +100,13 @@ TEST(MovingPointsState, CallsAfterLoadingGiveTheResultsWithoutABreak) {
 }
 
 TEST(MovingPointsState, IsRejectedIfTruncatedOrDamagedAnywhere) {
-  const Bytes good = bytes_of(after(2));
   MovingPoints loaded = after(1);
-  const Bytes before = bytes_of(loaded);
-  Random random(4);
-
-  for (int i = 0; i < 60; ++i) {
-    const std::size_t at = i < 40 ? static_cast<std::size_t>(i) : random.bits() % good.size();
-    Bytes damaged = good;
-    damaged[at] ^= static_cast<std::byte>(1U << (random.bits() % 8));
-    for (const Status& status :
-         {loaded.from_bytes(std::span(good).first(at)), loaded.from_bytes(damaged)}) {
-      EXPECT_EQ(status.code(), StatusCode::bad_file);
-      EXPECT_THAT(status.message(), testing::MatchesRegex("byte [0-9]+: .* \\(expected .*\\)"));
-    }
-    ASSERT_EQ(bytes_of(loaded), before);
-  }
+  expect_damage_is_rejected(bytes_of(after(2)), loaded);
 }
 
-// A state that is loaded is saved as the bytes that it came from.
 TEST(MovingPointsState, WithAnyNumberChangedIsRejectedOrLoadedAsItIs) {
-  const Bytes good = bytes_of(after(2));
-  Random random(5);
-  std::size_t loaded = 0;
-  for (int i = 0; i < 300; ++i) {
-    Bytes changed = good;
-    const std::size_t range = i < 200 ? 500 : good.size() - 8;
-    for (std::size_t k = 0; k <= random.bits() % 2; ++k) {
-      changed[random.bits() % range] = static_cast<std::byte>(random.bits());
-    }
-    changed = sealed(changed);
-    MovingPoints moving;
-
-    const Status status = moving.from_bytes(changed);
-
-    if (!status.ok()) {
-      EXPECT_EQ(status.code(), StatusCode::bad_file);
-      continue;
-    }
-    ++loaded;
-    ASSERT_EQ(bytes_of(moving), changed);
-    run().add(moving, 3);
-  }
-  EXPECT_GT(loaded, 0U);
+  expect_changes_are_rejected_or_kept<MovingPoints>(
+      bytes_of(after(2)), 500, [](MovingPoints& moving) { run().add(moving, 3); });
 }
 
 TEST(MovingPointsState, ReportsAnotherVersionOrKind) {
