@@ -160,8 +160,8 @@ void MovingPoints::Finder::read(const Scan& scan) {
   points_.read(scan.cloud, scan.labels, scan.heights,
                {.to_world = to_world_,
                 .max_range = static_cast<float>(config_.max_range),
-                .min_height = static_cast<float>(config_.min_height),
-                .max_height = static_cast<float>(config_.max_height),
+                .min_height = config_.min_height,
+                .max_height = config_.max_height,
                 .objects = MovingObjects::grid,
                 .columns = columns_.grid()});
 }

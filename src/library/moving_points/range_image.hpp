@@ -91,8 +91,10 @@ class RangeImage {
   void clear(int first_row, int rows);
   void repeat_edges() noexcept;  // columns -1 and PixelGrid::columns
 
-  std::vector<NearestPoint> nearest_ = std::vector<NearestPoint>(2 * empty_rows * stride);
-  std::vector<ObjectRanges> objects_ = std::vector<ObjectRanges>(2 * empty_rows * stride);
+  static constexpr std::size_t empty_size = std::size_t{2} * empty_rows * stride;
+
+  std::vector<NearestPoint> nearest_ = std::vector<NearestPoint>(empty_size);
+  std::vector<ObjectRanges> objects_ = std::vector<ObjectRanges>(empty_size);
   int first_row_ = 0;
   int rows_ = 0;
 };
