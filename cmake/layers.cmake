@@ -9,6 +9,7 @@ set(flagstone_layers
     "library/(patchwork|surface|mount|ground_map)"
     "library/moving_points"
     "library/methods"
+    "library/c_api"
     "files"
     "lab"
     "app"

@@ -40,7 +40,6 @@ std::vector<std::string_view> keys_of(const std::vector<Setting>& settings) {
 }
 
 void assign(const Value& from, const std::string& key, float& value) {
-  constexpr double most = std::numeric_limits<float>::max();
   double number = 0;
   if (const auto* real = std::get_if<double>(&from.held)) {
     number = *real;
@@ -49,8 +48,7 @@ void assign(const Value& from, const std::string& key, float& value) {
   } else {
     refuse(from, key + " must be a number, got " + type_of(from));
   }
-  // A finite value beyond the range of float is clamped; only inf is infinite.
-  value = static_cast<float>(std::isinf(number) ? number : std::clamp(number, -most, most));
+  value = to_float(number);
 }
 
 void assign(const Value& from, const std::string& key, int& value) {

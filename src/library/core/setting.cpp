@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "library/core/setting.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -93,6 +95,11 @@ void throw_out_of_range(std::string_view method, std::string_view key, double va
   message << method << ": " << key << " = " << value << " is out of range (expected " << allowed
           << ')';
   throw std::invalid_argument(message.str());
+}
+
+float to_float(double number) noexcept {
+  constexpr double most = std::numeric_limits<float>::max();
+  return static_cast<float>(std::isinf(number) ? number : std::clamp(number, -most, most));
 }
 
 void check_number(std::string_view method, std::string_view key, double value,

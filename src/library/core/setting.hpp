@@ -65,6 +65,10 @@ void check_settings(std::string_view method, const std::vector<Setting>& setting
 [[noreturn]] void throw_out_of_range(std::string_view method, std::string_view key, double value,
                                      std::string_view allowed);
 
+/// The value of a setting that is a float. Finite numbers beyond the range of float are clamped, so
+/// that only infinity means "no limit".
+float to_float(double number) noexcept;
+
 /// Throws the same std::invalid_argument if `value` is out of range.
 void check_number(std::string_view method, std::string_view key, double value,
                   const ValidRange& allowed);
