@@ -52,8 +52,9 @@ const Setting& find(const flagstone_settings* settings, const char* name) {
   if (found != settings->list.end()) return *found;
   std::vector<std::string_view> known;
   for (const Setting& setting : settings->list) known.push_back(setting.key);
-  throw std::invalid_argument(std::string("settings: no setting '") + name + '\'' +
-                              did_you_mean(name, known));
+  std::string hint = did_you_mean(name, known);
+  if (hint.empty()) hint = " (flagstone_settings_at() lists them)";
+  throw std::invalid_argument(std::string("settings: no setting '") + name + '\'' + hint);
 }
 
 /// Writes the value of a setting into its description.
