@@ -7,15 +7,22 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/flagstone)
-# Users of a static library must also link its dependencies: threads and the system Highway.
+# Users of a static library must also link its dependencies: threads, the system Highway and, in programs of other languages,
+# the standard libraries of C++ and C. rustc links the one of C too early.
 set(find_dependencies "")
 set(highway_of_pkgconfig "")
+set(cxx_library_of_pkgconfig "")
 if(NOT BUILD_SHARED_LIBS)
   string(APPEND find_dependencies "include(CMakeFindDependencyMacro)\nfind_dependency(Threads)\n")
   if(NOT TARGET hwy)
     string(APPEND find_dependencies "find_dependency(hwy)\n")
     set(highway_of_pkgconfig "Requires: libhwy")
   endif()
+  foreach(library IN LISTS CMAKE_CXX_IMPLICIT_LINK_LIBRARIES)
+    if(library MATCHES "^(stdc\\+\\+|c\\+\\+|m|c)$")
+      string(APPEND cxx_library_of_pkgconfig " -l${library}")
+    endif()
+  endforeach()
 endif()
 file(
   WRITE ${PROJECT_BINARY_DIR}/flagstoneConfig.cmake
@@ -36,7 +43,7 @@ Description: @PROJECT_DESCRIPTION@
 Version: @PROJECT_VERSION@
 @highway_of_pkgconfig@
 Cflags: -I${prefix}/@CMAKE_INSTALL_INCLUDEDIR@
-Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -lflagstone -pthread
+Libs: -L${prefix}/@CMAKE_INSTALL_LIBDIR@ -lflagstone -pthread@cxx_library_of_pkgconfig@
 ]])
 
 install(TARGETS libflagstone libflagstone_baselines EXPORT flagstone)

@@ -1,0 +1,3 @@
+module segment_scan
+
+go 1.19
