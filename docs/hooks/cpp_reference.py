@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""The C++ reference: one page per public header, in the order of the header, from its comments.
+"""The C++ and C reference: one page per public header, in the order of the header, from its comments.
 
 Each complaint of doxygen (a public name without a comment, a comment with an unknown name) is a warning of the site,
 and so fails a strict build. The groups of pages are in the `nav` of mkdocs.yml, below `reference/cpp/`. A header that is
@@ -66,6 +66,10 @@ class Item:
         return location.get("file", ""), int(location.get("line", "0"))
 
     @property
+    def is_c(self) -> bool:
+        return self.place[0].endswith(".h")
+
+    @property
     def short_name(self) -> str:
         return self.name.rpartition("::")[2]
 
@@ -76,13 +80,20 @@ class Reference:
     def __init__(self, compounds: list[Element]) -> None:
         self.headers: dict[str, list[Item]] = defaultdict(list)
         self.links: dict[str, str] = {}  # doxygen's ids -> page#anchor
+        self.intros: dict[str, Element] = {}  # comments on whole headers
+        structs = {plain(compound.find("compoundname")) for compound in compounds if compound.get("kind") == "struct"}
         for compound in compounds:
             kind, name = compound.get("kind", ""), plain(compound.find("compoundname")).removeprefix("flagstone::")
             if kind in (*CLASSES, "concept") and compound.get("prot", "public") == "public":
                 self.add(Item(compound, name, kind, members_of(compound, f"{name}::")))
             elif kind in ("file", "namespace"):
+                if kind == "file":
+                    location = compound.find("location")
+                    assert location is not None
+                    self.intros[location.get("file", "")] = compound
                 for item in members_of(compound, ""):
-                    self.add(item)
+                    if plain(item.element.find("type")) != f"struct {item.name}" or item.name not in structs:
+                        self.add(item)
         for header, items in self.headers.items():
             items.sort(key=lambda item: item.place)
             taken: set[str] = set()
@@ -121,9 +132,12 @@ class Reference:
         return "\n".join(lines) + "\n"
 
     def page(self, header: str) -> str:
-        parts = [f"# {Path(header).name}", f"```cpp\n#include <{header}>\n```"]
+        parts = [f"# {Path(header).name}", f"```cpp\n#include <{header}>\n```", self.doc(self.intros[header])]
         for _, group in groupby(self.headers[header], key=lambda item: (item.name, item.kind)):
             items = list(group)
+            if items[0].name.startswith("@"):  # an enumeration without a name: the values of the type above it
+                parts.append(self.enum_table(items[0]))
+                continue
             parts.append(f"## {self.title(items[0])} {{ #{self.anchor(items[0])} data-toc-label='{items[0].name}' }}")
             parts += [self.class_body(items[0])] if items[0].kind in CLASSES else self.overloads(items)
         return "\n\n".join(parts) + "\n"
@@ -164,7 +178,7 @@ class Reference:
         lines = ["| field | type | default | |", "|---|---|---|---|"]
         for member in fields:
             name = f'<a id="{self.anchor(member)}"></a>`{member.short_name}`'
-            kind = tidy(plain(member.element.find("type")))
+            kind = tidy(plain(member.element.find("type")) + plain(member.element.find("argsstring")))
             default = plain(member.element.find("initializer")).removeprefix("= ")
             lines.append(f"| {name} | `{kind}` | {f'`{default}`' if default else ''} | {in_cell(self.doc(member))} |")
         return "\n".join(lines)
@@ -196,6 +210,8 @@ def signature(item: Item) -> str:
     if item.kind == "enum":
         base = plain(element.find("type"))
         return f"enum class {name}" + (f" : {base}" if base else "")
+    if item.kind == "typedef" and item.is_c:
+        return f"typedef {plain(element.find('type'))} {name};"
     if item.kind == "typedef":
         line = tidy(f"using {name} = {plain(element.find('type'))};")
         return line if len(line) <= LINE else line.replace("<", "<\n    ", 1).replace(", ", ",\n    ")
@@ -238,8 +254,9 @@ def first_sentence(markdown: str) -> str:
 
 
 def page_of(header: str) -> str:
-    """The name of a header's page, within `reference/cpp/`."""
-    return Path(header).stem + ".md"
+    """The name of a header's page, within `reference/cpp/`: surface.md, and flagstone_h.md for the C header."""
+    path = Path(header)
+    return f"{path.stem}_h.md" if path.suffix == ".h" else f"{path.stem}.md"
 
 
 def groups_of_nav(nav: list[Any]) -> dict[str, list[str]]:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 DOXYFILE = """
 QUIET = YES
 INPUT = "{include}/flagstone"
-FILE_PATTERNS = *.hpp
+FILE_PATTERNS = *.hpp *.h
 RECURSIVE = YES
 STRIP_FROM_PATH = "{include}"
 OUTPUT_DIRECTORY = "{output}"

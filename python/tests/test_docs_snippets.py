@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Every snippet of README.md and docs/ works.
 
-The Python code of a page runs from top to bottom, in an empty directory or after the page's `flagstone demo`. C++ code
-is compiled. Commands run on one small simulated scan instead of the data that they name, and simulate one frame: the
-data sets are large, and some commands take hours. So options, their values and their combinations are tested, but not
-the printed results. Of commands for Ray, only the options are checked, because they may need a cluster.
+The Python code of a page runs from top to bottom, in an empty directory or after the page's `flagstone demo`. C and
+C++ code is compiled. Commands run on one small simulated scan instead of the data that they name, and simulate one
+frame: the data sets are large, and some commands take hours. So options, their values and their combinations are
+tested, but not the printed results. Of commands for Ray, only the options are checked, because they may need a cluster.
 """
 
 from __future__ import annotations
@@ -71,7 +71,10 @@ def blocks_of(page: Path) -> list[Block]:
 
 
 PYTHON = {page: [block for block in blocks_of(page) if block.language == "python" and block.is_run] for page in PAGES}
+C = [(page, block) for page in PAGES for block in blocks_of(page) if block.language == "c" and block.is_run]
 CPP = [(page, block) for page in PAGES for block in blocks_of(page) if block.language == "cpp" and block.is_run]
+
+C_HEADERS = ["#include <flagstone/flagstone.h>", "#include <stdio.h>"]
 
 # A C++ snippet may use the headers and the points of a scan without declaring them.
 CPP_HEADERS = ["#include <flagstone/flagstone.hpp>", "#include <flagstone/make_segmenter.hpp>"]
@@ -118,6 +121,27 @@ def test_cpp_of_a_page_compiles(page: Path, block: Block, tmp_path: Path) -> Non
     file.write_text("\n".join(source) + "\n", encoding="utf-8")
     run = subprocess.run(
         [compiler, "-std=c++20", "-fsyntax-only", f"-I{ROOT / 'include'}", f"-I{ROOT / 'src'}", file],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+
+
+@pytest.mark.parametrize(("page", "block"), C, ids=[f"{name_of(page)}:{block.first_line}" for page, block in C])
+def test_c_of_a_page_compiles(page: Path, block: Block, tmp_path: Path) -> None:
+    compiler = shutil.which(os.environ.get("CC", "cc"))
+    if compiler is None:
+        pytest.skip("no C compiler is installed")
+    line = f'#line {block.first_line} "{name_of(page)}"'  # for the messages of the compiler
+    if any("int main(" in text for text in block.lines):
+        source = [line, *block.lines]
+    else:
+        source = [*C_HEADERS, "void snippet(void);", "void snippet(void) {", line, *block.lines, "}"]
+    file = tmp_path / "snippet.c"
+    file.write_text("\n".join(source) + "\n", encoding="utf-8")
+    run = subprocess.run(
+        [compiler, "-std=c99", "-pedantic", "-Wall", "-Werror", "-fsyntax-only", f"-I{ROOT / 'include'}", file],
         capture_output=True,
         text=True,
         check=False,
