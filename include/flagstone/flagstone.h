@@ -239,7 +239,7 @@ enum {
   FLAGSTONE_PATCH_OFF_SURFACE = 7     /**< rejected by "surface": too far from the other patches */
 };
 
-/** Name of a verdict, such as "not_upright"; "unknown" for other codes. Never freed. */
+/** Name of a `flagstone_verdict`, such as "not_upright"; "unknown" for other codes. Never freed. */
 const char* flagstone_verdict_name(flagstone_verdict verdict);
 
 /**
@@ -461,7 +461,7 @@ enum {
   FLAGSTONE_MOUNT_OUTLIER = 9         /**< rejected: too far from the estimates of previous scans */
 };
 
-/** Name of a mount verdict, such as "points_below"; "unknown" for other codes. Never freed. */
+/** Name of a `flagstone_mount_verdict`, such as "points_below"; "unknown" for other codes. Never freed. */
 const char* flagstone_mount_verdict_name(flagstone_mount_verdict verdict);
 
 /** Height and tilt of the sensor, and the estimate from the last scan. */

@@ -13,7 +13,7 @@
 /// Errors of the C++ API as return values. No exception leaves a function of flagstone.h.
 namespace flagstone::c_api {
 
-/// Writes the message, if there is a place for it, and returns `status`. Control characters become
+/// Writes the message, unless `error` is null, and returns `status`. Control characters become
 /// spaces, so that a name from the caller cannot break the line.
 flagstone_status report(flagstone_error* error, flagstone_status status,
                         std::string_view message) noexcept;
@@ -46,7 +46,7 @@ template <class Handle, class Make>
 flagstone_status create(Handle** handle, flagstone_error* error, Make&& make) noexcept {
   if (handle != nullptr) *handle = nullptr;
   return guarded(error, [&] {
-    require(handle, "handle", "the address of a pointer");
+    require(static_cast<const void*>(handle), "handle", "the address of a pointer");
     *handle = std::forward<Make>(make)().release();
   });
 }

@@ -51,6 +51,7 @@ const Setting& find(const flagstone_settings* settings, const char* name) {
   const auto found = std::ranges::find(settings->list, std::string_view(name), &Setting::key);
   if (found != settings->list.end()) return *found;
   std::vector<std::string_view> known;
+  known.reserve(settings->list.size());
   for (const Setting& setting : settings->list) known.push_back(setting.key);
   std::string hint = did_you_mean(name, known);
   if (hint.empty()) hint = " (flagstone_settings_at() lists them)";

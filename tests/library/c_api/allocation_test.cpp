@@ -33,7 +33,7 @@ flagstone_status without_memory(const Call& call) {
 
 class CAllocation : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(AllMethods, CAllocation, testing::Values("surface", "patchwork"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& method) { return std::string(method.param); });
 
 TEST_P(CAllocation, OnlyTheFirstScanAllocates) {
   const OwnedSegmenter segmenter = segmenter_of(GetParam());

@@ -45,7 +45,7 @@ TEST(CErrors, AreTheExceptionsOfTheCppFunctions) {
   EXPECT_STREQ(error.message, "");
 }
 
-TEST(CErrors, NeedNoPlaceForTheMessage) {
+TEST(CErrors, NeedNoBufferForTheMessage) {
   EXPECT_EQ(guarded(nullptr, [] { throw std::bad_alloc(); }), FLAGSTONE_OUT_OF_MEMORY);
 }
 

@@ -122,7 +122,7 @@ TEST(CSegmentation, QueriesOfNoPositionNeedNoMemory) {
             FLAGSTONE_OK);
 }
 
-TEST(CNames, AreThoseOfTheCppEnumerations) {
+TEST(CNames, EqualTheNamesOfTheCppEnumerations) {
   EXPECT_STREQ(flagstone_label_name(FLAGSTONE_OUT_OF_RANGE), "out_of_range");
   EXPECT_STREQ(flagstone_label_name(5), "unknown");
   EXPECT_STREQ(flagstone_verdict_name(FLAGSTONE_PATCH_NOT_UPRIGHT), "not_upright");

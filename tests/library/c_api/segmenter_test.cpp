@@ -33,12 +33,12 @@ using tests::segmenter_with;
 using tests::settings_of;
 using tests::view_of;
 
-TEST(CVersion, IsThatOfTheHeaderAndOfTheLibrary) {
+TEST(CVersion, EqualsTheVersionOfTheHeaderAndOfTheLibrary) {
   EXPECT_EQ(flagstone_abi_version(), std::uint32_t{FLAGSTONE_ABI_VERSION});
   EXPECT_STREQ(flagstone_version(), FLAGSTONE_VERSION);
 }
 
-TEST(CMethods, AreThoseOfTheLibrary) {
+TEST(CMethods, AreTheMethodsOfTheLibrary) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < flagstone_method_count(); ++i) {
     names.emplace_back(flagstone_method_name(i));
@@ -50,7 +50,7 @@ TEST(CMethods, AreThoseOfTheLibrary) {
 
 class CSegmenter : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(AllMethods, CSegmenter, testing::Values("surface", "patchwork"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& method) { return std::string(method.param); });
 
 TEST_P(CSegmenter, GivesTheBytesOfTheCppSegmenter) {
   const std::unique_ptr<Segmenter> reference = make_segmenter(GetParam());
@@ -92,7 +92,7 @@ TEST_P(CSegmenter, ReadsAnyLayout) {
   }
 }
 
-TEST_P(CSegmenter, GivesTheSameBytesWithThreads) {
+TEST_P(CSegmenter, GivesABitIdenticalResultWithThreads) {
   const std::vector<Point> points = random_cloud(30000, 5);
   const OwnedSettings settings = settings_of(GetParam());
   const OwnedSegmenter one = segmenter_with(settings, 1);

@@ -44,9 +44,9 @@ std::string rejection_of(const OwnedSettings& settings) {
 
 class CSettings : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(AllMethods, CSettings, testing::Values("surface", "patchwork"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& method) { return std::string(method.param); });
 
-TEST_P(CSettings, AreThoseOfTheMethodThenThoseOfTheMountingPose) {
+TEST_P(CSettings, ListTheSettingsOfTheMethodThenOfTheMountingPose) {
   MethodConfig config = default_config(GetParam());
   MountSettings mount;
   std::vector<Setting> expected = config.settings();
@@ -136,7 +136,7 @@ TEST(CSettingsByName, AreSetByName) {
   EXPECT_STREQ(found(settings, "mount.tilt").choice, "fixed");
 }
 
-TEST(CSettingsByName, OfAPresetAreThoseOfTheCppPreset) {
+TEST(CSettingsByName, OfAPresetEqualTheCppPreset) {
   flagstone_settings* handle = nullptr;
   ASSERT_EQ(flagstone_settings_create_for_preset("patchwork", "paper", &handle, nullptr),
             FLAGSTONE_OK);
@@ -150,7 +150,7 @@ TEST(CSettingsByName, OfAPresetAreThoseOfTheCppPreset) {
   flagstone_settings_destroy(handle);
 }
 
-TEST(CSettingsByName, ForASensorAreThoseOfTheCppFunction) {
+TEST(CSettingsByName, ForASensorEqualTheResultOfTheCppFunction) {
   flagstone_settings* handle = nullptr;
   ASSERT_EQ(flagstone_settings_create_for_sensor("patchwork", "vlp-16", nan, &handle, nullptr),
             FLAGSTONE_OK);
@@ -289,7 +289,7 @@ INSTANTIATE_TEST_SUITE_P(
                 return flagstone_settings_create_for_sensor("surface", "vlp-16", -1, &created, e);
               },
               "height = -1 is out of range"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& fault) { return std::string(fault.param.name); });
 
 TEST_P(CSettingsFault, IsReportedAndChangesNothing) {
   const OwnedSettings settings = settings_of("patchwork");
