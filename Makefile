@@ -41,7 +41,7 @@ sanitize: ## run the C++ tests under AddressSanitizer and UndefinedBehaviorSanit
 sanitize-thread: ## run the C++ tests under ThreadSanitizer
 	@scripts/setup build test && scripts/test sanitize-thread
 
-format: ## format the C++ sources
+format: ## format the C and C++ sources
 	@scripts/setup format && scripts/format -i
 
 format-check: ## fail if `make format` would change a file

@@ -25,7 +25,8 @@ static void fail(const char* path, const char* problem) {
   exit(1);
 }
 
-/* Ground that rises ahead of the sensor by 5 cm per metre, and a post 1.2 m high at x = 12, y = 3. */
+/* Ground that rises ahead of the sensor by 5 cm per metre, and a post 1.2 m high at x = 12, y = 3.
+ */
 static float* invented_scan(size_t* count) {
   const size_t width = 241, post = 25;
   float* points = malloc((width * width + post) * 4 * sizeof(float));

@@ -108,9 +108,17 @@ impl Segmenter {
             return Err("the library has another ABI version (expected 1)".to_string());
         }
         let method = CString::new(method).map_err(|error| error.to_string())?;
-        let mut both = Segmenter { segmenter: ptr::null_mut(), segmentation: ptr::null_mut() };
+        let mut both = Segmenter {
+            segmenter: ptr::null_mut(),
+            segmentation: ptr::null_mut(),
+        };
         checked(|error| unsafe {
-            c::flagstone_segmenter_create(method.as_ptr(), sensor_height, &mut both.segmenter, error)
+            c::flagstone_segmenter_create(
+                method.as_ptr(),
+                sensor_height,
+                &mut both.segmenter,
+                error,
+            )
         })?;
         checked(|error| unsafe {
             c::flagstone_segmentation_create(&mut both.segmentation, error)
@@ -125,7 +133,11 @@ impl Segmenter {
             let cloud = c::flagstone_cloud_of_floats(points.as_ptr().cast(), points.len(), 4);
             c::flagstone_segment(self.segmenter, cloud, self.segmentation, error)
         })?;
-        Ok(Scan { segmentation: self.segmentation, size: points.len(), owner: self })
+        Ok(Scan {
+            segmentation: self.segmentation,
+            size: points.len(),
+            owner: self,
+        })
     }
 }
 
@@ -149,7 +161,9 @@ struct Scan<'a> {
 impl Scan<'_> {
     /// The label of each point.
     fn labels(&self) -> &[u8] {
-        assert_eq!(self.size, unsafe { c::flagstone_segmentation_size(self.segmentation) });
+        assert_eq!(self.size, unsafe {
+            c::flagstone_segmentation_size(self.segmentation)
+        });
         self.array(unsafe { c::flagstone_segmentation_labels(self.segmentation) })
     }
 
@@ -164,7 +178,12 @@ impl Scan<'_> {
         checked(|error| unsafe {
             let xy = [x, y];
             c::flagstone_segmentation_sample_ground(
-                self.segmentation, xy.as_ptr(), 1, &mut sample, error)
+                self.segmentation,
+                xy.as_ptr(),
+                1,
+                &mut sample,
+                error,
+            )
         })?;
         Ok(sample)
     }
@@ -207,13 +226,23 @@ fn run(arguments: &[String]) -> Result<(), String> {
     let mut segmenter = Segmenter::new("surface", 1.73)?;
     let scan = segmenter.segment(&points)?;
 
-    let ground = scan.labels().iter().filter(|&&label| label == GROUND).count();
+    let ground = scan
+        .labels()
+        .iter()
+        .filter(|&&label| label == GROUND)
+        .count();
     println!("ground: {} of {} points", ground, points.len());
-    let highest = scan.heights().iter().fold(0.0f32, |most, &height| most.max(height));
+    let highest = scan
+        .heights()
+        .iter()
+        .fold(0.0f32, |most, &height| most.max(height));
     println!("highest point: {:.2} m above the ground", highest);
     let ahead = scan.ground(10.0, 0.0)?;
     if !ahead.height.is_nan() {
-        println!("ground 10 m ahead: z {:.2} m, slope {:.3} rad", ahead.height, ahead.slope);
+        println!(
+            "ground 10 m ahead: z {:.2} m, slope {:.3} rad",
+            ahead.height, ahead.slope
+        );
     }
     if let Some(path) = arguments.get(2) {
         fs::write(path, scan.labels()).map_err(|error| format!("{}: {}", path, error))?;

@@ -461,7 +461,8 @@ enum {
   FLAGSTONE_MOUNT_OUTLIER = 9         /**< rejected: too far from the estimates of previous scans */
 };
 
-/** Name of a `flagstone_mount_verdict`, such as "points_below"; "unknown" for other codes. Never freed. */
+/** Name of a `flagstone_mount_verdict`, such as "points_below"; "unknown" for other codes. Never
+ * freed. */
 const char* flagstone_mount_verdict_name(flagstone_mount_verdict verdict);
 
 /** Height and tilt of the sensor, and the estimate from the last scan. */

@@ -1,7 +1,8 @@
 /* SPDX-FileCopyrightText: 2026 flagstone contributors */
 /* SPDX-License-Identifier: MIT */
 
-/* The layout of every struct of flagstone.h with ABI version 1. A change of a number needs a new FLAGSTONE_ABI_VERSION. */
+/* The layout of every struct of flagstone.h with ABI version 1. A change of a number needs a new
+ * FLAGSTONE_ABI_VERSION. */
 #include "flagstone/flagstone.h"
 
 /* Not compiled if `condition` is false. */
