@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -63,6 +64,15 @@ TEST(DidYouMean, AnUnknownNameIsReportedWithTheKnownNames) {
       no_such("method", "surfce", names),
       "no method is named 'surfce' (expected sensor_height, surface, hdl-64e, gpf; did you mean "
       "'surface'?)");
+}
+
+TEST(ToFloat, ClampsFiniteNumbersAndKeepsInfinityAndNan) {
+  EXPECT_EQ(to_float(0.1), 0.1f);
+  EXPECT_EQ(to_float(1e300), std::numeric_limits<float>::max());
+  EXPECT_EQ(to_float(-1e300), -std::numeric_limits<float>::max());
+  EXPECT_EQ(to_float(std::numeric_limits<double>::infinity()),
+            std::numeric_limits<float>::infinity());
+  EXPECT_TRUE(std::isnan(to_float(std::numeric_limits<double>::quiet_NaN())));
 }
 
 }  // namespace
