@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 #include <string_view>
-#include <utility>
 
 #include "files/io/atomic_file.hpp"
 #include "files/io/load_bytes.hpp"
@@ -47,9 +46,10 @@ Status load_bytes(const std::filesystem::path& path, std::vector<std::byte>& out
   if (file == files().end()) {
     return Status(StatusCode::not_found, printable(path) + ": cannot be opened: no such file");
   }
-  out = std::move(file->second);
-  files().erase(file);
-  return {};
+  return with_path(path, within_memory([&] {
+                     out.assign(file->second.begin(), file->second.end());
+                     return Status();
+                   }));
 }
 
 void read_ahead(const std::filesystem::path&) noexcept {}

@@ -11,11 +11,11 @@
 /// io::load_bytes() and io::write_file() on them, so that all readers and writers work unchanged.
 namespace flagstone::web {
 
-/// Adds a file of `size` bytes, or replaces it, and returns its bytes to fill. The next load_bytes()
-/// of this name takes the bytes without copying. May throw std::bad_alloc.
+/// Adds a file of `size` bytes, or replaces it, and returns its bytes to fill. May throw
+/// std::bad_alloc.
 std::span<std::byte> add_file(const std::string& name, std::size_t size);
 
-/// Removes all files that were added and not read.
+/// Removes all files.
 void remove_files() noexcept;
 
 /// The bytes of the file written last. Valid until the next file is written.

@@ -3,8 +3,9 @@
 //
 // The functions that the WebAssembly module exports. web/api/flagstone.ts is their only caller.
 //
-// A function that can fail returns null or false and leaves the error message in the text. JavaScript
-// passes text as UTF-8 in memory from flagstone_text_buffer(), and reads text from there.
+// A function that can fail returns null or false and leaves the error message in the text.
+// JavaScript passes text as UTF-8 in memory from flagstone_text_buffer(), and reads text from
+// there.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -32,7 +33,7 @@
 #include "lab/eval/method_runner.hpp"
 #include "memory_files.hpp"
 
-#define FLAGSTONE_EXPORT(name) extern "C" __attribute__((export_name(#name)))
+#define FLAGSTONE_EXPORT(name) __attribute__((export_name(#name)))
 
 namespace flagstone::web {
 namespace {
@@ -73,9 +74,9 @@ auto guarded(const Work& work) noexcept -> decltype(work()) {
 
 void check(const Status& status) {
   if (status.ok()) return;
-  throw std::runtime_error(!status.message().empty()                          ? status.message()
+  throw std::runtime_error(!status.message().empty()                    ? status.message()
                            : status.code() == StatusCode::out_of_memory ? "out of memory"
-                                                                              : "unknown error");
+                                                                        : "unknown error");
 }
 
 config::Value value_of(const Json& json, const std::string& key) {
@@ -95,8 +96,9 @@ config::Value value_of(const Json& json, const std::string& key) {
     }
     return {.held = std::move(table)};
   }
-  throw std::invalid_argument(key + ": null is not a type of settings (expected a number, boolean, "
-                                    "string, list or object)");
+  throw std::invalid_argument(key +
+                              ": null is not a type of settings (expected a number, boolean, "
+                              "string, list or object)");
 }
 
 std::string string_at(const Json& options, const char* key, const std::string& otherwise) {
@@ -207,7 +209,9 @@ FLAGSTONE_EXPORT(flagstone_scan_read) Scan* scan_read(int columns) noexcept {
   return guarded([&] {
     auto scan = std::make_unique<Scan>();
     io::CloudReader reader({.columns = columns});
-    check(reader.read(text));
+    const Status status = reader.read(text);
+    remove_files();
+    check(status);
     scan->cloud = reader.release();
     return scan.release();
   });
@@ -314,8 +318,8 @@ FLAGSTONE_EXPORT(flagstone_labels) const Label* labels(const Method* method) noe
   return method->result.labels().data();
 }
 
-FLAGSTONE_EXPORT(flagstone_label_count) std::size_t labels_with(const Method* method,
-                                                                unsigned code) noexcept {
+FLAGSTONE_EXPORT(flagstone_label_count)
+std::size_t labels_with(const Method* method, unsigned code) noexcept {
   return method->result.count(static_cast<Label>(code));
 }
 
@@ -345,29 +349,29 @@ FLAGSTONE_EXPORT(flagstone_grid_count) std::size_t grid_count(const Method* meth
   return method->result.surface().grids().size();
 }
 
-FLAGSTONE_EXPORT(flagstone_grid_cell) float grid_cell(const Method* method,
-                                                      std::size_t index) noexcept {
+FLAGSTONE_EXPORT(flagstone_grid_cell)
+float grid_cell(const Method* method, std::size_t index) noexcept {
   return method->result.surface().grids()[index].cell;
 }
 
-FLAGSTONE_EXPORT(flagstone_grid_width) std::size_t grid_width(const Method* method,
-                                                              std::size_t index) noexcept {
+FLAGSTONE_EXPORT(flagstone_grid_width)
+std::size_t grid_width(const Method* method, std::size_t index) noexcept {
   return method->result.surface().grids()[index].width;
 }
 
-FLAGSTONE_EXPORT(flagstone_grid_heights) const float* grid_heights(const Method* method,
-                                                                   std::size_t index) noexcept {
+FLAGSTONE_EXPORT(flagstone_grid_heights)
+const float* grid_heights(const Method* method, std::size_t index) noexcept {
   return method->result.surface().grids()[index].heights.data();
 }
 
-FLAGSTONE_EXPORT(flagstone_grid_confidences) const float* grid_confidences(
-    const Method* method, std::size_t index) noexcept {
+FLAGSTONE_EXPORT(flagstone_grid_confidences)
+const float* grid_confidences(const Method* method, std::size_t index) noexcept {
   return method->result.surface().grids()[index].confidences.data();
 }
 
 /// The ground at (x, y): height, normal, slope and confidence, six numbers.
-FLAGSTONE_EXPORT(flagstone_surface_at) const float* surface_at(const Method* method, float x,
-                                                               float y) noexcept {
+FLAGSTONE_EXPORT(flagstone_surface_at)
+const float* surface_at(const Method* method, float x, float y) noexcept {
   static std::array<float, 6> numbers;
   const GroundSample ground = method->result.surface().at(x, y);
   numbers = {ground.height,    ground.normal[0], ground.normal[1],
@@ -376,11 +380,10 @@ FLAGSTONE_EXPORT(flagstone_surface_at) const float* surface_at(const Method* met
 }
 
 /// Writes the labels of the last scan as the file named by the text: .label or .npy.
-FLAGSTONE_EXPORT(flagstone_write_labels) bool write_labels(const Method* method,
-                                                           bool semantic_kitti) noexcept {
+FLAGSTONE_EXPORT(flagstone_write_labels)
+bool write_labels(const Method* method, bool semantic_kitti) noexcept {
   return guarded([&] {
-    io::LabelWriter writer(semantic_kitti ? io::LabelMap::semantic_kitti
-                                          : io::LabelMap::flagstone);
+    io::LabelWriter writer(semantic_kitti ? io::LabelMap::semantic_kitti : io::LabelMap::flagstone);
     check(text.ends_with(".npy") ? writer.write_label_npy(text, method->result.labels())
                                  : writer.write_label_file(text, method->result.labels()));
     return true;
@@ -389,8 +392,8 @@ FLAGSTONE_EXPORT(flagstone_write_labels) bool write_labels(const Method* method,
 
 /// Writes the last scan with a field `label`, and `height` if there are heights, as the file named
 /// by the text: .pcd, .ply or .npy.
-FLAGSTONE_EXPORT(flagstone_write_scan) bool write_scan(const Method* method,
-                                                       const Scan* scan) noexcept {
+FLAGSTONE_EXPORT(flagstone_write_scan)
+bool write_scan(const Method* method, const Scan* scan) noexcept {
   return guarded([&] {
     io::Cloud labelled;
     check(io::with_labels(scan->cloud, method->result.labels(), labelled));
@@ -426,8 +429,8 @@ FLAGSTONE_EXPORT(flagstone_doctor_delete) void doctor_delete(app::ScanExaminer* 
 }
 
 /// Examines a scan. The text is its name.
-FLAGSTONE_EXPORT(flagstone_doctor_examine) bool doctor_examine(app::ScanExaminer* doctor,
-                                                               const Scan* scan) noexcept {
+FLAGSTONE_EXPORT(flagstone_doctor_examine)
+bool doctor_examine(app::ScanExaminer* doctor, const Scan* scan) noexcept {
   return guarded([&] {
     doctor->examine(text, scan->cloud);
     return true;
@@ -435,8 +438,8 @@ FLAGSTONE_EXPORT(flagstone_doctor_examine) bool doctor_examine(app::ScanExaminer
 }
 
 /// Makes the report, as `flagstone doctor --json` prints it, the text.
-FLAGSTONE_EXPORT(flagstone_doctor_report) bool doctor_report(
-    const app::ScanExaminer* doctor) noexcept {
+FLAGSTONE_EXPORT(flagstone_doctor_report)
+bool doctor_report(const app::ScanExaminer* doctor) noexcept {
   return guarded([&] {
     text = app::json_of(doctor->report());
     return true;
