@@ -38,6 +38,7 @@ export class Session {
       this.#method = { key, segmenter };
     }
     this.#last = undefined;
+    this.#method.segmenter.reset(); // the height and tilt are those of this scan, not of the scans before
     const start = performance.now();
     this.#last = this.#method.segmenter.segment(this.#opened());
     return copied(this.#last, this.#method.segmenter, performance.now() - start);

@@ -5,7 +5,7 @@ import "./style.css";
 import { heightRange, palettes, pointColors, rampColor, type ColorMode, type Theme } from "./colors";
 import { Engine } from "./engine";
 import { fromFragment, initial, toFragment } from "./link";
-import type { Options, Points, Report, Result, Verdict } from "./messages";
+import { noPatch, type Options, type Points, type Report, type Result, type Verdict } from "./messages";
 import { sensorHeight, sliders, valueOf, type Slider } from "./settings";
 import { surfaceMesh } from "./surface_mesh";
 import { View } from "./view";
@@ -13,7 +13,8 @@ import { aboutPoint, labelTitles, verdictTitles } from "./words";
 
 const at = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const count = (value: number) => value.toLocaleString("en-GB");
-const percent = (part: number, whole: number) => `${((100 * part) / Math.max(whole, 1)).toFixed(1)} %`;
+const percent = (part: number, whole: number) =>
+  part > 0 && part / whole < 0.0005 ? "< 0.1 %" : `${((100 * part) / Math.max(whole, 1)).toFixed(1)} %`;
 
 function element<K extends keyof HTMLElementTagNameMap>(
   name: K,
@@ -330,10 +331,12 @@ function showLegend(mode: ColorMode): void {
   } else if (mode === "patch") {
     const numbers = new Map<Verdict, number>();
     for (const { verdict } of found.patches) numbers.set(verdict, (numbers.get(verdict) ?? 0) + 1);
+    const without = found.patchOf.filter((patch) => patch === noPatch).length;
     legend.replaceChildren(
       ...(Object.keys(palette.verdicts) as Verdict[])
         .filter((verdict) => numbers.has(verdict))
         .map((verdict) => entry(palette.verdicts[verdict], verdictTitles[verdict], `${count(numbers.get(verdict) ?? 0)} patches`)),
+      ...(without > 0 ? [entry(palette.noPatch, "no patch", `${count(without)} points`)] : []),
     );
   } else {
     const numbers = [0, 0, 0, 0];

@@ -70,6 +70,14 @@ export function patchOfPoints(
   const indices = new Map(patches.map(({ zone, ring, sector }, index) => [key(zone, ring, sector), index]));
   const bin = settings.zones === undefined ? squareBins(indices, settings) : polarBins(indices, settings);
   const level = levelFrame(mount);
+  // Most scans are level.
+  if (mount.up[0] === 0 && mount.up[1] === 0 && mount.up[2] > 0) {
+    const { origin, scale } = mount;
+    for (let i = 0; i < result.length; ++i) {
+      result[i] = bin(positions[3 * i] * scale - origin[0], positions[3 * i + 1] * scale - origin[1]) ?? noPatch;
+    }
+    return result;
+  }
   for (let i = 0; i < result.length; ++i) {
     const [x, y] = level(positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]);
     result[i] = bin(x, y) ?? noPatch;

@@ -18,7 +18,7 @@ export function surfaceMesh(grids: GridCopy[], mount: Mount): BufferGeometry {
   const colors = new Uint8Array(corners.length);
   for (let i = 0; i < corners.length; i += 3) {
     const at = (corners[i + 2] - low) / Math.max(high - low, 0.5);
-    colors.set(rampColor(0.15 + 0.7 * at).map((part) => Math.round(part * 0.75 + 40)), i);
+    colors.set(rampColor(0.2 + 0.65 * at).map((part) => Math.round(part * 0.5 + 70)), i);
   }
 
   const geometry = new BufferGeometry();
@@ -26,6 +26,13 @@ export function surfaceMesh(grids: GridCopy[], mount: Mount): BufferGeometry {
   geometry.setAttribute("color", new BufferAttribute(colors, 3, true));
   geometry.setIndex(new BufferAttribute(new Uint32Array(triangles), 1));
   geometry.computeVertexNormals();
+  // Light shows gentle slopes: they are shaded as if they were three times as steep.
+  const normals = geometry.getAttribute("normal");
+  for (let i = 0; i < normals.count; ++i) {
+    const [x, y, z] = [3 * normals.getX(i), 3 * normals.getY(i), normals.getZ(i)];
+    const length = Math.hypot(x, y, z);
+    normals.setXYZ(i, x / length, y / length, z / length);
+  }
   return geometry;
 }
 

@@ -89,9 +89,9 @@ export class View {
       this.draw();
       this.onmove();
     });
-    const sun = new DirectionalLight(0xffffff, 2.2);
-    sun.position.set(-1, 1, 1.4);
-    this.#scene.add(...this.#points, this.#mesh, this.#marker, sun, new HemisphereLight(0xffffff, 0x8090a0, 1.1));
+    const sun = new DirectionalLight(0xffffff, 2.4);
+    sun.position.set(-1, 1, 0.9);
+    this.#scene.add(...this.#points, this.#mesh, this.#marker, sun, new HemisphereLight(0xffffff, 0x8090a0, 0.7));
     this.#mesh.visible = false;
     this.#marker.visible = false;
     this.#marker.frustumCulled = false;
