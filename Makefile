@@ -57,8 +57,8 @@ docs: ## build the documentation site, warnings are errors: build/site/index.htm
 wheel: ## build the Python wheel into dist/ and test it in an empty environment; PYTHON selects another interpreter
 	@scripts/setup build python && wheel=$$(scripts/wheel) && scripts/check-wheel "$$wheel"
 
-web: ## build the WebAssembly module and the npm package into dist/, print sizes
-	@scripts/setup web && scripts/web package
+web: build ## build the WebAssembly module and the npm package into dist/, and the page into web/page/dist, print sizes
+	@scripts/setup web && scripts/web package && scripts/web-page build
 
 test-web: ## compare all bytes and times of the WebAssembly module with the native build; on every scan of FLAGSTONE_DATA and in every scene
 	@scripts/setup build test python web && scripts/web build && scripts/test web

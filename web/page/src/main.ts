@@ -165,11 +165,11 @@ async function segment(opened: boolean): Promise<void> {
 /** Heights above the ground; without a surface, above the ground that is expected below the sensor. */
 function heightsOf({ positions }: Points, { heights: found, mount }: Result): Float32Array {
   if (found.length > 0) return found;
-  return new Float32Array(positions.length / 3).map((_, i) => positions[3 * i + 2] * mount.scale + mount.sensor_height);
+  return new Float32Array(positions.length / 3).map((_, i) => positions[3 * i + 2] * mount.scale - mount.origin[2] + mount.sensor_height);
 }
 
 const groundHeight = () =>
-  result === undefined ? -1.73 : (result.mount.origin[2] - result.mount.sensor_height) / result.mount.scale;
+  result === undefined ? -1.73 : result.mount.origin[2] - result.mount.sensor_height;
 
 // ---- Files
 
@@ -250,7 +250,9 @@ function showResult(): void {
   at("scan-facts").textContent =
     `${count(current.size)} points, segmented in ${found.milliseconds.toFixed(0)} ms`;
   at("mount").textContent = sentence(found.mount.decision);
+  at("mount").classList.toggle("warning", shared.config === "" && shared.height === "auto" && !found.mount.accepted);
   showSliders();
+  view.setScale(found.mount.scale);
   view.setGround(groundHeight(), theme());
   showSurface();
   showColors();
@@ -508,6 +510,10 @@ function showReport(): void {
   const apply = at<HTMLButtonElement>("doctor-apply");
   fine.hidden = report === undefined;
   apply.hidden = report?.toml == null;
+  const first = report?.findings.find(({ severity }) => severity === "fix");
+  at("advice").hidden = first === undefined || report?.toml === shared.config;
+  at("advice-text").textContent = first === undefined ? "" : `Doctor: ${first.sentence}`;
+  at("advice-apply").hidden = report?.toml == null;
   if (report === undefined) {
     at("doctor-summary").textContent = "The scan is being checked.";
     at("doctor-findings").replaceChildren();
@@ -529,9 +535,10 @@ function showReport(): void {
   apply.title = recommended ?? "";
 }
 
-at("doctor-apply").onclick = () => {
+at("doctor-apply").onclick = at("advice-apply").onclick = () => {
   Object.assign(shared, { height: "auto", changes: {}, config: recommended ?? "" });
   settingsChanged();
+  view.canvas.focus();
 };
 
 // ---- Points

@@ -73,6 +73,7 @@ export class View {
   #sideBySide = false;
   #requested = false;
   #ground = -1.73;
+  #scale = 1;
   /** Number of frames drawn. */
   frames = 0;
   onmove: () => void = () => {};
@@ -140,6 +141,12 @@ export class View {
     this.#mesh.geometry = geometry ?? new BufferGeometry();
     this.#mesh.visible = geometry !== undefined;
     this.draw();
+  }
+
+  /** Metres per unit of the scan. */
+  setScale(scale: number): void {
+    this.#scale = scale;
+    for (const object of [...this.#points, this.#mesh, this.#marker]) object.scale.setScalar(scale);
   }
 
   setGround(height: number, theme: Theme): void {
@@ -228,7 +235,9 @@ export class View {
     let least = Infinity;
     for (let i = 0; i < this.#positions.length / 3; ++i) {
       if (tints[4 * i + 3] === 0) continue;
-      const [px, py, pz] = [this.#positions[3 * i], this.#positions[3 * i + 1], this.#positions[3 * i + 2]];
+      const px = this.#positions[3 * i] * this.#scale;
+      const py = this.#positions[3 * i + 1] * this.#scale;
+      const pz = this.#positions[3 * i + 2] * this.#scale;
       const w = matrix[3] * px + matrix[7] * py + matrix[11] * pz + matrix[15];
       if (!(w > 0.1)) continue;
       const dx = ((matrix[0] * px + matrix[4] * py + matrix[8] * pz + matrix[12]) / w + 1) * 0.5 * width - column;

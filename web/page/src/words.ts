@@ -34,7 +34,8 @@ export const metres = (value: number, digits = 2) =>
 
 /** Term and description, in the order of the list. */
 export function aboutPoint(points: Points, result: Result, heights: Float32Array, index: number): [string, string][] {
-  const [x, y, z] = points.positions.subarray(3 * index, 3 * index + 3);
+  const { scale } = result.mount;
+  const [x, y, z] = points.positions.subarray(3 * index, 3 * index + 3).map((value) => value * scale);
   const patch = result.patches[result.patchOf[index]];
   const rows: [string, string][] = [
     ["Label", labelTitles[result.labels[index]]],

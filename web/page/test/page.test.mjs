@@ -229,6 +229,20 @@ test("the methods are compared", async () => {
   await page.screenshot({ path: join(screenshots, "side-by-side.png") });
 });
 
+test("the doctor reports a scan in millimetres, and its settings fix the labels", async () => {
+  const points = new Float32Array(new Uint8Array(readFileSync(sample("street-000000.bin"))).buffer);
+  for (let i = 0; i < points.length; ++i) if (i % 4 < 3) points[i] *= 1000;
+  await drop([{ name: "millimetres.bin", content: new Uint8Array(points.buffer) }]);
+  await page.waitForSelector("#advice:not([hidden])");
+  assert.match(await text("#advice-text"), /^Doctor: .*mm|millimet/i);
+  await accessible("advice");
+  await page.screenshot({ path: join(screenshots, "doctor.png") });
+  await page.click("#advice-apply");
+  await page.waitForFunction(() => document.querySelector("#legend").innerText.startsWith("ground") && parseFloat(document.querySelector("#legend .count").innerText) > 40);
+  assert.equal(await page.locator(".fault").count(), 0);
+  assert.ok(await page.locator("#advice").isHidden());
+});
+
 test("colours, surface and patchwork", async () => {
   await page.click("text=Height");
   await page.check("#show-surface");
