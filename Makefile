@@ -8,7 +8,7 @@ PREFIX ?= /usr/local
 MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence bench-codec latency soak-test surface-figures
 
 .PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel web \
-        test-web \
+        test-web test-page \
         bench-compare bench-bags $(MEASUREMENTS) surface-study worlds-study invariance-study runs-study contact-sheet \
         map-image clean
 .DEFAULT_GOAL := build
@@ -59,6 +59,9 @@ wheel: ## build the Python wheel into dist/ and test it in an empty environment;
 
 web: build ## build the WebAssembly module and the npm package into dist/, and the page into web/page/dist, print sizes
 	@scripts/setup web && scripts/web package && scripts/web-page build
+
+test-page: web ## test the page in web/page/dist in headless Chromium; screenshots in web/page/screenshots
+	@scripts/setup test && scripts/web-page test
 
 test-web: ## compare all bytes and times of the WebAssembly module with the native build; on every scan of FLAGSTONE_DATA and in every scene
 	@scripts/setup build test python web && scripts/web build && scripts/test web

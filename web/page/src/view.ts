@@ -74,8 +74,6 @@ export class View {
   #requested = false;
   #ground = -1.73;
   #scale = 1;
-  /** Number of frames drawn. */
-  frames = 0;
   onmove: () => void = () => {};
 
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -288,6 +286,5 @@ export class View {
       });
       this.#renderer.render(this.#scene, this.#camera);
     }
-    ++this.frames;
   }
 }
