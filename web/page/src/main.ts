@@ -4,7 +4,7 @@
 import "./style.css";
 import { heightRange, palettes, pointColors, rampColor, type ColorMode, type Theme } from "./colors";
 import { Engine } from "./engine";
-import { fromFragment, initial, toFragment } from "./link";
+import { fromFragment, toFragment } from "./link";
 import { noPatch, type Options, type Points, type Report, type Result, type Verdict } from "./messages";
 import { sensorHeight, sliders, valueOf, type Slider } from "./settings";
 import { surfaceMesh } from "./surface_mesh";
@@ -630,7 +630,7 @@ view.onmove = () => {
 
 addEventListener("hashchange", () => {
   const { sample } = shared;
-  shared = { ...fromFragment(location.hash) };
+  shared = fromFragment(location.hash);
   if (shared.camera.length === 6) view.camera = shared.camera;
   const chosen = samples.find(({ name }) => name === shared.sample);
   if (chosen !== undefined && chosen.name !== sample) openSample(chosen).catch(showFault);
@@ -671,7 +671,6 @@ at("save").onclick = async () => {
 
 // ---- Start
 
-Object.assign(shared, { ...initial(), ...shared });
 showChoices();
 showTheme();
 startSamples().catch(showFault);

@@ -131,6 +131,7 @@ export class View {
       }
     });
     this.#sideBySide = compared !== undefined;
+    this.#controls.zoomToCursor = !this.#sideBySide; // the cursor is in one half only
     this.draw();
   }
 

@@ -12,7 +12,10 @@ async function answer(kind: Kind, request: Requests[Kind]["request"]): Promise<u
   switch (kind) {
     case "open": {
       const { file } = request as Requests["open"]["request"];
-      return running.open(file.name, await file.arrayBuffer());
+      const content = await file.arrayBuffer().catch(() => {
+        throw new Error(`${file.name}: cannot be read (expected a file, not a directory; if it was moved, open it again)`);
+      });
+      return running.open(file.name, content);
     }
     case "segment":
       return running.segment((request as Requests["segment"]["request"]).options);
