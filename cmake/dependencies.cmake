@@ -6,10 +6,11 @@
 # checked against its checksum.
 include(FetchContent)
 
-# flagstone_headers(NAME TARGET DIRECTORY) makes TARGET from the headers of a system package, without its compiled library.
-# They are copied, because the headers next to them belong to the system. Sets NAME_FOUND.
-function(flagstone_headers name target directory)
-  find_path(${name}_include ${directory} PATHS /usr/local/include /usr/include NO_CACHE)
+# flagstone_headers(NAME TARGET HEADER) makes TARGET from the headers of a system package, without its compiled library:
+# the directory of HEADER. It is copied, because the headers next to it belong to the system. Sets NAME_FOUND.
+function(flagstone_headers name target header)
+  cmake_path(GET header PARENT_PATH directory)
+  find_path(${name}_include ${header} PATHS /usr/local/include /usr/include NO_CACHE)
   if(NOT ${name}_include)
     return()
   endif()
@@ -50,13 +51,13 @@ function(flagstone_dependency name url sha256)
 endfunction()
 
 if(FLAGSTONE_BUILD_WEB)
-  flagstone_headers(hwy hwy::hwy hwy)
-  flagstone_headers(fmt fmt::fmt fmt)
+  flagstone_headers(hwy hwy::hwy hwy/highway.h)
+  flagstone_headers(fmt fmt::fmt fmt/format.h)
   if(fmt_FOUND)
     target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
   endif()
-  flagstone_headers(tomlplusplus tomlplusplus::tomlplusplus toml++)
-  flagstone_headers(nlohmann_json nlohmann_json::nlohmann_json nlohmann)
+  flagstone_headers(tomlplusplus tomlplusplus::tomlplusplus toml++/toml.h)
+  flagstone_headers(nlohmann_json nlohmann_json::nlohmann_json nlohmann/json.hpp)
 endif()
 
 # Highway is the only dependency of the library, and no public header includes it. Programs that link

@@ -18,7 +18,7 @@ std::map<std::string, std::vector<std::byte>>& files() {
   return all;
 }
 
-std::vector<std::byte>& written() {
+std::vector<std::byte>& last_written() {
   static std::vector<std::byte> bytes;
   return bytes;
 }
@@ -35,7 +35,7 @@ std::span<std::byte> add_file(const std::string& name, std::size_t size) {
 
 void remove_files() noexcept { files().clear(); }
 
-std::span<const std::byte> written_file() noexcept { return written(); }
+std::span<const std::byte> written_file() noexcept { return last_written(); }
 
 }  // namespace web
 
@@ -56,7 +56,7 @@ void read_ahead(const std::filesystem::path&) noexcept {}
 
 Status write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   return with_path(path, within_memory([&] {
-                     written().assign(bytes.begin(), bytes.end());
+                     last_written().assign(bytes.begin(), bytes.end());
                      return Status();
                    }));
 }

@@ -36,12 +36,6 @@
 #define FLAGSTONE_EXPORT(name) __attribute__((export_name(#name)))
 
 namespace flagstone::web {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// Arguments from JavaScript, and results and error messages for it.
-std::string text;
 
 /// A scan read from a file or made of points.
 struct Scan {
@@ -58,6 +52,13 @@ struct Method {
   eval::MethodRunner runner;
   Segmentation result;
 };
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Arguments from JavaScript, and results and error messages for it.
+std::string text;
 
 /// Calls `work`. If it throws, the text is the message and the result is a default value.
 template <class Work>
