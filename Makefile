@@ -7,7 +7,8 @@ export CMAKE_FLAGS
 PREFIX ?= /usr/local
 MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence bench-codec latency soak-test surface-figures
 
-.PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
+.PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel web \
+        test-web test-page \
         bench-compare bench-bags $(MEASUREMENTS) surface-study worlds-study invariance-study runs-study contact-sheet \
         map-image clean
 .DEFAULT_GOAL := build
@@ -30,7 +31,7 @@ test: ## build and test the library, the command and the Python package
 	@scripts/setup build test python && scripts/test
 
 test-all: ## also fuzzers, sanitizers, a Ray cluster and the documentation site
-	@scripts/setup build test fuzz python docs && scripts/test all
+	@scripts/setup build test fuzz python docs web && scripts/test all
 
 test-python: ## build and test the Python package; PYTHON selects another interpreter
 	@scripts/setup build python && scripts/test python
@@ -55,6 +56,15 @@ docs: ## build the documentation site, warnings are errors: build/site/index.htm
 
 wheel: ## build the Python wheel into dist/ and test it in an empty environment; PYTHON selects another interpreter
 	@scripts/setup build python && wheel=$$(scripts/wheel) && scripts/check-wheel "$$wheel"
+
+web: build ## build the WebAssembly module and the npm package into dist/, and the page into web/page/dist, print sizes
+	@scripts/setup web && scripts/web package && scripts/web-page build
+
+test-page: web ## test the page in web/page/dist in headless Chromium; screenshots in web/page/screenshots
+	@scripts/setup test && scripts/web-page test
+
+test-web: ## compare all bytes and times of the WebAssembly module with the native build; on every scan of FLAGSTONE_DATA and in every scene
+	@scripts/setup build test python web && scripts/web build && scripts/test web
 
 bench-compare: build ## compare the speed of METHOD in the working tree and in REVISION on SCANS
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(if $(TARGET),--target $(TARGET)) $(SCANS)
@@ -93,4 +103,4 @@ map-image: build ## simulate and map a run and draw its ground and moving points
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/map_image.py $(IMAGE)
 
 clean: ## remove the build trees
-	@rm -rf build build-python build-fuzz build-thread build-sanitize build-sanitize-thread build-compare
+	@rm -rf build build-python build-fuzz build-thread build-sanitize build-sanitize-thread build-compare build-web

@@ -6,8 +6,26 @@
 # checked against its checksum.
 include(FetchContent)
 
+# flagstone_headers(NAME TARGET HEADER) makes TARGET from the headers of a system package, without its compiled library:
+# the directory of HEADER. It is copied, because the headers next to it belong to the system. Sets NAME_FOUND.
+function(flagstone_headers name target header)
+  cmake_path(GET header PARENT_PATH directory)
+  find_path(${name}_include ${header} PATHS /usr/local/include /usr/include NO_CACHE)
+  if(NOT ${name}_include)
+    return()
+  endif()
+  set(copy ${CMAKE_BINARY_DIR}/headers)
+  file(COPY ${${name}_include}/${directory} DESTINATION ${copy})
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${target} SYSTEM INTERFACE ${copy})
+  set(${name}_FOUND ON PARENT_SCOPE)
+endfunction()
+
 # flagstone_dependency(NAME URL SHA256 [arguments of find_package...])
 function(flagstone_dependency name url sha256)
+  if(${name}_FOUND)
+    return()
+  endif()
   set(CMAKE_POLICY_DEFAULT_CMP0077 NEW) # options set here apply to the fetched project
   set(CMAKE_POLICY_DEFAULT_CMP0126 NEW)
   set(CMAKE_POLICY_VERSION_MINIMUM 3.5) # CMake 4 rejects projects that require an older version
@@ -32,6 +50,16 @@ function(flagstone_dependency name url sha256)
   endif()
 endfunction()
 
+if(FLAGSTONE_BUILD_WEB)
+  flagstone_headers(hwy hwy::hwy hwy/highway.h)
+  flagstone_headers(fmt fmt::fmt fmt/format.h)
+  if(fmt_FOUND)
+    target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
+  endif()
+  flagstone_headers(tomlplusplus tomlplusplus::tomlplusplus toml++/toml.h)
+  flagstone_headers(nlohmann_json nlohmann_json::nlohmann_json nlohmann/json.hpp)
+endif()
+
 # Highway is the only dependency of the library, and no public header includes it. Programs that link
 # flagstone::flagstone also link a system Highway; a fetched Highway becomes part of the library.
 set(HWY_ENABLE_TESTS OFF)
@@ -53,8 +81,9 @@ endif()
 list(JOIN disabled_targets "|" disabled_targets)
 target_compile_definitions(flagstone_highway INTERFACE "HWY_DISABLED_TARGETS=(${disabled_targets})")
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^wasm")
-  # Highway 1.0.3 has no vectors of doubles for it.
-  target_compile_definitions(flagstone_highway INTERFACE HWY_COMPILE_ONLY_SCALAR)
+  # Highway 1.0.3 has no vectors of doubles for it. Its plain C++ works on arrays of 16 bytes, which the compiler turns into
+  # vector instructions.
+  target_compile_definitions(flagstone_highway INTERFACE HWY_COMPILE_ONLY_EMU128)
 else()
   target_compile_definitions(flagstone_highway INTERFACE HWY_COMPILE_ALL_ATTAINABLE)
 endif()
@@ -69,7 +98,11 @@ if(FLAGSTONE_BUILD_COMMAND OR FLAGSTONE_BUILD_TESTS)
   set(needs_command ON)
 endif()
 
-if(needs_command OR FLAGSTONE_BUILD_ROS OR FLAGSTONE_BUILD_FUZZERS OR FLAGSTONE_SANITIZED_TESTS)
+if(needs_command
+   OR FLAGSTONE_BUILD_ROS
+   OR FLAGSTONE_BUILD_FUZZERS
+   OR FLAGSTONE_BUILD_WEB
+   OR FLAGSTONE_SANITIZED_TESTS)
   flagstone_dependency(
     fmt https://github.com/fmtlib/fmt/archive/9.1.0.tar.gz
     5dea48d1fcddc3ec571ce2058e13910a0d4a6bab4cc09a809d8b1dd1c88ae6f2 9)
@@ -78,7 +111,7 @@ if(needs_command OR FLAGSTONE_BUILD_ROS OR FLAGSTONE_BUILD_FUZZERS OR FLAGSTONE_
     fc1a5eb410f3c67e90e5ad1264a1386d020067cfb01b633cc8c0441789aa6cf2 3.3)
 endif()
 
-if(needs_command OR FLAGSTONE_BUILD_FUZZERS)
+if(needs_command OR FLAGSTONE_BUILD_FUZZERS OR FLAGSTONE_BUILD_WEB)
   flagstone_dependency(
     nlohmann_json https://github.com/nlohmann/json/archive/v3.11.2.tar.gz
     d69f9deb6a75e2580465c6c4c5111b89c4dc2fa94e3a85fcd2ffcd9a143d9273 3.11)

@@ -43,10 +43,12 @@ unsigned threads_or_cores(unsigned threads) noexcept {
 }
 
 ThreadPool::ThreadPool(unsigned size) {
+#ifndef __wasi__  // WebAssembly has no fork()
   // The fork handler is registered once, by the first pool.
   static const int registered =
       pthread_atfork(nullptr, nullptr, [] { forks.fetch_add(1, std::memory_order_relaxed); });
   static_cast<void>(registered);
+#endif
   // About ten microseconds. No spinning if there are more threads than cores.
   spin_count_ = size <= std::thread::hardware_concurrency() ? 1000 : 0;
   workers_.reserve(size - 1);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "library/core/exponential.hpp"
@@ -14,6 +15,13 @@ namespace {
 /// exp(x) with x clamped to -300 to 300. A very small scale then gives a step, and the product of
 /// two such steps is never 0 * infinity.
 double bounded_exp(double x) { return exponential(std::clamp(x, -300.0, 300.0)); }
+
+/// `value` in single precision, or 0 if it is denormal. WebAssembly has no mode that does this; see
+/// ScopedFloatingPointMode.
+float without_denormals(double value) {
+  const auto number = static_cast<float>(value);
+  return number < std::numeric_limits<float>::min() ? 0.0f : number;
+}
 
 }  // namespace
 
@@ -64,9 +72,9 @@ void GroundLikelihood::judge(const Plane& plane, std::size_t ring, Patch& patch)
   const double f = phi * psi * varphi;  // eq. (8): a factor of the product of eq. (7)
 
   patch.uprightness = static_cast<float>(phi);
-  patch.elevation = static_cast<float>(psi);
-  patch.flatness = static_cast<float>(std::min(varphi, 1e30));
-  patch.likelihood = static_cast<float>(std::min(f, 1e30));
+  patch.elevation = without_denormals(psi);
+  patch.flatness = without_denormals(std::min(varphi, 1e30));
+  patch.likelihood = without_denormals(std::min(f, 1e30));
   patch.surface_variable = static_cast<float>(sigma);
   if (f > 0.5) {  // eq. (12): the ground set of the patch is part of the ground
     patch.verdict = psi < 0.5 ? Verdict::ground_flat : Verdict::ground;

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+//
+// Segments scans for web/test/native.test.mjs, which compares all bytes of the result with those of
+// the WebAssembly module.
+//
+// Each line of standard input is METHOD PATH. The answer on standard output is the time of the
+// segmentation in milliseconds (float64), the number of bytes of the result (uint32), and these
+// bytes: labels, heights, patches, and the cell, width (uint32), heights and confidences of every
+// grid.
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <map>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "app/config/method_choice.hpp"
+#include "files/io/read_cloud.hpp"
+#include "lab/eval/method_runner.hpp"
+
+namespace flagstone {
+namespace {
+
+struct Method {
+  explicit Method(const config::ResolvedMethod& method) : runner(method.config, method.mount) {}
+
+  eval::MethodRunner runner;
+  Segmentation result;
+};
+
+void check(const Status& status) {
+  if (!status.ok()) throw std::runtime_error(status.message());
+}
+
+template <class T>
+void append(std::vector<std::byte>& bytes, std::span<const T> values) {
+  const auto added = std::as_bytes(values);
+  bytes.insert(bytes.end(), added.begin(), added.end());
+}
+
+template <class T>
+void append(std::vector<std::byte>& bytes, const T& value) {
+  append(bytes, std::span<const T>(&value, 1));
+}
+
+std::vector<std::byte> bytes_of(const Segmentation& result) {
+  std::vector<std::byte> bytes;
+  append(bytes, result.labels());
+  append(bytes, result.heights());
+  append(bytes, result.patches());
+  for (const GroundSurface::Grid& grid : result.surface().grids()) {
+    append(bytes, grid.cell);
+    append(bytes, static_cast<std::uint32_t>(grid.width));
+    append(bytes, std::span<const float>(grid.heights));
+    append(bytes, std::span<const float>(grid.confidences));
+  }
+  return bytes;
+}
+
+void write(const std::vector<std::byte>& bytes) {
+  std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+}
+
+void answer_all() {
+  std::map<std::string, Method> methods;
+  io::CloudReader reader;
+  std::string name;
+  std::string path;
+  std::string path_before;
+  while (std::cin >> name && std::getline(std::cin >> std::ws, path)) {
+    if (path != path_before) check(reader.read(path));
+    path_before = path;
+    auto [method, is_new] = methods.try_emplace(name, config::resolve_one({.methods = {name}}));
+    auto& [runner, result] = method->second;
+    runner.prepare(reader.cloud());
+    const auto start = std::chrono::steady_clock::now();
+    check(runner.segment(reader.cloud(), result));
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    const std::vector<std::byte> bytes = bytes_of(result);
+    std::vector<std::byte> answer;
+    append(answer, time.count());
+    append(answer, static_cast<std::uint32_t>(bytes.size()));
+    write(answer);
+    write(bytes);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+}  // namespace flagstone
+
+int main() {
+  try {
+    flagstone::answer_all();
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+}
