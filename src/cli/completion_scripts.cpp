@@ -152,7 +152,8 @@ std::string zsh_values(const CLI::Option& option) {
   if (values.words.empty()) return fmt::format("{}:{}", type, files);
   if (values.separated_by_commas) return fmt::format("{}:_values -s , {} {}", type, type, words);
   if (values.paths == Paths::none) return fmt::format("{}:({})", type, words);
-  return fmt::format("{}:_alternative \"names:name:({})\" \"files:file:{}\"", type, words, files);
+  // A colon would begin the next value of the option.
+  return fmt::format(R"-({}:_alternative "names\:name\:({})" "files\:file\:{}")-", type, words, files);
 }
 
 std::string zsh_option(const CLI::Option& option) {
