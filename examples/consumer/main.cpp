@@ -31,6 +31,7 @@ int main() {
   for (const flagstone::Label label : result.labels()) {
     if (label == flagstone::Label::ground) ++ground;
   }
-  std::printf("flagstone %s: %zu of %zu points are ground\n", FLAGSTONE_VERSION, ground, cloud.size());
+  std::printf("flagstone %s: %zu of %zu points are ground\n", FLAGSTONE_VERSION, ground,
+              cloud.size());
   return ground > 90000 && ground < cloud.size() ? 0 : 1;
 }

@@ -39,20 +39,18 @@ std::unique_ptr<Command> add_completion_command(CLI::App& app) {
   set_help(*command,
            {.examples = {{"source <(flagstone completion bash)", "in ~/.bashrc"},
                          {"source <(flagstone completion zsh)", "in ~/.zshrc, after compinit"},
-                         {"flagstone completion fish | source",
-                          "in ~/.config/fish/config.fish"}},
+                         {"flagstone completion fish | source", "in ~/.config/fish/config.fish"}},
             .notes = "The Debian package and 'make install' install these scripts.",
             .exit_codes = "0, success; 2, usage error."});
   auto made = std::make_unique<CompletionCommand>(*command);
-  add_choice_option<Script>(*command, "shell", "shell",
-                            {{"bash", bash_completions},
-                             {"zsh", zsh_completions},
-                             {"fish", fish_completions}},
-                            made->script,
-                            "Shell that runs the script"
-                            "\nbash\t4.4 or newer"
-                            "\nzsh\t5 or newer"
-                            "\nfish\t3 or newer")
+  add_choice_option<Script>(
+      *command, "shell", "shell",
+      {{"bash", bash_completions}, {"zsh", zsh_completions}, {"fish", fish_completions}},
+      made->script,
+      "Shell that runs the script"
+      "\nbash\t4.4 or newer"
+      "\nzsh\t5 or newer"
+      "\nfish\t3 or newer")
       ->required()
       ->type_name("SHELL");
   return made;

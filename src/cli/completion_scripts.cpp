@@ -97,8 +97,7 @@ std::string bash_cases(const CLI::App& command) {
     if (!takes_value(*option)) continue;
     std::string pattern;
     for (const std::string& word : words) {
-      pattern +=
-          fmt::format("{}'{} {}'", pattern.empty() ? "" : " | ", command.get_name(), word);
+      pattern += fmt::format("{}'{} {}'", pattern.empty() ? "" : " | ", command.get_name(), word);
     }
     text += fmt::format("    {}){} ;;\n", pattern, bash_values(values_of(*option)));
   }
@@ -110,7 +109,8 @@ std::string bash_cases(const CLI::App& command) {
   return text;
 }
 
-constexpr const char* bash_script = R"(# Completions of flagstone for bash, written by 'flagstone completion bash'.
+constexpr const char* bash_script =
+    R"(# Completions of flagstone for bash, written by 'flagstone completion bash'.
 _flagstone() {{
   local current=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}}
   local words='' options='' paths='' list='' prefix=''
@@ -153,7 +153,8 @@ std::string zsh_values(const CLI::Option& option) {
   if (values.separated_by_commas) return fmt::format("{}:_values -s , {} {}", type, type, words);
   if (values.paths == Paths::none) return fmt::format("{}:({})", type, words);
   // A colon would begin the next value of the option.
-  return fmt::format(R"-({}:_alternative "names\:name\:({})" "files\:file\:{}")-", type, words, files);
+  return fmt::format(R"-({}:_alternative "names\:name\:({})" "files\:file\:{}")-", type, words,
+                     files);
 }
 
 std::string zsh_option(const CLI::Option& option) {
@@ -178,7 +179,7 @@ std::string zsh_case(const CLI::App& command) {
   for (const CLI::Option* const option : options_of(command)) text += zsh_option(*option);
   for (const CLI::Option* const argument : arguments_of(command)) {
     text += fmt::format(" \\\n        {}", single_quoted((takes_many(*argument) ? "*:" : ":") +
-                                                  zsh_values(*argument)));
+                                                         zsh_values(*argument)));
   }
   return text + "\n      ;;\n";
 }
@@ -250,7 +251,8 @@ std::string bash_completions(const CLI::App& program) {
     cases += bash_cases(*command);
   }
   for (const CLI::Option* const option : options_of(program)) {
-    for (const std::string& word : words_of(*option)) options += (options.empty() ? "" : " ") + word;
+    for (const std::string& word : words_of(*option))
+      options += (options.empty() ? "" : " ") + word;
   }
   return fmt::format(bash_script, fmt::arg("commands", commands), fmt::arg("options", options),
                      fmt::arg("cases", cases));
@@ -262,7 +264,7 @@ std::string zsh_completions(const CLI::App& program) {
   std::string options;
   for (const CLI::App* const command : program.get_subcommands({})) {
     commands += fmt::format("      {}\n", single_quoted(fmt::format("{}:{}", command->get_name(),
-                                                             command->get_description())));
+                                                                    command->get_description())));
     cases += zsh_case(*command);
   }
   for (const CLI::Option* const option : options_of(program)) options += zsh_option(*option);

@@ -162,8 +162,8 @@ std::string man_page(const CLI::App& command) {
   std::string text = fmt::format(".TH {} 1 \"\" \"flagstone {}\" \"User Commands\"\n.nh\n.ad l\n",
                                  roff(upper_case(name)), FLAGSTONE_VERSION);
   text += section("Name") + fmt::format("{} \\- {}\n", roff(name), roff(summary));
-  text += section("Synopsis") + fmt::format("{} {}\n", bold(program + command.get_name()),
-                                            italic(usage_of(command)));
+  text += section("Synopsis") +
+          fmt::format("{} {}\n", bold(program + command.get_name()), italic(usage_of(command)));
   text += section("Description") + roff(description) + "\n";
   if (!help.notes.empty()) text += ".PP\n" + roff(help.notes) + "\n";
   text += commands(command) + options(command);

@@ -56,7 +56,7 @@ std::unique_ptr<Command> add_manual_command(CLI::App& app) {
   auto made = std::make_unique<ManualCommand>(*command);
   command->add_option("command", made->name, "Command to describe")
       ->default_str("the program")
-      ->type_name("COMMAND");
+      ->type_name("NAME");
   return made;
 }
 

@@ -100,7 +100,8 @@ rm -r $STATE
 class Completion : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    if (run_in_shell("/", std::string("command -v ") + GetParam() + " > /dev/null").exit_code != 0) {
+    if (run_in_shell("/", std::string("command -v ") + GetParam() + " > /dev/null").exit_code !=
+        0) {
       GTEST_SKIP() << GetParam() << " is not installed";
     }
     std::ofstream(program_) << program_of(GetParam());
@@ -154,8 +155,7 @@ TEST_P(Completion, OfNamesIsThoseThatTheOptionTakes) {
 }
 
 TEST_P(Completion, OfASensorIsItsNameOrAFile) {
-  EXPECT_THAT(completed("flagstone segment --sensor v"),
-              IsSupersetOf({"vlp-16", "velodyne.toml"}));
+  EXPECT_THAT(completed("flagstone segment --sensor v"), IsSupersetOf({"vlp-16", "velodyne.toml"}));
 }
 
 TEST_P(Completion, OfAnOutputDirectoryIsDirectories) {
@@ -193,8 +193,8 @@ std::string suggested(const std::string& script, const std::string& command,
 TEST(CompletionCommand, SuggestsValuesForEveryOptionThatTakesAName) {
   const std::string script = run({"completion", "bash"}).out;
   int options = 0;
-  for (const char* command : {"segment", "map", "bag", "ray", "doctor", "eval", "sweep", "bench",
-                              "simulate", "config"}) {
+  for (const char* command :
+       {"segment", "map", "bag", "ray", "doctor", "eval", "sweep", "bench", "simulate", "config"}) {
     const std::string help = run({command, "--help"}).out;
     const std::regex pattern(R"(\n  (--[a-z-]+) (NAME|KIND|FORMAT)\b(?!=))");
     for (std::sregex_iterator found(help.begin(), help.end(), pattern), end; found != end;

@@ -30,9 +30,9 @@ TEST(Manual, HasTheSectionsOfAManualPageInTheirOrder) {
 
   EXPECT_THAT(page, StartsWith(R"(.TH FLAGSTONE\-SIMULATE 1 "" "flagstone )" FLAGSTONE_VERSION));
   std::size_t at = 0;
-  for (const char* section : {"NAME\nflagstone\\-simulate \\- Simulate a sequence", "SYNOPSIS",
-                              "DESCRIPTION", "OPTIONS", "SCENES", "EXIT STATUS", "EXAMPLES",
-                              "SEE ALSO\n.BR flagstone (1),"}) {
+  for (const char* section :
+       {"NAME\nflagstone\\-simulate \\- Simulate a sequence", "SYNOPSIS", "DESCRIPTION", "OPTIONS",
+        "SCENES", "EXIT STATUS", "EXAMPLES", "SEE ALSO\n.BR flagstone (1),"}) {
     const std::size_t found = page.find(std::string("\n.SH ") + section, at);
     ASSERT_NE(found, std::string::npos) << section;
     at = found;
