@@ -73,9 +73,9 @@ class Flagstone(ConanFile):
         library.libs = ["flagstone"]
         library.set_property("cmake_target_name", "flagstone::flagstone")
         library.set_property("pkg_config_name", "flagstone")
-        if self.dependencies["highway"].package_folder:
+        if any(dependency.ref.name == "highway" for dependency in self.dependencies.host.values()):
             library.requires = ["highway::highway"]
-        else:  # the profile declares a Highway of the system
+        else:  # the profile declares the Highway of the system
             library.system_libs = ["hwy"]
         if self.settings.os == "Linux":
             library.system_libs.append("pthread")
