@@ -5,10 +5,11 @@
 # for example CMAKE_FLAGS=-DBUILD_SHARED_LIBS=ON.
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
+PACKAGES := deb conan vcpkg conda docker consumers
 MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence bench-codec latency soak-test surface-figures
 
-.PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel web \
-        test-web test-page \
+.PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
+        web test-web test-page packages $(PACKAGES) sbom \
         bench-compare bench-bags $(MEASUREMENTS) surface-study worlds-study invariance-study runs-study contact-sheet \
         map-image clean
 .DEFAULT_GOAL := build
@@ -24,7 +25,8 @@ build: ## install missing tools, build the library and the command: build/flagst
 demo: build ## build the command, simulate a street, segment and score it
 	@build/flagstone demo
 
-install: build ## install the library and the command under PREFIX (/usr/local)
+install: build ## install the library, the command, its manual pages and completions under PREFIX (/usr/local)
+	@cmake --build build --target libflagstone_baselines flagstone_shell_files
 	@cmake --install build --prefix $(PREFIX)
 
 test: ## build and test the library, the command and the Python package
@@ -66,6 +68,21 @@ test-page: web ## test the page in web/page/dist in headless Chromium; screensho
 test-web: ## compare all bytes and times of the WebAssembly module with the native build; on every scan of FLAGSTONE_DATA and in every scene
 	@scripts/setup build test python web && scripts/web build && scripts/test web
 
+packages: $(PACKAGES) ## build and test every package below, print a table
+	@scripts/packages/row
+
+deb: ## build the Debian packages and test them in a new Debian system
+conan: ## build the Conan package and test it
+vcpkg: ## test the vcpkg port; VCPKG_ROOT: the directory of vcpkg, if you have it
+conda: ## check the conda recipe
+docker: ## check the Dockerfile, build the image and test it
+consumers: ## build examples/consumer from the sources and with `make install`
+$(PACKAGES):
+	@scripts/setup build packages && scripts/packages/$@
+
+sbom: ## write the bill of materials: build-packages/flagstone.cdx.json
+	@mkdir -p build-packages && scripts/sbom > build-packages/flagstone.cdx.json && echo build-packages/flagstone.cdx.json
+
 bench-compare: build ## compare the speed of METHOD in the working tree and in REVISION on SCANS
 	@python3 bench/compare.py $(if $(REVISION),--revision $(REVISION)) $(if $(METHOD),--method $(METHOD)) $(if $(TARGET),--target $(TARGET)) $(SCANS)
 
@@ -103,4 +120,5 @@ map-image: build ## simulate and map a run and draw its ground and moving points
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/map_image.py $(IMAGE)
 
 clean: ## remove the build trees
-	@rm -rf build build-python build-fuzz build-thread build-sanitize build-sanitize-thread build-compare build-web
+	@rm -rf build build-python build-fuzz build-thread build-sanitize build-sanitize-thread build-compare build-web build-packages
+	@rm -rf web/dist web/page/dist web/page/public/samples web/page/screenshots

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# The install tree: the library, its headers, the files for CMake and pkg-config, the command and the licence. It is
-# relocatable.
+# The install tree: the library, its headers, the files for CMake and pkg-config, the command with its manual pages and
+# completions, and the licence. It is relocatable.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -59,4 +59,19 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/flagstone DESTINATION ${CMAKE_IN
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(FLAGSTONE_BUILD_COMMAND)
   install(TARGETS flagstone)
+
+  # Manual pages and completions. The command writes them, so a cross build needs CMAKE_CROSSCOMPILING_EMULATOR.
+  set(shell_files ${PROJECT_BINARY_DIR}/shell_files)
+  add_custom_command(
+    OUTPUT ${shell_files}/man1/flagstone.1
+    COMMAND ${CMAKE_COMMAND} -DCOMMAND=$<TARGET_FILE:flagstone> "-DRUN_BY=${CMAKE_CROSSCOMPILING_EMULATOR}"
+            -DOUTPUT=${shell_files} -P ${PROJECT_SOURCE_DIR}/cmake/shell_files.cmake
+    DEPENDS flagstone ${PROJECT_SOURCE_DIR}/cmake/shell_files.cmake
+    COMMENT "Writing manual pages and completions"
+    VERBATIM)
+  add_custom_target(flagstone_shell_files ALL DEPENDS ${shell_files}/man1/flagstone.1)
+  install(DIRECTORY ${shell_files}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+  install(FILES ${shell_files}/bash/flagstone DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${shell_files}/zsh/_flagstone DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+  install(FILES ${shell_files}/fish/flagstone.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 endif()

@@ -47,7 +47,8 @@ function(flagstone_library name)
 endfunction()
 
 # `flagstone_public_library(NAME FOLDERS FOLDER... [LINK LIBRARY...])` adds the public, installed library flagstone::NAME
-# from the objects of directories in src. It is shared if BUILD_SHARED_LIBS is ON. Its interface is include/flagstone.
+# from the objects of directories in src. It is shared if BUILD_SHARED_LIBS is ON; its name then ends in FLAGSTONE_ABI.
+# Its interface is include/flagstone.
 # Targets of this project link the targets of the directories instead, so that tests can use internal headers.
 function(flagstone_public_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;LINK")
@@ -79,7 +80,7 @@ function(flagstone_public_library name)
                EXPORT_NAME ${name}
                LINKER_LANGUAGE CXX
                VERSION ${PROJECT_VERSION}
-               SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+               SOVERSION ${FLAGSTONE_ABI})
 endfunction()
 
 # flagstone_test(NAME SOURCES... LINK libraries... [SHARDS n]) adds a GoogleTest program and registers it with ctest: as

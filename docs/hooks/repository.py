@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Connects the site with the source tree around docs/.
 
-README.md becomes the home page; CHANGELOG.md and CONTRIBUTING.md become pages too. Pages link to source files, so that
+README.md becomes the home page; CHANGELOG.md, CONTRIBUTING.md and RELEASING.md become pages too. Pages link to source files, so that
 readers on a code host can follow the links. The site contains no sources, so it shows the path instead. A link to a
 missing file is a warning, which fails a strict build.
 """
@@ -28,6 +28,7 @@ ROOT_PAGES = {
     "index.md": "README.md",
     "contributing/changelog.md": "CHANGELOG.md",
     "contributing/contributing.md": "CONTRIBUTING.md",
+    "contributing/releasing.md": "RELEASING.md",
 }
 LINK = re.compile(r"(?P<image>!?)\[(?P<text>[^\[\]]*)\]\((?P<target>[^()\s#]+)(?P<anchor>#[^()\s]*)?\)")
 

@@ -42,5 +42,7 @@ std::unique_ptr<Command> add_demo_command(CLI::App& app);
 std::unique_ptr<Command> add_simulate_command(CLI::App& app);
 std::unique_ptr<Command> add_config_command(CLI::App& app);
 std::unique_ptr<Command> add_sensors_command(CLI::App& app);
+std::unique_ptr<Command> add_completion_command(CLI::App& app);
+std::unique_ptr<Command> add_manual_command(CLI::App& app);
 
 }  // namespace flagstone::cli

@@ -34,10 +34,6 @@ std::size_t help_width() {
   return std::clamp<std::size_t>(size.ws_col, narrowest, widest);
 }
 
-bool takes_many(const CLI::Option& option) {
-  return option.get_expected_max() >= CLI::detail::expected_max_vector_size;
-}
-
 /// "(default: surface)", "(required)", or nothing.
 std::string notes_of(const CLI::Option& option) {
   std::vector<std::string> notes;
@@ -62,10 +58,13 @@ class CommandHelp final : public CLI::FormatterBase {
  public:
   explicit CommandHelp(Help help) : help_(std::move(help)) {}
 
+  [[nodiscard]] const Help& help() const noexcept { return help_; }
+
   std::string make_help(const CLI::App* command, std::string name,
                         CLI::AppFormatMode /*mode*/) const override {
     const Page page;
-    return page.paragraph(command->get_description()) + usage(*command, name) + examples(page) +
+    return page.paragraph(command->get_description()) +
+           fmt::format("\nUsage: {} {}\n", name, usage_of(*command)) + examples(page) +
            arguments(*command, page) + commands(*command, page) + options(*command, page) +
            lists(page) + (help_.notes.empty() ? "" : "\n" + page.paragraph(help_.notes)) + "\n" +
            page.paragraph("Exit codes: " + help_.exit_codes);
@@ -89,18 +88,6 @@ class CommandHelp final : public CLI::FormatterBase {
           app::wrapped(meaning, {.column = column, .indent = column, .width = width}));
     }
   };
-
-  static std::string usage(const CLI::App& command, const std::string& name) {
-    std::string text = fmt::format("\nUsage: {}", name);
-    if (!command.get_subcommands({}).empty()) return text + " COMMAND [OPTIONS] ...\n";
-    text += " [OPTIONS]";
-    for (const CLI::Option* const option : command.get_options()) {
-      if (!option->get_positional()) continue;
-      const std::string label = label_of(*option);
-      text += option->get_required() ? " " + label : " [" + label + "]";
-    }
-    return text + "\n";
-  }
 
   /// Each meaning to the right of its command if all have room there, otherwise below it.
   [[nodiscard]] std::string examples(const Page& page) const {
@@ -146,52 +133,22 @@ class CommandHelp final : public CLI::FormatterBase {
     return text;
   }
 
-  static std::string options_of_group(const CLI::App& command, const std::string& group,
-                                      const Page& page) {
-    std::string entries;
-    std::string last;
-    for (const CLI::Option* const option : command.get_options()) {
-      if (option->get_positional() || option->get_group() != group) continue;
-      (option == command.get_help_ptr() ? last : entries) += option_entry(*option, page);
-    }
-    return (entries + last).empty() ? "" : fmt::format("\n{}:\n{}{}", group, entries, last);
-  }
-
   static std::string options(const CLI::App& command, const Page& page) {
-    // Input comes first, then the groups of the command in their order, then output and other.
-    constexpr int group_ranks = 4;
-    const auto rank_of = [](const std::string& name) {
-      return name == input_group ? 0 : name == output_group ? 2 : name == other_group ? 3 : 1;
-    };
     std::string text;
-    for (int rank = 0; rank < group_ranks; ++rank) {
-      for (const std::string& group : command.get_groups()) {
-        if (rank_of(group) == rank) text += options_of_group(command, group, page);
-      }
+    for (const OptionGroup& group : option_groups(command)) {
+      text += fmt::format("\n{}:\n", group.name);
+      for (const CLI::Option* const option : group.options) text += option_entry(*option, page);
     }
     return text;
   }
 
   static std::string option_entry(const CLI::Option& option, const Page& page) {
-    const std::string& description = option.get_description();
-    std::string_view rest = description;
-    const auto next_line = [&rest] {
-      const std::string_view line = rest.substr(0, rest.find('\n'));
-      rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-      return line;
-    };
-    const std::string meaning = std::string(next_line()) + notes_of(option);
+    const auto [meaning, names] = text_of(option);
     std::string text = page.entry(label_of(option), meaning, meaning_column);
     std::ranges::replace(text, hard_space, ' ');
-    std::vector<std::pair<std::string_view, std::string_view>> table;
     std::size_t widest = 0;
-    while (!rest.empty()) {
-      const std::string_view line = next_line();
-      const std::size_t tab = line.find('\t');
-      table.emplace_back(line.substr(0, tab), line.substr(tab + 1));
-      widest = std::max(widest, tab);
-    }
-    for (const auto& [name, value] : table) {
+    for (const auto& [name, value] : names) widest = std::max(widest, name.size());
+    for (const auto& [name, value] : names) {
       text += page.entry(name, value, meaning_column + widest + 2, meaning_column);
     }
     return text;
@@ -220,6 +177,10 @@ void set_help(CLI::App& command, Help help) {
   command.formatter(std::make_shared<CommandHelp>(std::move(help)));
 }
 
+const Help& help_of(const CLI::App& command) {
+  return dynamic_cast<const CommandHelp&>(*command.get_formatter()).help();
+}
+
 std::string label_of(const CLI::Option& option) {
   if (option.get_positional()) return option.get_type_name() + (takes_many(option) ? "..." : "");
   std::vector<std::string> names;
@@ -228,6 +189,61 @@ std::string label_of(const CLI::Option& option) {
   std::string label = fmt::format("{}", fmt::join(names, ", "));
   if (option.get_items_expected_max() > 0) label += " " + option.get_type_name();
   return label;
+}
+
+bool takes_many(const CLI::Option& option) {
+  return option.get_expected_max() >= CLI::detail::expected_max_vector_size;
+}
+
+OptionText text_of(const CLI::Option& option) {
+  const std::string& description = option.get_description();
+  std::string_view rest = description;
+  const auto next_line = [&rest] {
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    return line;
+  };
+  OptionText text{.meaning = std::string(next_line()) + notes_of(option)};
+  while (!rest.empty()) {
+    const std::string_view line = next_line();
+    const std::size_t tab = line.find('\t');
+    text.names.emplace_back(line.substr(0, tab), line.substr(tab + 1));
+  }
+  return text;
+}
+
+std::vector<OptionGroup> option_groups(const CLI::App& command) {
+  // Input comes first, then the groups of the command in their order, then output and other.
+  constexpr int group_ranks = 4;
+  const auto rank_of = [](const std::string& name) {
+    return name == input_group ? 0 : name == output_group ? 2 : name == other_group ? 3 : 1;
+  };
+  std::vector<OptionGroup> groups;
+  for (int rank = 0; rank < group_ranks; ++rank) {
+    for (const std::string& name : command.get_groups()) {
+      if (rank_of(name) != rank) continue;
+      OptionGroup group{.name = name};
+      for (const CLI::Option* const option : command.get_options()) {
+        if (option->get_positional() || option->get_group() != name) continue;
+        if (option != command.get_help_ptr()) group.options.push_back(option);
+      }
+      const CLI::Option* const help = command.get_help_ptr();
+      if (help != nullptr && help->get_group() == name) group.options.push_back(help);
+      if (!group.options.empty()) groups.push_back(std::move(group));
+    }
+  }
+  return groups;
+}
+
+std::string usage_of(const CLI::App& command) {
+  if (!command.get_subcommands({}).empty()) return "COMMAND [OPTIONS] ...";
+  std::string text = "[OPTIONS]";
+  for (const CLI::Option* const option : command.get_options()) {
+    if (!option->get_positional()) continue;
+    const std::string label = label_of(*option);
+    text += option->get_required() ? " " + label : " [" + label + "]";
+  }
+  return text;
 }
 
 }  // namespace flagstone::cli

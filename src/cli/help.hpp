@@ -48,7 +48,32 @@ struct Help {
 /// with lines of the form "\nNAME\tMEANING", which are printed as a table.
 void set_help(CLI::App& command, Help help);
 
+/// What set_help() gave to a command.
+const Help& help_of(const CLI::App& command);
+
 /// "SCAN..." for an argument, "-o, --output DIR" for an option.
 std::string label_of(const CLI::Option& option);
+
+/// Whether an argument or option takes any number of values.
+bool takes_many(const CLI::Option& option);
+
+/// What an option means, with its notes in parentheses, and the table of names that its description
+/// may have.
+struct OptionText {
+  std::string meaning;
+  std::vector<std::pair<std::string, std::string>> names{};
+};
+OptionText text_of(const CLI::Option& option);
+
+struct OptionGroup {
+  std::string name;
+  std::vector<const CLI::Option*> options{};
+};
+
+/// The options of a command by group, in the order of its help.
+std::vector<OptionGroup> option_groups(const CLI::App& command);
+
+/// The words after the name of a command: "[OPTIONS] SCAN...".
+std::string usage_of(const CLI::App& command);
 
 }  // namespace flagstone::cli

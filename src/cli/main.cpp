@@ -36,6 +36,7 @@ std::vector<std::unique_ptr<flagstone::cli::Command>> add_commands(CLI::App& app
   add_group("Measure accuracy and speed", add_eval_command, add_sweep_command, add_bench_command);
   add_group("Simulate scans", add_demo_command, add_simulate_command);
   add_group("Settings", add_config_command, add_sensors_command);
+  add_group("Install", add_completion_command, add_manual_command);
   return commands;
 }
 

@@ -39,9 +39,9 @@ std::vector<std::string> listed_commands() {
 }
 
 TEST(Help, ListsEveryCommandOnOneLine) {
-  EXPECT_THAT(listed_commands(),
-              testing::ElementsAre("segment", "bag", "ray", "doctor", "info", "eval", "sweep",
-                                   "bench", "demo", "simulate", "config", "sensors"));
+  EXPECT_THAT(listed_commands(), testing::ElementsAre("segment", "bag", "ray", "doctor", "info",
+                                                      "eval", "sweep", "bench", "demo", "simulate",
+                                                      "config", "sensors", "completion", "manual"));
 }
 
 TEST(Help, OfEveryCommandHasPurposeUsageExamplesOptionsAndExitCodesInThisOrder) {
