@@ -209,7 +209,7 @@ fi
 std::string fish_values(const OptionValues& values) {
   std::string text;
   if (values.separated_by_commas && !values.words.empty()) {
-    text += fmt::format(" -a \"(__fish_complete_list , 'string split \\\" \\\" \\\"{}\\\"')\"",
+    text += fmt::format(R"-( -a "(__fish_complete_list , 'string split \" \" \"{}\"')")-",
                         fmt::join(values.words, " "));
   } else if (!values.words.empty()) {
     text += fmt::format(" -a {}", fish_quoted(fmt::format("{}", fmt::join(values.words, " "))));

@@ -7,7 +7,7 @@
 #include <CLI/Formatter.hpp>
 #include <CLI/Option.hpp>
 #include <algorithm>
-#include <iterator>
+#include <array>
 #include <string_view>
 
 #include "app/config/method_choice.hpp"
@@ -102,9 +102,9 @@ OptionValues values_of(const CLI::Option& option) {
   for (const std::string_view part : parts_of(type, "|")) {
     // The type "off|estimate|X,Y,Z" names words. Other parts describe a value.
     if (is_word(part)) values.words.emplace_back(part);
-    constexpr std::string_view all_paths[] = {"FILE", "PATH", "SCAN",  "SOURCE", "IN",
-                                              "OUT",  "RUN",  "POSES", "COMMAND"};
-    if (std::ranges::find(all_paths, part) != std::end(all_paths)) {
+    constexpr std::array<std::string_view, 9> all_paths{"FILE", "PATH", "SCAN",  "SOURCE", "IN",
+                                                        "OUT",  "RUN",  "POSES", "COMMAND"};
+    if (std::ranges::find(all_paths, part) != all_paths.end()) {
       values.paths = OptionValues::Paths::all;
     } else if (part == "DIR" || part == "DATASET") {
       values.paths = OptionValues::Paths::directories;
