@@ -13,7 +13,7 @@ set(CMAKE_C_COMPILER ${FLAGSTONE_ZIG} cc)
 set(CMAKE_CXX_COMPILER ${FLAGSTONE_ZIG} c++)
 set(CMAKE_HAVE_LIBC_PTHREAD ON CACHE INTERNAL "") # functions that do nothing or fail
 foreach(language C CXX)
-  # All browsers since 2021 have SIMD, and since 2022 exceptions.
+  # Chrome 95, Firefox 100 and Safari 16.4 have SIMD and exceptions.
   set(CMAKE_${language}_FLAGS_INIT "-target wasm32-wasi -mcpu=lime1+exception_handling+simd128 -fwasm-exceptions \
 -fno-sanitize=undefined -g0")
   set(CMAKE_${language}_ARCHIVE_CREATE "${FLAGSTONE_ZIG} ar qc <TARGET> <OBJECTS>")

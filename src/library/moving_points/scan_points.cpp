@@ -50,8 +50,7 @@ class PointReader {
     const FloatTag d;
     const IntTag di;
     const hn::Rebind<std::uint8_t, FloatTag> d8;
-    const auto byte = hn::LoadU(d8, labels_ + i);
-    const IntVector label = hn::PromoteTo(di, byte);
+    const IntVector label = hn::PromoteTo(di, hn::LoadU(d8, labels_ + i));
     const FloatVector height = hn::LoadU(d, heights_ + i);
     const auto has = [&](Label value) HWY_ATTR {
       return hn::RebindMask(d, hn::Eq(label, hn::Set(di, static_cast<int>(value))));
@@ -106,7 +105,6 @@ class PointReader {
     constexpr float min_height = 0.25F;  // metres
     constexpr float max_height = 2.2F;   // metres
     constexpr float max_range = 40;      // metres
-    const FloatTag d;
     const IntTag di;
     const auto object = hn::And(
         nonground, hn::And(hn::Gt(height, number(min_height)), hn::Lt(height, number(max_height))));
@@ -118,7 +116,6 @@ class PointReader {
     const IntVector outside = hn::Set(di, static_cast<int>(2 * rule_.columns.outside()));
     hn::StoreU(hn::IfThenElse(hn::RebindMask(di, used), value, outside), di,
                reinterpret_cast<std::int32_t*>(to_.in_columns + k));
-    static_cast<void>(d);
   }
 
   // Points whose height is unknown could move, too.
