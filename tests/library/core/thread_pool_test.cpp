@@ -200,6 +200,9 @@ TEST_P(ThreadPoolOf, ParallelForRethrowsTheFirstExceptionAndStartsNoMoreJobs) {
       return [&](std::size_t job) {
         ++done;
         if (job == 3) throw std::runtime_error("job 3");
+        // The other threads are still busy when the exception arrives, even if the thread of job 3
+        // has to wait for a core.
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
       };
     });
   };
