@@ -120,5 +120,5 @@ map-image: build ## simulate and map a run and draw its ground and moving points
 	@scripts/setup plot && "$$(scripts/python plotting)" bench/map_image.py $(IMAGE)
 
 clean: ## remove the build trees
-	@rm -rf build build-python build-fuzz build-thread build-sanitize build-sanitize-thread build-compare build-web build-packages
+	@rm -rf build build-python build-tidy build-fuzz build-thread build-sanitize build-sanitize-thread build-compare build-web build-packages
 	@rm -rf web/dist web/page/dist web/page/public/samples web/page/screenshots
