@@ -92,6 +92,15 @@ Status GroundMap::Tiles::unload() {
 /// Working memory for one scan.
 class GroundMap::Builder {
  public:
+  /// The scan that was fitted last.
+  struct Fitted {
+    bool is_current = false;  ///< to the map as it is now
+    Pose pose;
+    Levelling levelling;
+    std::span<const MeasuredHeight> heights;
+  };
+
+  Fitted fitted;
   ScanHeights heights;
   std::vector<HeightDifference> differences;
   std::vector<double> memory;
@@ -117,11 +126,13 @@ GroundMap& GroundMap::operator=(GroundMap&&) noexcept = default;
 const GroundMapConfig& GroundMap::config() const noexcept { return tiles_->config; }
 
 Status GroundMap::fit(CloudView cloud, const Segmentation& result, const Pose& pose,
-                      std::span<const MeasuredHeight>& heights, Levelling& levelling) {
+                      Levelling& levelling) {
   levelling = {};
+  builder_->fitted.is_current = false;
   if (Status status = check_scan("ground map", cloud, result, pose); !status.ok()) return status;
   constexpr float max_range_for_level = 30;  // metres
-  heights = builder_->heights.measure(cloud, result, pose, tiles_->config);
+  const std::span<const MeasuredHeight> heights =
+      builder_->heights.measure(cloud, result, pose, tiles_->config);
   if (Status status = tiles_->recall(heights); !status.ok()) return status;
   builder_->differences.clear();
   TileIndex last;  // most cells are in the same tile as the one before
@@ -142,6 +153,7 @@ Status GroundMap::fit(CloudView cloud, const Segmentation& result, const Pose& p
   levelling = fit_level(builder_->differences, tiles_->last.continued_at(pose),
                         tiles_->config.max_correction, builder_->memory);
   levelling = tiles_->last.without_forgotten(pose, levelling);
+  builder_->fitted = {.is_current = true, .pose = pose, .levelling = levelling, .heights = heights};
   return {};
 }
 
@@ -149,8 +161,7 @@ Status GroundMap::level(CloudView cloud, const Segmentation& result, const Pose&
                         Levelling& levelling) {
   const ScopedFloatingPointMode mode;
   try {
-    std::span<const MeasuredHeight> heights;
-    if (Status status = fit(cloud, result, pose, heights, levelling); !status.ok()) return status;
+    if (Status status = fit(cloud, result, pose, levelling); !status.ok()) return status;
     return tiles_->unload();
   } catch (const std::bad_alloc&) {
     return Status(StatusCode::out_of_memory);
@@ -160,12 +171,35 @@ Status GroundMap::level(CloudView cloud, const Segmentation& result, const Pose&
 Status GroundMap::add(CloudView cloud, const Segmentation& result, const Pose& pose,
                       Levelling& levelling) {
   const ScopedFloatingPointMode mode;
-  Tiles& map = *tiles_;
   try {
-    std::span<const MeasuredHeight> heights;
-    if (const Status status = fit(cloud, result, pose, heights, levelling); !status.ok()) {
-      return status;
-    }
+    if (Status status = fit(cloud, result, pose, levelling); !status.ok()) return status;
+  } catch (const std::bad_alloc&) {
+    return Status(StatusCode::out_of_memory);
+  }
+  return add_fitted();
+}
+
+Status GroundMap::add_levelled() {
+  if (!builder_->fitted.is_current) {
+    return Status(StatusCode::invalid_argument,
+                  "ground map: no scan is fitted to the map as it is now (expected a call of level "
+                  "before)");
+  }
+  const ScopedFloatingPointMode mode;
+  try {
+    if (Status status = tiles_->recall(builder_->fitted.heights); !status.ok()) return status;
+  } catch (const std::bad_alloc&) {
+    return Status(StatusCode::out_of_memory);
+  }
+  return add_fitted();
+}
+
+// The tiles of the scan are in memory, as far as the map has them.
+Status GroundMap::add_fitted() {
+  Tiles& map = *tiles_;
+  builder_->fitted.is_current = false;
+  const auto& [is_current, pose, levelling, heights] = builder_->fitted;
+  try {
     for (const MeasuredHeight& measured : heights) {
       map.cells.allocate(CellTiles::tile_of(measured.cell), map.scans);
     }
@@ -292,6 +326,7 @@ Status GroundMap::from_bytes(std::span<const std::byte> bytes) {
     tiles_->base = base;
     tiles_->scans = static_cast<std::size_t>(scans);
     tiles_->last = last_levelling_of(numbers);
+    builder_->fitted.is_current = false;
     if (tiles_->archive) tiles_->archive->clear();
     return tiles_->unload();
   } catch (const std::bad_alloc&) {

@@ -226,6 +226,40 @@ TEST(GroundMap, AWrongHeightGivesWayToTheHeightThatMoreScansMeasured) {
   EXPECT_EQ(map.at(8.1, 0.1).scans, 2U);
 }
 
+TEST(GroundMap, AScanThatWasLevelledIsAddedWithTheSameResult) {
+  GroundMap at_once;
+  GroundMap in_two_steps;
+  for (double x = 0; x < 60; x += 5) {
+    const Pose pose = wrong(upright_pose(hills, x, 0), 0.01 * x, 0.002);
+    const GroundScan scan(hills, pose);
+    const Levelling expected = add(at_once, scan, pose);
+    Levelling levelling;
+    ASSERT_TRUE(in_two_steps.level(scan.view(), scan.result, pose, levelling).ok());
+    EXPECT_TRUE(in_two_steps.add_levelled().ok());
+    EXPECT_EQ(levelling.offset, expected.offset);
+  }
+  std::vector<std::byte> expected;
+  std::vector<std::byte> bytes;
+  ASSERT_TRUE(at_once.to_bytes(expected).ok());
+  ASSERT_TRUE(in_two_steps.to_bytes(bytes).ok());
+  EXPECT_EQ(bytes, expected);
+}
+
+TEST(GroundMap, AddsOnlyAScanThatWasLevelledToTheMapAsItIs) {
+  const Pose pose = upright_pose(hills, 0, 0);
+  const GroundScan scan(hills, pose);
+  GroundMap map;
+  Levelling levelling;
+  EXPECT_EQ(map.add_levelled().code(), StatusCode::invalid_argument);  // no scan
+  ASSERT_TRUE(map.level(scan.view(), scan.result, pose, levelling).ok());
+  add(map, scan, pose);
+  EXPECT_EQ(map.add_levelled().code(), StatusCode::invalid_argument);  // the map changed
+  ASSERT_TRUE(map.level(scan.view(), scan.result, pose, levelling).ok());
+  EXPECT_TRUE(map.add_levelled().ok());
+  EXPECT_EQ(map.add_levelled().code(), StatusCode::invalid_argument);  // it was added
+  EXPECT_EQ(map.scans(), 2U);
+}
+
 TEST(GroundMap, AgeCountsTheScansSinceTheLastMeasurement) {
   GroundMap map;
   const Pose here = upright_pose(level_ground, 0, 0);
