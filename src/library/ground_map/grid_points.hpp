@@ -5,11 +5,19 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "flagstone/cloud_view.hpp"
-#include "flagstone/segmentation.hpp"
+#include "flagstone/label.hpp"
 
 namespace flagstone {
+
+/// A scan with the labels and heights of its points.
+struct LabelledScan {
+  CloudView cloud;
+  std::span<const Label> labels;
+  std::span<const float> heights;  ///< above the ground, metres
+};
 
 /// Which points of a scan to use: those labelled `ground`, and those labelled `nonground` if
 /// wanted, between two heights above the ground and nearer than `reach`.
@@ -19,7 +27,8 @@ struct PointFilter {
   float reach = 0;                       ///< horizontal, in the frame of the sensor, metres
 };
 
-/// A grid of columns, rows and levels in the world frame, around a sensor.
+/// A grid of columns, rows and levels in the world frame, around a sensor. Points are rounded to
+/// float, relative to the sensor.
 struct WorldGrid {
   std::array<double, 9> rotation{};   ///< from the sensor frame to the world frame, row by row
   std::array<double, 3> to_sensor{};  ///< from the corner of the grid to the sensor, metres
@@ -30,27 +39,22 @@ struct WorldGrid {
   bool on_ground = false;             ///< points are moved down to the ground below them
 };
 
-/// The positions of consecutive points in a grid.
+/// Those of a few consecutive points that pass a filter and are in a grid.
 struct GridPoints {
   static constexpr std::size_t capacity = 512;
 
-  /// Level of the corner of the grid, so that levels are positive.
-  static constexpr std::int32_t base_level = 1 << 30;
-
   std::size_t count = 0;
-  alignas(64) std::array<std::int32_t, capacity> column;  ///< of x, rounded down
-  alignas(64) std::array<std::int32_t, capacity> row;     ///< of y, rounded down
-  alignas(64) std::array<std::int32_t, capacity> level;   ///< of z, rounded down, plus base_level
-
-  /// False for a point that does not pass the filter or is outside of the grid.
-  [[nodiscard]] bool inside(std::size_t i) const noexcept {
-    return (column[i] | row[i] | level[i]) >= 0;
-  }
+  /// Vectors are stored as a whole.
+  using Numbers = std::array<std::int32_t, capacity + 16>;
+  Numbers point;   ///< index in the scan, ascending
+  Numbers column;  ///< of x, rounded down
+  Numbers row;     ///< of y, rounded down
+  Numbers level;   ///< of z, rounded down; can be negative
 };
 
-/// Finds the positions of the points from `begin` on, at most GridPoints::capacity. The result has
-/// labels and heights for all points of the cloud.
-void find_in_grid(const CloudView& cloud, const Segmentation& result, const PointFilter& filter,
-                  const WorldGrid& grid, std::size_t begin, GridPoints& points) noexcept;
+/// Finds the positions of the points from `begin` on, at most GridPoints::capacity. The same on
+/// every instruction set.
+void find_in_grid(const LabelledScan& scan, const PointFilter& filter, const WorldGrid& grid,
+                  std::size_t begin, GridPoints& points) noexcept;
 
 }  // namespace flagstone

@@ -55,11 +55,11 @@ Label winner(std::int32_t sum, Label own) noexcept {
 std::int32_t vote_of(const LevelledScan& scan, const ScanVoxels::Voxel& voxel) noexcept {
   constexpr double unit = 4096;
   constexpr double half_weight_range = 15;  // metres
-  const double share = static_cast<double>(voxel.ground) / voxel.all;
-  const double squared = scan.squared_range(voxel.tile, voxel.key);
-  const double weight = 1 / (1 + squared / (half_weight_range * half_weight_range));
-  const double vote = unit * weight * (share - 0.5);
-  return static_cast<std::int32_t>(vote < 0 ? vote - 0.5 : vote + 0.5);  // rounded
+  constexpr double half_weight = half_weight_range * half_weight_range;
+  const double majority = 2.0 * voxel.ground - voxel.all;  // 2 all (g - 0.5)
+  const double vote = unit * half_weight * majority /
+                      (2.0 * voxel.all * (half_weight + scan.squared_range(voxel.at)));
+  return static_cast<std::int32_t>(vote + std::copysign(0.5, vote));  // rounded
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ class LabelVote::Votes {
   LabelVoteConfig config;
   VoxelTiles tiles;
 
-  void count(const LevelledScan& scan, CloudView cloud, const Segmentation& result);
+  void count(const LevelledScan& scan, std::span<const Label> labels);
   void add(const LevelledScan& scan);
   void write(std::span<const Label> own, std::span<Label> labels) const noexcept;
   void forget_beyond(const Pose& pose) noexcept;
@@ -81,27 +81,33 @@ class LabelVote::Votes {
     std::uint32_t point, voxel;
   };
 
+  struct Vote {
+    VoxelTile* tile;
+    std::uint32_t key;
+    std::int32_t vote;
+  };
+
   // Working memory for one scan.
   ScanVoxels of_scan_;
   std::vector<VotingPoint> points_;
-  std::vector<VoxelTile*> tile_of_place_;   // null: not looked up yet
-  std::vector<std::int32_t> votes_, sums_;  // of the voxels of the scan
+  std::vector<VoxelTile*> tile_of_place_;  // null: not looked up yet
+  std::vector<Vote> votes_;                // of the voxels of the scan
+  std::vector<std::int32_t> sums_;         // of the same voxels, after the votes
 };
 
 // Counts the points of a scan in each voxel.
-void LabelVote::Votes::count(const LevelledScan& scan, CloudView cloud,
-                             const Segmentation& result) {
+void LabelVote::Votes::count(const LevelledScan& scan, std::span<const Label> labels) {
   of_scan_.clear();
-  points_.resize(cloud.size());
+  points_.resize(labels.size());
   std::size_t count = 0;
-  PointVoxels block;
-  for (std::size_t begin = 0; begin < cloud.size(); begin += PointVoxels::capacity) {
-    scan.read(begin, block);
-    for (std::size_t k = 0; k < block.count(); ++k) {
-      if (!block.votes(k)) continue;
-      const bool is_ground = result.labels()[begin + k] == Label::ground;
-      const std::uint32_t voxel = of_scan_.count(block.tile[k], block.key[k], is_ground);
-      points_[count++] = {.point = static_cast<std::uint32_t>(begin + k), .voxel = voxel};
+  GridPoints voters;
+  for (std::size_t begin = 0; begin < labels.size(); begin += GridPoints::capacity) {
+    scan.read(begin, voters);
+    of_scan_.reserve(voters.count);
+    for (std::size_t k = 0; k < voters.count; ++k) {
+      const auto point = static_cast<std::uint32_t>(voters.point[k]);
+      const bool is_ground = labels[point] == Label::ground;
+      points_[count++] = {.point = point, .voxel = of_scan_.count(GridVoxel(voters, k), is_ground)};
     }
   }
   points_.resize(count);
@@ -109,28 +115,29 @@ void LabelVote::Votes::count(const LevelledScan& scan, CloudView cloud,
 
 // Adds the votes of the counted scan. If memory runs out, it removes them again.
 void LabelVote::Votes::add(const LevelledScan& scan) {
-  const std::vector<ScanVoxels::Voxel>& voxels = of_scan_.voxels();
+  const std::span<const ScanVoxels::Voxel> voxels = of_scan_.voxels();
   tile_of_place_.assign(scan.tiles(), nullptr);
   votes_.resize(voxels.size());
   sums_.resize(voxels.size());
-  for (std::size_t i = 0; i < voxels.size(); ++i) votes_[i] = vote_of(scan, voxels[i]);
-  for (const ScanVoxels::Voxel& voxel : voxels) {
-    VoxelTile*& tile = tile_of_place_[voxel.tile];
-    if (tile == nullptr) tile = &tiles[scan.tile_at(voxel.tile)];
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const VotePlace place = scan.place_of(voxels[i].at);
+    VoxelTile*& tile = tile_of_place_[place.tile];
+    if (tile == nullptr) tile = &tiles[scan.tile_at(place.tile)];
+    votes_[i] = {.tile = tile, .key = place.key, .vote = vote_of(scan, voxels[i])};
   }
   constexpr std::size_t ahead = 16;
   std::size_t done = 0;
   try {
-    for (; done < voxels.size(); ++done) {
-      if (done + ahead < voxels.size()) {
-        const ScanVoxels::Voxel& next = voxels[done + ahead];
-        tile_of_place_[next.tile]->prefetch(next.key);
+    for (; done < votes_.size(); ++done) {
+      if (done + ahead < votes_.size()) {
+        const Vote& next = votes_[done + ahead];
+        next.tile->prefetch(next.key);
       }
-      const ScanVoxels::Voxel& voxel = voxels[done];
-      sums_[done] = tile_of_place_[voxel.tile]->add(voxel.key, votes_[done]);
+      const auto& [tile, key, vote] = votes_[done];
+      sums_[done] = tile->add(key, vote);
     }
   } catch (const std::bad_alloc&) {
-    while (done-- > 0) tile_of_place_[voxels[done].tile]->add(voxels[done].key, -votes_[done]);
+    while (done-- > 0) votes_[done].tile->add(votes_[done].key, -votes_[done].vote);
     throw;
   }
 }
@@ -154,8 +161,8 @@ void LabelVote::Votes::forget_beyond(const Pose& pose) noexcept {
 
 std::size_t LabelVote::Votes::bytes() const noexcept {
   std::size_t sum = tiles.bucket_count() * sizeof(void*) + of_scan_.bytes() +
-                    points_.capacity() * sizeof(VotingPoint) +
-                    (votes_.capacity() + sums_.capacity()) * sizeof(std::int32_t) +
+                    points_.capacity() * sizeof(VotingPoint) + votes_.capacity() * sizeof(Vote) +
+                    sums_.capacity() * sizeof(std::int32_t) +
                     tile_of_place_.capacity() * sizeof(void*);
   constexpr std::size_t of_node = 32;  // of the table of tiles
   for (const auto& [index, tile] : tiles) sum += sizeof(tile) + of_node + tile.bytes();
@@ -188,7 +195,7 @@ Status LabelVote::add_scan(CloudView cloud, const Segmentation& result, const Po
   const ScopedFloatingPointMode mode;
   const LevelledScan scan(votes_->config, cloud, result, pose, levelling);
   try {
-    votes_->count(scan, cloud, result);
+    votes_->count(scan, result.labels());
     votes_->add(scan);
   } catch (const std::bad_alloc&) {
     return Status(StatusCode::out_of_memory);
@@ -216,16 +223,17 @@ Status LabelVote::relabel(CloudView cloud, const Segmentation& result, const Pos
     if (tile != votes_->tiles.end()) tile_of_place[place] = &tile->second;
   }
   std::ranges::copy(result.labels(), labels.begin());
-  PointVoxels block;
-  for (std::size_t begin = 0; begin < cloud.size(); begin += PointVoxels::capacity) {
-    scan.read(begin, block);
-    for (std::size_t k = 0; k < block.count(); ++k) {
-      if (block.votes(k)) tile_of_place[block.tile[k]]->prefetch(block.key[k]);
+  GridPoints voters;
+  std::array<VotePlace, GridPoints::capacity> places;
+  for (std::size_t begin = 0; begin < cloud.size(); begin += GridPoints::capacity) {
+    scan.read(begin, voters);
+    for (std::size_t k = 0; k < voters.count; ++k) {
+      places[k] = scan.place_of(GridVoxel(voters, k));
+      tile_of_place[places[k].tile]->prefetch(places[k].key);
     }
-    for (std::size_t k = 0; k < block.count(); ++k) {
-      if (!block.votes(k)) continue;
-      Label& label = labels[begin + k];
-      label = winner(tile_of_place[block.tile[k]]->sum(block.key[k]), label);
+    for (std::size_t k = 0; k < voters.count; ++k) {
+      Label& label = labels[static_cast<std::size_t>(voters.point[k])];
+      label = winner(tile_of_place[places[k].tile]->sum(places[k].key), label);
     }
   }
   return {};

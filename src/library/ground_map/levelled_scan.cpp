@@ -4,15 +4,12 @@
 
 #include <cmath>
 
-#include "library/ground_map/voxel_tiles.hpp"
-
 namespace flagstone {
 
 LevelledScan::LevelledScan(const LabelVoteConfig& config, CloudView cloud,
                            const Segmentation& result, const Pose& pose,
                            const Levelling& levelling) noexcept
-    : cloud_(cloud),
-      result_(result),
+    : scan_{.cloud = cloud, .labels = result.labels(), .heights = result.heights()},
       filter_{.nonground = true,
               .min_height = config.min_height,
               .max_height = config.max_height,
@@ -27,10 +24,14 @@ LevelledScan::LevelledScan(const LabelVoteConfig& config, CloudView cloud,
   };
   side_ = static_cast<std::size_t>(std::ceil(2 * reach / width)) + 1;
   first_ = {.x = first(pose.position[0]), .y = first(pose.position[1])};
+  const double sensor_height = pose.position[2] - levelling.offset;
+  const auto first_level =
+      static_cast<std::int64_t>(std::floor(sensor_height / config.voxel_height));
+  first_level_ = static_cast<std::uint32_t>(first_level);
   grid_ = {.rotation = pose.rotation,
            .to_sensor = {pose.position[0] - static_cast<double>(first_.x) * width,
                          pose.position[1] - static_cast<double>(first_.y) * width,
-                         pose.position[2] - levelling.offset},
+                         sensor_height - static_cast<double>(first_level) * config.voxel_height},
            .slope_x = levelling.slope_x,
            .slope_y = levelling.slope_y,
            .per_metre = 1 / config.voxel,
@@ -38,32 +39,6 @@ LevelledScan::LevelledScan(const LabelVoteConfig& config, CloudView cloud,
            .width = static_cast<std::uint32_t>(side_ * VoxelTile::width)};
   sensor_column_ = std::floor(grid_.to_sensor[0] * grid_.per_metre);
   sensor_row_ = std::floor(grid_.to_sensor[1] * grid_.per_metre);
-}
-
-double LevelledScan::squared_range(std::uint32_t tile, std::uint32_t key) const noexcept {
-  const auto index = [](std::size_t place, std::uint32_t in_tile) {
-    return static_cast<double>(place * VoxelTile::width + in_tile);
-  };
-  const double x = (index(tile % side_, VoxelKey::x(key)) - sensor_column_ + 0.5) * voxel_;
-  const double y = (index(tile / side_, VoxelKey::y(key)) - sensor_row_ + 0.5) * voxel_;
-  return x * x + y * y;
-}
-
-void LevelledScan::read(std::size_t begin, PointVoxels& voxels) const noexcept {
-  const GridPoints& points = voxels.points;
-  find_in_grid(cloud_, result_, filter_, grid_, begin, voxels.points);
-  const auto side = static_cast<std::uint32_t>(side_);
-  constexpr unsigned bits = VoxelKey::horizontal_bits;
-  constexpr std::uint32_t mask = (1U << bits) - 1;
-  // Also for points outside, whose values do not matter. GridPoints::base_level is a multiple of
-  // the period of keys.
-  for (std::size_t k = 0; k < points.count; ++k) {
-    const auto column = static_cast<std::uint32_t>(points.column[k]);
-    const auto row = static_cast<std::uint32_t>(points.row[k]);
-    voxels.tile[k] = (row >> bits) * side + (column >> bits);
-    voxels.key[k] =
-        VoxelKey::of(column & mask, row & mask, static_cast<std::uint32_t>(points.level[k]));
-  }
 }
 
 }  // namespace flagstone

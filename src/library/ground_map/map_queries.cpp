@@ -119,15 +119,26 @@ class NearbyCells {
   explicit NearbyCells(const Tiles& tiles) noexcept : tiles_(tiles) {}
 
   MapCell cell(CellIndex index) noexcept {
+    const MapCell* const found = find(index);
+    return found == nullptr ? tiles_.cell(index) : *found;
+  }
+
+  /// The height of a cell: less to copy.
+  HeightEvidence best(CellIndex index) noexcept {
+    const MapCell* const found = find(index);
+    return found == nullptr ? tiles_.cell(index).best : found->best;
+  }
+
+ private:
+  const MapCell* find(CellIndex index) noexcept {
     const TileIndex tile = CellTiles::tile_of(index);
     if (last_ == nullptr || !(tile == index_of_last_)) {
       last_ = tiles_.cells.tile(tile);
       index_of_last_ = tile;
     }
-    return last_ == nullptr ? tiles_.cell(index) : (*last_)[CellTiles::offset_in_tile(index)];
+    return last_ == nullptr ? nullptr : &(*last_)[CellTiles::offset_in_tile(index)];
   }
 
- private:
   const Tiles& tiles_;
   TileIndex index_of_last_;
   const CellTiles::Tile* last_ = nullptr;
@@ -163,9 +174,8 @@ class HeightsAboveMap {
 // Calls `check(i)` for each point that is labelled ground and is more than `height` metres above
 // the cell of the map that contains it.
 template <class Tiles, class Check>
-void for_each_high_point(const Tiles& tiles, CloudView cloud, const Segmentation& result,
-                         const Pose& pose, const Levelling& levelling,
-                         std::span<const Label> labels, float height, const Check& check) noexcept {
+void for_each_high_point(const Tiles& tiles, const LabelledScan& scan, const Pose& pose,
+                         const Levelling& levelling, float height, const Check& check) noexcept {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   constexpr float reach = 200;                   // metres
   constexpr double units_per_metre = 1U << 20U;  // of levels
@@ -182,20 +192,20 @@ void for_each_high_point(const Tiles& tiles, CloudView cloud, const Segmentation
                        .per_metre = 1 / size,
                        .per_metre_up = units_per_metre,
                        .width = static_cast<std::uint32_t>(4 * reach / size)};
-  const PointFilter filter{
-      .nonground = true, .min_height = -infinity, .max_height = infinity, .reach = reach};
+  const PointFilter filter{.min_height = -infinity, .max_height = infinity, .reach = reach};
   const auto sensor = static_cast<float>(pose.position[2] - levelling.offset - tiles.base);
   NearbyCells cells(tiles);
   GridPoints points;
-  for (std::size_t begin = 0; begin < cloud.size(); begin += GridPoints::capacity) {
-    find_in_grid(cloud, result, filter, grid, begin, points);
+  for (std::size_t begin = 0; begin < scan.cloud.size(); begin += GridPoints::capacity) {
+    find_in_grid(scan, filter, grid, begin, points);
     for (std::size_t k = 0; k < points.count; ++k) {
-      if (!points.inside(k) || labels[begin + k] != Label::ground) continue;
       const HeightEvidence ground =
-          cells.cell({.x = first.x + points.column[k], .y = first.y + points.row[k]}).best;
-      const float up = static_cast<float>(points.level[k] - GridPoints::base_level) *
-                       static_cast<float>(1 / units_per_metre);
-      if (ground.weight > 0 && sensor + up - ground.height > height) check(begin + k);
+          cells.best({.x = first.x + points.column[k], .y = first.y + points.row[k]});
+      const float up =
+          static_cast<float>(points.level[k]) * static_cast<float>(1 / units_per_metre);
+      if (ground.weight > 0 && sensor + up - ground.height > height) {
+        check(static_cast<std::size_t>(points.point[k]));
+      }
     }
   }
 }
@@ -231,10 +241,10 @@ Status GroundMap::relabel(CloudView cloud, const Segmentation& result, const Pos
   const float margin = PointRule().margin;
   HeightsAboveMap height_of(*tiles_, pose, levelling);
   // Only points that are clearly above the nearest cell need the slower exact height.
-  for_each_high_point(*tiles_, cloud, result, pose, levelling, labels, margin / 2,
-                      [&](std::size_t i) {
-                        if (height_of(cloud[i]) > margin) labels[i] = Label::nonground;
-                      });
+  const LabelledScan scan{.cloud = cloud, .labels = labels, .heights = result.heights()};
+  for_each_high_point(*tiles_, scan, pose, levelling, margin / 2, [&](std::size_t i) {
+    if (height_of(cloud[i]) > margin) labels[i] = Label::nonground;
+  });
   return {};
 }
 

@@ -44,6 +44,7 @@ std::span<const MeasuredHeight> ScanHeights::measure(CloudView cloud, const Segm
   const auto first_x = static_cast<std::int64_t>(std::floor((sensor_x - reach) / config.cell));
   const auto first_y = static_cast<std::int64_t>(std::floor((sensor_y - reach) / config.cell));
   const auto width = static_cast<std::size_t>(std::ceil(2 * reach / config.cell)) + 2;
+  const std::int64_t end_x = first_x + static_cast<std::int64_t>(width);
   const PointFilter filter{.min_height = -max_deviation,
                            .max_height = max_deviation,
                            .reach = static_cast<float>(reach)};
@@ -56,27 +57,26 @@ std::span<const MeasuredHeight> ScanHeights::measure(CloudView cloud, const Segm
       .width = static_cast<std::uint32_t>(width),
       .on_ground = true};
   sums_.assign(width * width, {});
-  const std::span<const float> heights = result.heights();
+  const LabelledScan scan{.cloud = cloud, .labels = result.labels(), .heights = result.heights()};
   GridPoints points;
   for (std::size_t begin = 0; begin < cloud.size(); begin += GridPoints::capacity) {
-    find_in_grid(cloud, result, filter, grid, begin, points);
+    find_in_grid(scan, filter, grid, begin, points);
     for (std::size_t k = 0; k < points.count; ++k) {
-      if (!points.inside(k)) continue;
       const auto column = static_cast<std::size_t>(points.column[k]);
       Sums& sums = sums_[static_cast<std::size_t>(points.row[k]) * width + column];
-      sums.height += to_fixed(heights[begin + k]);
-      sums.z += points.level[k] - GridPoints::base_level;
+      sums.height += to_fixed(scan.heights[static_cast<std::size_t>(points.point[k])]);
+      sums.z += points.level[k];
       ++sums.points;
     }
   }
 
   heights_.clear();
   const GroundSurface& surface = result.surface();
-  for (std::size_t k = 0; k < sums_.size(); ++k) {
+  CellIndex cell{.x = first_x, .y = first_y};
+  for (std::size_t k = 0; k < sums_.size(); ++k, ++cell.x) {
+    if (cell.x == end_x) cell = {.x = first_x, .y = cell.y + 1};
     const Sums& sums = sums_[k];
     if (sums.points == 0) continue;
-    const CellIndex cell{.x = first_x + static_cast<std::int64_t>(k % width),
-                         .y = first_y + static_cast<std::int64_t>(k / width)};
     const double dx = (static_cast<double>(cell.x) + 0.5) * config.cell - sensor_x;
     const double dy = (static_cast<double>(cell.y) + 0.5) * config.cell - sensor_y;
     // The surface in the middle of the cell, where the mean of the points is shifted to it.
@@ -87,7 +87,7 @@ std::span<const MeasuredHeight> ScanHeights::measure(CloudView cloud, const Segm
     if (!std::isfinite(on_surface)) continue;
     const double above = static_cast<double>(sums.height) * scale;
     const WorldVector ground = rotated(pose, local.x, local.y, double{on_surface} + above);
-    const double range = std::hypot(local.x, local.y);
+    const double range = std::sqrt(local.x * local.x + local.y * local.y);
     heights_.push_back({.cell = cell,
                         .dx = static_cast<float>(dx),
                         .dy = static_cast<float>(dy),

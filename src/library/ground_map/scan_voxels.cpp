@@ -3,20 +3,21 @@
 #include "library/ground_map/scan_voxels.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace flagstone {
 
 void ScanVoxels::clear() {
-  voxels_.clear();
+  size_ = 1;
   std::ranges::fill(slots_, none);
 }
 
-void ScanVoxels::grow() {
+void ScanVoxels::grow(std::size_t points) {
   constexpr std::size_t smallest = 1024;
-  slots_.assign(slots_.empty() ? smallest : 2 * slots_.size(), none);
-  for (std::uint32_t i = 0; i < voxels_.size(); ++i) {
-    slots_[slot_of(voxels_[i].tile, voxels_[i].key)] = i;
-  }
+  const std::size_t slots = std::bit_ceil(std::max(smallest, 2 * (size_ + points)));
+  voxels_.resize(slots / 2 + 1);
+  slots_.assign(slots, none);
+  for (std::uint32_t i = 1; i < size_; ++i) slot_of(voxels_[i].at) = i;
 }
 
 }  // namespace flagstone

@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "flagstone/segmentation.hpp"
 #include "forced_target.hpp"
 #include "library/core/random.hpp"
 #include "library/core/simd_target.hpp"
@@ -35,6 +36,9 @@ struct LabelledCloud {
     }
   }
   [[nodiscard]] CloudView view() const { return {xyz.data(), xyz.size() / 3}; }
+  [[nodiscard]] LabelledScan scan() const {
+    return {.cloud = view(), .labels = result.labels(), .heights = result.heights()};
+  }
 
   std::vector<float> xyz;
   Segmentation result;
@@ -43,7 +47,7 @@ struct LabelledCloud {
 constexpr PointFilter filter{
     .nonground = true, .min_height = -0.5F, .max_height = 0.7F, .reach = 35};
 const WorldGrid grid{.rotation = {0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1},
-                     .to_sensor = {30.3, 33.1, 12},
+                     .to_sensor = {30.3, 33.1, 0.02},
                      .slope_x = 0.01,
                      .slope_y = -0.02,
                      .per_metre = 4,
@@ -54,22 +58,24 @@ struct Place {
   std::int32_t column, row, level;
   friend bool operator==(const Place&, const Place&) = default;
 };
-constexpr Place outside{-1, -1, -1};
+constexpr Place outside{-1, -1, 0};
 
+// Of all points.
 std::vector<Place> places(const LabelledCloud& cloud, const PointFilter& used,
                           const WorldGrid& in) {
-  std::vector<Place> all;
+  std::vector<Place> all(cloud.view().size(), outside);
   GridPoints points;
-  for (std::size_t begin = 0; begin < cloud.view().size(); begin += GridPoints::capacity) {
-    find_in_grid(cloud.view(), cloud.result, used, in, begin, points);
-    for (std::size_t i = 0; i < points.count; ++i) {
-      all.push_back(points.inside(i) ? Place{points.column[i], points.row[i], points.level[i]}
-                                     : outside);
+  for (std::size_t begin = 0; begin < all.size(); begin += GridPoints::capacity) {
+    find_in_grid(cloud.scan(), used, in, begin, points);
+    for (std::size_t k = 0; k < points.count; ++k) {
+      all.at(static_cast<std::size_t>(points.point[k])) = {points.column[k], points.row[k],
+                                                           points.level[k]};
     }
   }
   return all;
 }
 
+// In double precision.
 Place expected_place(const LabelledCloud& cloud, std::size_t i) {
   const Point p = cloud.view()[i];
   const Label label = cloud.result.labels()[i];
@@ -87,7 +93,7 @@ Place expected_place(const LabelledCloud& cloud, std::size_t i) {
   const double level = std::floor(up * grid.per_metre_up);
   return {.column = static_cast<std::int32_t>(column),
           .row = static_cast<std::int32_t>(row),
-          .level = static_cast<std::int32_t>(level) + GridPoints::base_level};
+          .level = static_cast<std::int32_t>(level)};
 }
 
 TEST(GridPoints, AreThoseThatPassTheFilterWithTheirCells) {
@@ -96,9 +102,16 @@ TEST(GridPoints, AreThoseThatPassTheFilterWithTheirCells) {
 
     const std::vector<Place> found = places(cloud, filter, grid);
 
-    ASSERT_EQ(found.size(), size);
     for (std::size_t i = 0; i < size; ++i) ASSERT_EQ(found[i], expected_place(cloud, i)) << i;
   }
+}
+
+TEST(GridPoints, AreFoundInTheOrderOfTheScan) {
+  const LabelledCloud cloud(GridPoints::capacity);
+  GridPoints points;
+  find_in_grid(cloud.scan(), filter, grid, 0, points);
+  EXPECT_GT(points.count, 20U);
+  for (std::size_t k = 1; k < points.count; ++k) EXPECT_LT(points.point[k - 1], points.point[k]);
 }
 
 TEST(GridPoints, AreTheSameOnEveryInstructionSet) {
