@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "library/core/setting.hpp"
+#include "library/moving_points/moving_labels.hpp"
 
 namespace flagstone::app {
 namespace {
@@ -20,22 +21,11 @@ class WithoutMovingPoints {
 
  private:
   void set(Label label) noexcept {
-    if (scan_.moving.objects.empty()) return;
-    const std::span<Label> labels = scan_.result.mutable_labels();
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (scan_.moving.objects_of_points[i] != 0) labels[i] = label;
-    }
+    label_moving_points(scan_.moving, label, scan_.result.mutable_labels());
   }
 
   RunScan& scan_;
 };
-
-void label_moving_points(const MovingMask& moving, std::vector<Label>& labels) noexcept {
-  if (moving.objects.empty()) return;
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (moving.objects_of_points[i] != 0) labels[i] = Label::nonground;
-  }
-}
 
 RunMapperConfig with_delay(RunMapperConfig config) {
   if (config.labels == LabelSource::live) config.delay = 0;
@@ -83,7 +73,7 @@ Status RunMapper::add(std::unique_ptr<RunScan> scan, const Use& finished) {
   scan->fits = judge_.fits(scan->levelling);
   if (scan->fits) {
     status = moving_.add(cloud, scan->result, pose, scan->levelling, scan->time, scan->moving);
-    if (status.ok()) status = map_.add(cloud, scan->result, pose, scan->levelling);
+    if (status.ok()) status = map_.add_levelled();
     // Offline, the labels come at the end, so votes can wait until the moving points are known.
     if (status.ok() && config_.labels != LabelSource::offline) status = vote_for(*scan);
     if (!status.ok()) return status;
@@ -133,7 +123,7 @@ Status RunMapper::relabel(const RunScan& scan, std::vector<Label>& labels) const
 
 // Labels after the vote: neither points above the map nor moving points are ground.
 Status RunMapper::correct(const RunScan& scan, std::vector<Label>& labels) const {
-  label_moving_points(scan.moving, labels);
+  label_moving_points(scan.moving, Label::nonground, labels);
   return map_.relabel(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling, labels);
 }
 

@@ -34,6 +34,16 @@ class PointArrays {
     z_.data()[size_] = point.z;
     ++size_;
   }
+  void replace(std::size_t k, const Point& point) noexcept {
+    x_.data()[k] = point.x;
+    y_.data()[k] = point.y;
+    z_.data()[k] = point.z;
+  }
+  /// Keeps the first `count` points.
+  void shorten(std::size_t count) noexcept {
+    size_ = count;
+    finish();
+  }
   /// Sets the unused numbers after the last point to 0.
   void finish() noexcept {
     for (std::size_t k = size_; k % padding != 0; ++k) {
@@ -77,6 +87,15 @@ class Directions {
   /// instruction set. Points may have any coordinates; if they are not finite, the results are
   /// unspecified. May throw std::bad_alloc.
   void compute(const PointArrays& points, const AffineTransform& transform, const PixelGrid& grid);
+
+  /// @name One number per point, for vector instructions
+  /// The memory after the last number is readable up to a multiple of PointArrays::padding.
+  /// @{
+  [[nodiscard]] const std::int32_t* rows() const noexcept { return rows_.data(); }
+  [[nodiscard]] const std::int32_t* columns() const noexcept { return columns_.data(); }
+  [[nodiscard]] const float* ranges() const noexcept { return ranges_.data(); }
+  [[nodiscard]] const float* elevations() const noexcept { return elevations_.data(); }
+  /// @}
 
   [[nodiscard]] int row(std::size_t k) const noexcept { return rows_.data()[k]; }
   /// 0 to PixelGrid::columns - 1.

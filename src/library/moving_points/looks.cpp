@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "library/moving_points/looks.hpp"
 
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +14,7 @@
 #define HWY_TARGET_INCLUDE "library/moving_points/looks.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target.h includes this file once per instruction set.
-#include "library/core/simd/lanes-inl.hpp"
+#include "library/moving_points/pixel_places-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace flagstone::HWY_NAMESPACE {
@@ -75,21 +79,59 @@ HWY_INLINE bool is_seen_through(NearestPoint nearest, const ObjectRanges* pixels
   return pixels[0].nearest > range.low && pixels[2].nearest > range.low;
 }
 
-void look_at_points(const RangeImage& image, const Directions& directions,
-                    std::vector<LookCounts>& counts) {
+/// What some consecutive points need for their looks.
+struct PreparedLooks {
+  alignas(64) std::array<std::int32_t, lanes> places;
+  alignas(64) std::array<float, lanes> ranges;  // metres; 0: no look
+};
+
+// Loads the pixels into the cache: those of most views are not in it.
+HWY_INLINE void prepare(const RangeImage& image, const Directions& directions, std::size_t begin,
+                        PreparedLooks& looks) {
   constexpr float min_range = 0.5F;   // metres; nearer, directions are not reliable
   constexpr float max_range = 200.F;  // metres
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    const float metres = directions.range(k);
-    if (!(metres > min_range) || !(metres < max_range)) continue;
-    const std::size_t place = image.place(directions.row(k), directions.column(k));
-    const ObjectRanges* const pixels = image.objects() + place - 1;
-    const RangeInterval range(metres);
-    if (is_occupied(pixels, range)) {
-      ++counts[k].occupied;
-    } else if (is_seen_through(image.nearest()[place], pixels, range, metres,
-                               directions.elevation(k))) {
-      ++counts[k].through;
+  const FloatTag d;
+  const IntTag di;
+  for (std::size_t k = 0; k < lanes; k += hn::Lanes(d)) {
+    const FloatVector range = hn::Load(d, directions.ranges() + begin + k);
+    const auto used =
+        hn::And(hn::Gt(range, hn::Set(d, min_range)), hn::Lt(range, hn::Set(d, max_range)));
+    hn::Store(hn::IfThenElseZero(used, range), d, looks.ranges.data() + k);
+    hn::Store(places_of(image.rows(), hn::Load(di, directions.rows() + begin + k),
+                        hn::Load(di, directions.columns() + begin + k)),
+              di, looks.places.data() + k);
+  }
+  for (const std::int32_t place : looks.places) {
+    const ObjectRanges* const pixel = image.objects() + place;
+    hwy::Prefetch(pixel - RangeImage::stride);
+    hwy::Prefetch(pixel);
+    hwy::Prefetch(pixel + RangeImage::stride);
+    hwy::Prefetch(image.nearest() + place);
+  }
+}
+
+void look_at_points(const RangeImage& image, const Directions& directions,
+                    std::vector<LookCounts>& counts) {
+  if (counts.empty()) return;
+  std::array<PreparedLooks, 2> prepared;
+  prepare(image, directions, 0, prepared[0]);
+  for (std::size_t begin = 0; begin < counts.size(); begin += lanes) {
+    const std::size_t next = begin + lanes;
+    if (next < counts.size()) prepare(image, directions, next, prepared[next / lanes % 2]);
+    const PreparedLooks& looks = prepared[begin / lanes % 2];
+    const std::size_t count = std::min(lanes, counts.size() - begin);
+    for (std::size_t k = 0; k < count; ++k) {
+      const float metres = looks.ranges[k];
+      if (metres == 0) continue;
+      const std::int32_t place = looks.places[k];
+      const ObjectRanges* const pixels = image.objects() + place - 1;
+      const RangeInterval range(metres);
+      if (is_occupied(pixels, range)) {
+        ++counts[begin + k].occupied;
+      } else if (is_seen_through(image.nearest()[place], pixels, range, metres,
+                                 directions.elevation(begin + k))) {
+        ++counts[begin + k].through;
+      }
     }
   }
 }

@@ -28,13 +28,14 @@ void add(std::uint16_t& count, std::uint32_t by) noexcept {
 
 }  // namespace
 
-// Calls `use(points with evidence)` for each connected set of columns that belong; its columns are
-// in component_.
-template <class Belongs, class Use>
-void MovingObjects::for_each_component(const Belongs& belongs, const Use& use) {
+// Calls `use(moving points, fixed points)` for each connected set of columns that belong, if one of
+// them is a start; its columns are in component_. Starts must belong.
+template <class Starts, class Belongs, class Use>
+void MovingObjects::for_each_component(const Starts& starts, const Belongs& belongs,
+                                       const Use& use) {
   ++visit_;
   for (const std::uint32_t start : used_) {
-    if (cells_[start].visit == visit_ || !belongs(cells_[start])) continue;
+    if (cells_[start].visit == visit_ || !starts(cells_[start])) continue;
     component_.clear();
     open_.assign(1, start);
     cells_[start].visit = visit_;
@@ -48,7 +49,7 @@ void MovingObjects::for_each_component(const Belongs& belongs, const Use& use) {
       fixed += cells_[column].fixed;
       for (const int by : neighbours) {
         Cell& next = cells_[moved(column, by)];
-        if (next.points == 0 || next.visit == visit_ || !belongs(next)) continue;
+        if (points_[moved(column, by)] == 0 || next.visit == visit_ || !belongs(next)) continue;
         next.visit = visit_;
         open_.push_back(moved(column, by));
       }
@@ -59,13 +60,11 @@ void MovingObjects::for_each_component(const Belongs& belongs, const Use& use) {
 
 // Connected columns with more moving than fixed points.
 void MovingObjects::mark_seeds() {
-  for_each_component([](const Cell& cell) { return cell.moving > cell.fixed; },
-                     [&](unsigned moving, unsigned) {
-                       if (moving < min_moving_points) return;
-                       for (const std::uint32_t column : component_) {
-                         cells_[column].is_moving = true;
-                       }
-                     });
+  const auto is_mostly_moving = [](const Cell& cell) { return cell.moving > cell.fixed; };
+  for_each_component(is_mostly_moving, is_mostly_moving, [&](unsigned moving, unsigned) {
+    if (moving < min_moving_points) return;
+    for (const std::uint32_t column : component_) cells_[column].is_moving = true;
+  });
 }
 
 // Twice by one column, into columns whose points are not mostly fixed.
@@ -74,7 +73,7 @@ void MovingObjects::grow() {
     grown_.clear();
     for (const std::uint32_t column : used_) {
       const Cell& cell = cells_[column];
-      if (cell.is_moving || 2 * cell.fixed > cell.points) continue;
+      if (cell.is_moving || 2 * cell.fixed > points_[column]) continue;
       if (std::ranges::any_of(neighbours,
                               [&](int by) { return cells_[moved(column, by)].is_moving; })) {
         grown_.push_back(column);
@@ -86,7 +85,8 @@ void MovingObjects::grow() {
 
 // Separate objects with more moving than fixed points.
 void MovingObjects::mark_whole_components() {
-  for_each_component([](const Cell&) { return true; },
+  for_each_component([](const Cell& cell) { return cell.moving > 0; },
+                     [](const Cell&) { return true; },
                      [&](unsigned moving, unsigned fixed) {
                        if (moving < min_moving_points || moving <= fixed) return;
                        for (const std::uint32_t column : component_) {
@@ -97,23 +97,26 @@ void MovingObjects::mark_whole_components() {
 
 void MovingObjects::number_objects() {
   count_ = 0;
-  for_each_component([](const Cell& cell) { return cell.is_moving; },
-                     [&](unsigned, unsigned) {
-                       ++count_;
-                       for (const std::uint32_t column : component_) {
-                         cells_[column].object = static_cast<std::uint32_t>(count_);
-                       }
-                     });
+  const auto moves = [](const Cell& cell) { return cell.is_moving; };
+  for_each_component(moves, moves, [&](unsigned, unsigned) {
+    ++count_;
+    for (const std::uint32_t column : component_) {
+      cells_[column].object = static_cast<std::uint32_t>(count_);
+    }
+  });
 }
 
 void MovingObjects::start(std::span<const std::uint32_t> columns) {
-  cells_.resize(std::size_t{width} * width);
-  for (const std::uint32_t column : used_) cells_[column] = {};
+  points_.resize(std::size_t{width} * width);
+  cells_.resize(points_.size());
+  for (const std::uint32_t column : used_) {
+    points_[column] = 0;
+    cells_[column] = {};
+  }
   used_.clear();
   for (const std::uint32_t column : columns) {
-    Cell& cell = cells_[column];
-    if (cell.points == 0) used_.push_back(column);
-    add(cell.points, 1);
+    if (points_[column] == 0) used_.push_back(column);
+    add(points_[column], 1);
   }
   std::ranges::sort(used_);
 }

@@ -29,7 +29,7 @@ class MovingObjects {
   /// One point in this many of the column needs evidence: 1 in a column of few points.
   [[nodiscard]] std::uint32_t points_per_sample(std::uint32_t column) const noexcept {
     constexpr std::uint32_t max_samples = 32;
-    return (cells_[column].points + max_samples - 1) / max_samples;
+    return (points_[column] + max_samples - 1) / max_samples;
   }
 
   /// A point with its evidence. It speaks for points_per_sample() points of its column.
@@ -53,22 +53,22 @@ class MovingObjects {
 
  private:
   struct Cell {
-    std::uint16_t points = 0, moving = 0, fixed = 0;  // saturate
+    std::uint16_t moving = 0, fixed = 0;  // saturate
     bool is_moving = false;
     std::uint8_t visit = 0;  // of the last search that reached it
     std::uint32_t object = 0;
   };
-  using Member = bool (*)(const Cell&);
 
-  template <class Belongs, class Use>
-  void for_each_component(const Belongs& belongs, const Use& use);
+  template <class Starts, class Belongs, class Use>
+  void for_each_component(const Starts& starts, const Belongs& belongs, const Use& use);
   void mark_seeds();
   void grow();
   void mark_whole_components();
   void number_objects();
 
-  std::vector<Cell> cells_;
-  std::vector<std::uint32_t> used_;  // ascending
+  std::vector<std::uint16_t> points_;  // per column; saturates
+  std::vector<Cell> cells_;            // per column
+  std::vector<std::uint32_t> used_;    // columns with points, ascending
   std::vector<std::uint32_t> component_, open_, grown_;
   std::uint8_t visit_ = 0;
   std::size_t count_ = 0;

@@ -10,6 +10,7 @@
 #include <deque>
 #include <new>
 #include <numbers>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -72,20 +73,19 @@ float rows_per_radian(double spacing) noexcept {
   return static_cast<float>(180 / (std::numbers::pi * spacing));
 }
 
-// A hash of the coordinates, 32 bits: samples do not depend on the order of the points.
-std::uint64_t hash_of(const Point& p) noexcept {
-  std::uint32_t hash = std::bit_cast<std::uint32_t>(p.x) * 0x9E3779B1U;
-  hash = (hash ^ std::bit_cast<std::uint32_t>(p.y)) * 0x85EBCA77U;
-  hash = (hash ^ (hash >> 15U) ^ std::bit_cast<std::uint32_t>(p.z)) * 0xC2B2AE3DU;
-  return hash ^ (hash >> 16U);
-}
-
 // Moving if several looks saw through the point, even if others saw an object there: a long
 // vehicle, and traffic behind it, occupies its own track.
 bool is_moving(const LookCounts& counts) noexcept {
   constexpr int min_through = 2;
   return counts.through >= min_through &&
          20 * counts.through > 7 * (counts.through + counts.occupied);
+}
+
+// So many looks agree that more of them nearly never change the result.
+bool is_clear(const LookCounts& counts) noexcept {
+  constexpr int min_looks = 4;
+  return counts.through + counts.occupied >= min_looks &&
+         (counts.through == 0 || counts.occupied == 0);
 }
 
 }  // namespace
@@ -112,8 +112,9 @@ class MovingPoints::Finder {
 
   void measure_grid(const Scan& scan);
   void read(const Scan& scan);
-  void select_samples(const Scan& scan);
+  void select_samples();
   void look(const Scan& scan);
+  void close_clear_points();
   void judge();
   void describe(MovingMask& mask);
   void find(const Scan& scan, MovingMask& mask);
@@ -131,8 +132,10 @@ class MovingPoints::Finder {
   ScanPoints points_;
   std::vector<MovingObjects::Sample> samples_;
   std::vector<std::uint32_t> looked_;  // indices of the samples that need looks
-  PointArrays looked_points_;
-  std::vector<LookCounts> counts_;  // of these samples
+  std::vector<LookCounts> counts_;     // of these samples
+  std::vector<std::uint32_t> open_;    // indices in looked_ of those that need more looks
+  PointArrays looked_points_;          // of these
+  std::vector<LookCounts> open_counts_;
   std::vector<const ScanView*> views_;
   Directions directions_;
   MovingObjects objects_;
@@ -155,6 +158,7 @@ void MovingPoints::Finder::measure_grid(const Scan& scan) {
 
 void MovingPoints::Finder::read(const Scan& scan) {
   columns_.start(scan.pose.position[0], scan.pose.position[1]);
+  columns_.look_around(scan.pose.position[0], scan.pose.position[1]);
   std::ranges::transform(std::span(scan.pose.rotation).first(to_world_.size()), to_world_.begin(),
                          [](double value) { return static_cast<float>(value); });
   points_.read(scan.cloud, scan.labels, scan.heights,
@@ -163,41 +167,70 @@ void MovingPoints::Finder::read(const Scan& scan) {
                 .min_height = config_.min_height,
                 .max_height = config_.max_height,
                 .objects = MovingObjects::grid,
-                .columns = columns_.grid()});
+                .columns = columns_.grid(),
+                .surroundings = columns_.surroundings()});
 }
 
-// Only a part of the points of each column needs evidence. Those in columns that are always
-// occupied need no looks: they do not move.
-void MovingPoints::Finder::select_samples(const Scan& scan) {
+// Only a part of the points of each column needs evidence, chosen by hashes, which do not depend on
+// the order of the points. Those in columns that are always occupied need no looks: they do not
+// move.
+void MovingPoints::Finder::select_samples() {
   const std::span<const std::uint32_t> candidates = points_.candidates();
   const std::span<const std::uint32_t> columns = points_.candidate_columns();
+  const std::span<const std::uint32_t> surroundings = points_.candidate_surroundings();
+  const std::span<const std::uint32_t> hashes = points_.candidate_hashes();
   objects_.start(columns);
-  columns_.look_around(scan.pose.position[0], scan.pose.position[1]);
   samples_.clear();
   looked_.clear();
   looked_points_.start(candidates.size());
   for (std::size_t k = 0; k < candidates.size(); ++k) {
-    const Point p = points_.points()[candidates[k]];
-    if ((hash_of(p) * objects_.points_per_sample(columns[k])) >> 32U != 0) continue;
-    const auto& m = to_world_;
-    const bool is_fixed = columns_.is_occupied(m[0] * p.x + m[1] * p.y + m[2] * p.z,
-                                               m[3] * p.x + m[4] * p.y + m[5] * p.z);
+    const std::uint64_t points_per_sample = objects_.points_per_sample(columns[k]);
+    if ((hashes[k] * points_per_sample) >> 32U != 0) continue;
+    const bool is_fixed = columns_.is_occupied(surroundings[k]);
     samples_.push_back(
         {.column = columns[k], .evidence = is_fixed ? Evidence::fixed : Evidence::none});
     if (is_fixed) continue;
     looked_.push_back(static_cast<std::uint32_t>(samples_.size() - 1));
-    looked_points_.push_back(p);
+    looked_points_.push_back(points_.points()[candidates[k]]);
   }
   looked_points_.finish();
 }
 
+// The first quarter of the scans is spread over all times before and after the scan. Points on
+// which these agree need no more looks.
 void MovingPoints::Finder::look(const Scan& scan) {
-  counts_.assign(looked_.size(), {});
+  constexpr std::size_t step = 4;
+  constexpr std::size_t first_quarter = 1;
   select_views(scans_, scan.time, views_);
-  for (const ScanView* const view : views_) {
-    directions_.compute(looked_points_, scan.levelled.to(view->pose), grid_);
-    add_looks(view->image, directions_, counts_);
+  counts_.assign(looked_.size(), {});
+  open_.resize(looked_.size());
+  std::iota(open_.begin(), open_.end(), 0U);
+  open_counts_.assign(looked_.size(), {});
+  for (const std::size_t quarter :
+       {first_quarter, std::size_t{3}, std::size_t{0}, std::size_t{2}}) {
+    for (std::size_t k = quarter; k < views_.size(); k += step) {
+      directions_.compute(looked_points_, scan.levelled.to(views_[k]->pose), grid_);
+      add_looks(views_[k]->image, directions_, open_counts_);
+      if (quarter != first_quarter) close_clear_points();
+    }
+    if (quarter == first_quarter) close_clear_points();
   }
+}
+
+// Saves the counts of all open points.
+void MovingPoints::Finder::close_clear_points() {
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < open_.size(); ++k) {
+    counts_[open_[k]] = open_counts_[k];
+    if (is_clear(open_counts_[k])) continue;
+    open_[left] = open_[k];
+    open_counts_[left] = open_counts_[k];
+    looked_points_.replace(left, looked_points_[k]);
+    ++left;
+  }
+  open_.resize(left);
+  open_counts_.resize(left);
+  looked_points_.shorten(left);
 }
 
 void MovingPoints::Finder::judge() {
@@ -244,7 +277,7 @@ void MovingPoints::Finder::describe(MovingMask& mask) {
 void MovingPoints::Finder::find(const Scan& scan, MovingMask& mask) {
   mask.objects_of_points.assign(scan.cloud.size(), 0);
   read(scan);
-  select_samples(scan);
+  select_samples();
   look(scan);
   judge();
   objects_.find(samples_);
@@ -258,10 +291,7 @@ void MovingPoints::Finder::build_image(RangeImage& image) {
 }
 
 void MovingPoints::Finder::count_columns(const Scan& scan) {
-  for (std::size_t k = 0; k < points_.points().size(); ++k) {
-    const auto [column, is_object] = points_.in_column(k);
-    columns_.add(column, is_object);
-  }
+  columns_.add(points_.in_columns());
   columns_.finish();
   if (config_.window > 0) {
     const double x = scan.pose.position[0];

@@ -30,7 +30,7 @@ OccupiedColumns::Window::Window(double x, double y, std::uint32_t columns) noexc
 
 void OccupiedColumns::start(double x, double y) {
   scan_ = Window(x, y, scan_width);
-  seen_.assign(scan_.grid.outside() + 1, 0);
+  seen_.assign(2 * (std::size_t{scan_.grid.outside()} + 1), 0);
 }
 
 void OccupiedColumns::finish() {
@@ -43,13 +43,22 @@ void OccupiedColumns::finish() {
     }
   }
   for (std::int64_t row = 0; row < scan_width; ++row) {
+    TileIndex index;
+    Tile* tile = nullptr;
     for (std::int64_t column = 0; column < scan_width; ++column) {
-      const std::uint8_t seen = seen_[static_cast<std::size_t>(row * scan_width + column)];
-      if (seen == 0) continue;
+      const std::uint8_t* const seen =
+          &seen_[static_cast<std::size_t>(2 * (row * scan_width + column))];
+      const bool has_ground = seen[0] != 0;
+      const bool has_object = seen[1] != 0;
+      if (!has_ground && !has_object) continue;
       const std::int64_t x = scan_.first_x + column;
       const std::int64_t y = scan_.first_y + row;
-      Counts& counts = (*tiles_.find(tile_of(x, y))->second)[index_in_tile(x, y)];
-      std::uint16_t& count = (seen & 2U) != 0 ? counts.occupied : counts.empty;
+      if (tile == nullptr || !(index == tile_of(x, y))) {
+        index = tile_of(x, y);
+        tile = tiles_.find(index)->second.get();
+      }
+      Counts& counts = (*tile)[index_in_tile(x, y)];
+      std::uint16_t& count = has_object ? counts.occupied : counts.empty;
       if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
     }
   }

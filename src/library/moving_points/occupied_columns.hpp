@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -27,10 +28,10 @@ class OccupiedColumns {
   /// The columns around that sensor.
   [[nodiscard]] const ColumnGrid& grid() const noexcept { return scan_.grid; }
 
-  /// Adds a point of that scan by its column in grid(), which may be outside. `is_object`: it is
-  /// part of an object, otherwise ground.
-  void add(std::uint32_t column, bool is_object) noexcept {
-    seen_[column] |= static_cast<std::uint8_t>(is_object ? 2 : 1);
+  /// Adds points of that scan by their columns in grid(), which may be outside: twice the column,
+  /// plus 1 for a part of an object; otherwise ground.
+  void add(std::span<const std::uint32_t> in_columns) noexcept {
+    for (const std::uint32_t k : in_columns) seen_[k] = 1;
   }
 
   /// Counts that scan. May throw std::bad_alloc, and then counts nothing.
@@ -40,10 +41,13 @@ class OccupiedColumns {
   /// std::bad_alloc.
   void look_around(double x, double y);
 
-  /// True if an object was in nearly all scans that measured the column at (dx, dy) metres, each at
-  /// most 102 from the position of look_around().
-  [[nodiscard]] bool is_occupied(float dx, float dy) const noexcept {
-    return occupied_[around_.grid.column_at(dx, dy)] != 0;
+  /// The columns up to 102 m to each side of the position of look_around().
+  [[nodiscard]] const ColumnGrid& surroundings() const noexcept { return around_.grid; }
+
+  /// True if an object was in nearly all scans that measured this column of surroundings(), which
+  /// may be outside.
+  [[nodiscard]] bool is_occupied(std::uint32_t column) const noexcept {
+    return occupied_[column] != 0;
   }
 
   /// Forgets the tiles of columns whose centre is farther than `distance` from (x, y), metres.
@@ -83,7 +87,7 @@ class OccupiedColumns {
 
   std::unordered_map<TileIndex, std::unique_ptr<Tile>, TileIndexHash> tiles_;
   Window scan_;
-  std::vector<std::uint8_t> seen_;  // in the columns of scan_, and outside
+  std::vector<std::uint8_t> seen_;  // ground and object in the columns of scan_, and outside
   Window around_;
   std::vector<std::uint8_t> occupied_;  // the columns of around_, and outside
 };

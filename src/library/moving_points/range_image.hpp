@@ -48,6 +48,16 @@ struct ObjectRanges {
   std::uint16_t farthest = 0;  ///< 0: no object
 };
 
+/// The rows of an image that have points.
+struct ImageRows {
+  int first = 0;
+  int count = 0;
+
+  /// Number of empty rows below and above them, which also have neighbours.
+  static constexpr int empty = 3;
+  [[nodiscard]] int in_memory() const noexcept { return count + 2 * empty; }
+};
+
 /// Ranges of one scan, by direction.
 class RangeImage {
  public:
@@ -64,9 +74,10 @@ class RangeImage {
   /// PixelGrid::columns - 1, and any row. The pixels to the left and right follow in memory, those
   /// above and below at a distance of `stride`, and at least one more after all of them.
   [[nodiscard]] std::size_t place(int row, int column) const noexcept {
-    const int k = std::clamp(row - first_row_, -empty_rows + 1, rows_ + empty_rows - 2);
-    return static_cast<std::size_t>((k + empty_rows) * stride + column + 1);
+    const int k = std::clamp(row - rows_.first + ImageRows::empty, 1, rows_.in_memory() - 2);
+    return static_cast<std::size_t>(k * stride + column + 1);
   }
+  [[nodiscard]] const ImageRows& rows() const noexcept { return rows_; }
   [[nodiscard]] const NearestPoint* nearest() const noexcept { return nearest_.data(); }
   [[nodiscard]] const ObjectRanges* objects() const noexcept { return objects_.data(); }
 
@@ -86,17 +97,14 @@ class RangeImage {
   }
 
  private:
-  static constexpr int empty_rows = 3;  // below and above: their neighbours exist, too
-
-  void clear(int first_row, int rows);
+  void clear(const ImageRows& rows);
   void repeat_edges() noexcept;  // columns -1 and PixelGrid::columns
 
-  static constexpr std::size_t empty_size = std::size_t{2} * empty_rows * stride;
+  static constexpr std::size_t empty_size = std::size_t{2} * ImageRows::empty * stride;
 
   std::vector<NearestPoint> nearest_ = std::vector<NearestPoint>(empty_size);
   std::vector<ObjectRanges> objects_ = std::vector<ObjectRanges>(empty_size);
-  int first_row_ = 0;
-  int rows_ = 0;
+  ImageRows rows_;
 };
 
 }  // namespace flagstone

@@ -23,10 +23,10 @@ bool is_possible(NearestPoint nearest, const ObjectRanges& objects) noexcept {
 }  // namespace
 
 void RangeImage::write(StateWriter& writer) const {
-  writer.add(std::int32_t{first_row_});
-  writer.add(std::int32_t{rows_});
-  for (int row = 0; row < rows_; ++row) {
-    const std::size_t first = place(first_row_ + row, 0);
+  writer.add(std::int32_t{rows_.first});
+  writer.add(std::int32_t{rows_.count});
+  for (int row = 0; row < rows_.count; ++row) {
+    const std::size_t first = place(rows_.first + row, 0);
     const PresenceBits<columns> measured(
         [&](std::size_t k) { return nearest_[first + k].range() != no_range; });
     measured.write(writer);
@@ -51,15 +51,15 @@ Status RangeImage::read(StateReader& reader) {
     return bad_state(begin, "the rows of a range image are impossible",
                      "rows from -1000 to 999, and their pixels");
   }
-  clear(first_row, rows);
-  for (int row = 0; row < rows_; ++row) {
+  clear({.first = first_row, .count = rows});
+  for (int row = 0; row < rows_.count; ++row) {
     PresenceBits<columns> measured;
     const std::size_t offset = reader.offset();
     if (!measured.read(reader)) {
       return bad_state(offset, "a row of a range image is incomplete",
                        "one bit per column, then the pixels");
     }
-    const std::size_t first = place(first_row_ + row, 0);
+    const std::size_t first = place(rows_.first + row, 0);
     for (std::size_t k = 0; k < columns; ++k) {
       if (!measured[k]) continue;
       const std::size_t offset_of_pixel = reader.offset();

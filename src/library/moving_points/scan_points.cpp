@@ -24,6 +24,8 @@ struct ScanPointArrays {
   std::uint32_t* in_columns;
   std::uint32_t* candidates;
   std::uint32_t* candidate_columns;
+  std::uint32_t* candidate_surroundings;
+  std::uint32_t* candidate_hashes;
 };
 
 }  // namespace flagstone
@@ -73,8 +75,9 @@ class PointReader {
     const FloatVector level = hn::Add(hn::Mul(x, x), hn::Mul(y, y));
     write_in_column(k, has(Label::ground), nonground, height, level,
                     column_at(rule_.columns, dx, dy));
-    write_candidates(k, nonground, height, hn::Add(level, hn::Mul(z, z)),
-                     column_at(rule_.objects, dx, dy));
+    const auto chosen = candidates(nonground, height, hn::Add(level, hn::Mul(z, z)));
+    if (hn::AllFalse(d, chosen)) return;
+    write_candidates(k, chosen, dx, dy, hash_of(x, y, z));
   }
 
  private:
@@ -119,20 +122,41 @@ class PointReader {
   }
 
   // Points whose height is unknown could move, too.
-  HWY_INLINE void write_candidates(std::size_t k, hn::Mask<FloatTag> nonground, FloatVector height,
-                                   FloatVector squared_range, IntVector column) const {
-    const IntTag di;
+  HWY_INLINE hn::Mask<FloatTag> candidates(hn::Mask<FloatTag> nonground, FloatVector height,
+                                           FloatVector squared_range) const {
     const auto excluded =
         hn::Or(hn::Le(height, number(rule_.min_height)), hn::Gt(height, number(rule_.max_height)));
     const auto near = hn::Lt(squared_range, number(rule_.max_range * rule_.max_range));
+    return hn::AndNot(excluded, hn::And(nonground, near));
+  }
+
+  // A hash of the coordinates.
+  static HWY_INLINE IntVector hash_of(FloatVector x, FloatVector y, FloatVector z) {
+    const hn::RebindToUnsigned<FloatTag> du;
+    const auto product = [&](auto v, std::uint32_t factor)
+                             HWY_ATTR { return hn::Mul(v, hn::Set(du, factor)); };
+    auto hash = product(hn::BitCast(du, x), 0x9E3779B1U);
+    hash = product(hn::Xor(hash, hn::BitCast(du, y)), 0x85EBCA77U);
+    hash = hn::Xor(hn::Xor(hash, hn::ShiftRight<15>(hash)), hn::BitCast(du, z));
+    hash = product(hash, 0xC2B2AE3DU);
+    return hn::BitCast(IntTag(), hn::Xor(hash, hn::ShiftRight<16>(hash)));
+  }
+
+  HWY_INLINE void write_candidates(std::size_t k, hn::Mask<FloatTag> candidates, FloatVector dx,
+                                   FloatVector dy, IntVector hash) const {
+    const IntTag di;
+    const IntVector column = column_at(rule_.objects, dx, dy);
     const auto outside = hn::Eq(column, hn::Set(di, static_cast<int>(rule_.objects.outside())));
-    const auto chosen =
-        hn::AndNot(outside, hn::RebindMask(di, hn::AndNot(excluded, hn::And(nonground, near))));
-    const IntVector index = hn::Iota(di, static_cast<int>(k));
-    compress_store(column, chosen,
-                   reinterpret_cast<std::int32_t*>(to_.candidate_columns + candidates_));
-    candidates_ += compress_store(index, chosen,
-                                  reinterpret_cast<std::int32_t*>(to_.candidates + candidates_));
+    const auto chosen = hn::AndNot(outside, hn::RebindMask(di, candidates));
+    const auto store = [&](IntVector v, std::uint32_t* to) HWY_ATTR {
+      return compress_store(v, chosen, reinterpret_cast<std::int32_t*>(to + candidates_));
+    };
+    store(column, to_.candidate_columns);
+    store(column_at(rule_.surroundings, dx, dy), to_.candidate_surroundings);
+    store(hash, to_.candidate_hashes);
+    // From a constant: hn::Iota is slow for other numbers.
+    const IntVector first = hn::Set(di, static_cast<std::int32_t>(k));
+    candidates_ += store(hn::Add(hn::Iota(di, 0), first), to_.candidates);
   }
 
   const ScanPointsRule& rule_;
@@ -179,7 +203,8 @@ void ScanPoints::read(CloudView cloud, std::span<const Label> labels,
   constexpr std::size_t padding = PointArrays::padding;
   const std::size_t padded = cloud.size() + 2 * padding;  // vectors are stored as a whole
   is_object_.reserve(padded);
-  for (Buffer<std::uint32_t>* array : {&in_columns_, &candidates_, &candidate_columns_}) {
+  for (Buffer<std::uint32_t>* array : {&in_columns_, &candidates_, &candidate_columns_,
+                                       &candidate_surroundings_, &candidate_hashes_}) {
     array->reserve(padded);
   }
   outside_ = rule.columns.outside();
@@ -191,7 +216,9 @@ void ScanPoints::read(CloudView cloud, std::span<const Label> labels,
                                          .is_object = is_object_.data(),
                                          .in_columns = in_columns_.data(),
                                          .candidates = candidates_.data(),
-                                         .candidate_columns = candidate_columns_.data()});
+                                         .candidate_columns = candidate_columns_.data(),
+                                         .candidate_surroundings = candidate_surroundings_.data(),
+                                         .candidate_hashes = candidate_hashes_.data()});
 }
 
 }  // namespace flagstone

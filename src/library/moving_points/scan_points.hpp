@@ -25,7 +25,8 @@ struct ScanPointsRule {
   float min_height = 0, max_height = 0;  ///< above the ground; exclusive and inclusive, metres
   ColumnGrid objects;                    ///< in which they form objects
   /// @}
-  ColumnGrid columns;  ///< in which ground and static objects are counted
+  ColumnGrid columns;       ///< in which ground and static objects are counted
+  ColumnGrid surroundings;  ///< the same columns, of a larger square
 };
 
 /// The points of one scan, prepared in one pass for all later steps. Per point of the scan, in its
@@ -44,23 +45,31 @@ class ScanPoints {
     return {is_object_.data(), points_.size()};
   }
 
-  /// A point that is ground or part of an object on it, near the sensor; otherwise its column is
-  /// outside.
-  struct InColumn {
-    std::uint32_t column = 0;
-    bool is_object = false;
-  };
-  [[nodiscard]] InColumn in_column(std::size_t k) const noexcept {
-    return {.column = in_columns_.data()[k] / 2, .is_object = in_columns_.data()[k] % 2 != 0};
+  /// The columns with a point that is ground or part of an object on it, near the sensor; otherwise
+  /// outside: twice the column, plus 1 for an object.
+  [[nodiscard]] std::span<const std::uint32_t> in_columns() const noexcept {
+    return {in_columns_.data(), points_.size()};
   }
 
-  /// The points that could move, ascending, and their columns in ScanPointsRule::objects.
+  /// @name The points that could move
+  /// @{
+  /// Ascending.
   [[nodiscard]] std::span<const std::uint32_t> candidates() const noexcept {
     return {candidates_.data(), candidate_count_};
   }
+  /// In ScanPointsRule::objects.
   [[nodiscard]] std::span<const std::uint32_t> candidate_columns() const noexcept {
     return {candidate_columns_.data(), candidate_count_};
   }
+  /// In ScanPointsRule::surroundings.
+  [[nodiscard]] std::span<const std::uint32_t> candidate_surroundings() const noexcept {
+    return {candidate_surroundings_.data(), candidate_count_};
+  }
+  /// Hashes of the coordinates, 32 bits.
+  [[nodiscard]] std::span<const std::uint32_t> candidate_hashes() const noexcept {
+    return {candidate_hashes_.data(), candidate_count_};
+  }
+  /// @}
 
   /// A point moves: it is not part of a static object.
   void mark_moving(std::size_t k) noexcept {
@@ -72,7 +81,7 @@ class ScanPoints {
   PointArrays points_;
   Buffer<std::uint8_t> is_object_;
   Buffer<std::uint32_t> in_columns_;  // 2 * column + is_object
-  Buffer<std::uint32_t> candidates_, candidate_columns_;
+  Buffer<std::uint32_t> candidates_, candidate_columns_, candidate_surroundings_, candidate_hashes_;
   std::size_t candidate_count_ = 0;
   std::uint32_t outside_ = 0;  // of ScanPointsRule::columns
 };

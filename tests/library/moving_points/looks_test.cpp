@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "library/moving_points/looks.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <numbers>
+#include <string>
 #include <vector>
 
+#include "forced_target.hpp"
+#include "library/core/simd_target.hpp"
 #include "library/moving_points/box_scene.hpp"
 
 namespace flagstone {
@@ -80,6 +85,32 @@ TEST(Looks, APointNextToTheEdgeOfANearerObjectIsNotSeenThrough) {
   const BoxScan scan({car, wall}, origin);
   EXPECT_EQ(look_at(scan, 20, 1.60F, -0.6F).through, 0);
   EXPECT_EQ(look_at(scan, 20, 2.50F, -0.6F).through, 1);
+}
+
+TEST(Looks, AreTheSameOnEveryInstructionSet) {
+  const BoxScan scan({car, wall}, origin);
+  const auto looks = [&] {
+    PointArrays points;
+    points.start(1000);
+    for (int k = 0; k < 1000; ++k) {
+      points.push_back({0.04F * static_cast<float>(k), 0.3F * static_cast<float>(k % 11 - 5),
+                        0.5F * static_cast<float>(k % 7) - 2});
+    }
+    points.finish();
+    Directions directions;
+    directions.compute(points, identity_transform, grid);
+    std::vector<LookCounts> counts(points.size());
+    add_looks(image_of(scan), directions, counts);
+    std::vector<int> numbers;
+    for (const LookCounts& each : counts) numbers.push_back(2 * each.through + each.occupied);
+    return numbers;
+  };
+  const std::vector<int> expected = looks();
+  EXPECT_THAT(expected, testing::IsSupersetOf({0, 1, 2}));
+  for (const std::string& target : simd_targets()) {
+    const tests::ForcedTarget forced(target);
+    EXPECT_EQ(looks(), expected) << target;
+  }
 }
 
 std::deque<ScanView> scans_at(const std::vector<double>& times) {

@@ -4,24 +4,35 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 
 namespace flagstone {
 namespace {
 
+void add(OccupiedColumns& columns, std::uint32_t column, bool is_object) {
+  columns.add(std::array{2 * column + (is_object ? 1U : 0U)});
+}
+
 void add_scans(OccupiedColumns& columns, int count, bool is_object) {
   for (int k = 0; k < count; ++k) {
     columns.start(1, -10);
     const std::uint32_t column = columns.grid().column_at(2.2F, 2.9F);
-    columns.add(column, false);  // the ground below an object
-    if (is_object) columns.add(column, true);
+    add(columns, column, false);  // the ground below an object
+    if (is_object) add(columns, column, true);
     columns.finish();
   }
 }
 
+// The column at (dx, dy) metres from the position of look_around().
+bool is_occupied_near(const OccupiedColumns& columns, double dx, double dy) {
+  return columns.is_occupied(
+      columns.surroundings().column_at(static_cast<float>(dx), static_cast<float>(dy)));
+}
+
 bool is_occupied(OccupiedColumns& columns, double x, double y) {
   columns.look_around(-20, 30);
-  return columns.is_occupied(static_cast<float>(x + 20), static_cast<float>(y - 30));
+  return is_occupied_near(columns, x + 20, y - 30);
 }
 
 TEST(OccupiedColumns, AnObjectInAllScansOccupiesItsColumn) {
@@ -52,8 +63,8 @@ TEST(OccupiedColumns, OtherPositionsSeeTheSameColumns) {
   add_scans(columns, 4, true);
   for (const double x : {-95.0, -40.3, 0.0, 17.7, 89.9}) {
     columns.look_around(x, x);
-    EXPECT_TRUE(columns.is_occupied(static_cast<float>(3.2 - x), static_cast<float>(-7.1 - x)));
-    EXPECT_FALSE(columns.is_occupied(static_cast<float>(3.6 - x), static_cast<float>(-7.1 - x)));
+    EXPECT_TRUE(is_occupied_near(columns, 3.2 - x, -7.1 - x));
+    EXPECT_FALSE(is_occupied_near(columns, 3.6 - x, -7.1 - x));
   }
 }
 
@@ -61,12 +72,12 @@ TEST(OccupiedColumns, PointsOutsideAreNotCounted) {
   OccupiedColumns columns;
   for (int k = 0; k < 4; ++k) {
     columns.start(0, 0);
-    columns.add(columns.grid().column_at(60, 0), true);
+    add(columns, columns.grid().column_at(60, 0), true);
     columns.finish();
   }
   columns.look_around(0, 0);
-  for (const float x : {-200.F, -101.F, 0.F, 60.F, 101.F, 200.F}) {
-    EXPECT_FALSE(columns.is_occupied(x, 0));
+  for (const double x : {-200.0, -101.0, 0.0, 60.0, 101.0, 200.0}) {
+    EXPECT_FALSE(is_occupied_near(columns, x, 0));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ const ScanPointsRule rule{
     .min_height = 0.3F,
     .max_height = 3,
     .objects = {.offset_x = 102.4F, .offset_y = 102.4F, .per_metre = 2.5F, .width = 512},
-    .columns = {.offset_x = 41, .offset_y = 41, .per_metre = 2, .width = 164}};
+    .columns = {.offset_x = 41, .offset_y = 41, .per_metre = 2, .width = 164},
+    .surroundings = {.offset_x = 102, .offset_y = 102, .per_metre = 2, .width = 408}};
 
 /// A scan, point by point.
 struct Scan {
@@ -62,6 +64,19 @@ TEST(ScanPoints, PointsOnObjectsInRangeCanMove) {
   EXPECT_THAT(points.candidates(), ElementsAre(0, 3, 6));
   const std::uint32_t column = rule.objects.column_at(10, 0);
   EXPECT_THAT(points.candidate_columns(), ElementsAre(column, column, column));
+  const std::uint32_t around = rule.surroundings.column_at(10, 0);
+  EXPECT_THAT(points.candidate_surroundings(), ElementsAre(around, around, around));
+}
+
+TEST(ScanPoints, HashesDependOnTheCoordinatesAlone) {
+  const ScanPoints points = Scan()
+                                .add(10, 0, 0, Label::nonground, 1)
+                                .add(10, 0, 0.01F, Label::nonground, 1)
+                                .add(10, 0, 0, Label::nonground, 2)
+                                .read();
+  const std::span<const std::uint32_t> hashes = points.candidate_hashes();
+  EXPECT_EQ(hashes[0], hashes[2]);
+  EXPECT_NE(hashes[0], hashes[1]);
 }
 
 TEST(ScanPoints, GroundAndLowObjectsNearTheSensorAreCountedInColumns) {
@@ -74,13 +89,9 @@ TEST(ScanPoints, GroundAndLowObjectsNearTheSensorAreCountedInColumns) {
                                 .add(3, 4, -1, Label::noise, -1)
                                 .read();
   const std::uint32_t column = rule.columns.column_at(3, 4);
-  EXPECT_EQ(points.in_column(0).column, column);
-  EXPECT_FALSE(points.in_column(0).is_object);
-  EXPECT_EQ(points.in_column(1).column, column);
-  EXPECT_TRUE(points.in_column(1).is_object);
-  for (std::size_t k = 2; k < 6; ++k) {
-    EXPECT_EQ(points.in_column(k).column, rule.columns.outside()) << k;
-  }
+  const std::uint32_t outside = 2 * rule.columns.outside();
+  EXPECT_THAT(points.in_columns(),
+              ElementsAre(2 * column, 2 * column + 1, outside, outside, outside, outside));
 }
 
 TEST(ScanPoints, MovingPointsAreNotPartOfStaticObjects) {
@@ -89,7 +100,7 @@ TEST(ScanPoints, MovingPointsAreNotPartOfStaticObjects) {
   EXPECT_THAT(points.is_object(), ElementsAre(1, 1));
   points.mark_moving(1);
   EXPECT_THAT(points.is_object(), ElementsAre(1, 0));
-  EXPECT_EQ(points.in_column(1).column, rule.columns.outside());
+  EXPECT_EQ(points.in_columns()[1], 2 * rule.columns.outside());
 }
 
 TEST(ScanPoints, PointsWithoutAMeasurementAreAtTheSensor) {
@@ -106,12 +117,15 @@ TEST(ScanPoints, PointsWithoutAMeasurementAreAtTheSensor) {
 // All output as bytes.
 std::vector<std::uint32_t> bits_of(const ScanPoints& points) {
   std::vector<std::uint32_t> bits(points.candidates().begin(), points.candidates().end());
-  bits.insert(bits.end(), points.candidate_columns().begin(), points.candidate_columns().end());
+  for (const auto numbers :
+       {points.candidate_columns(), points.candidate_surroundings(), points.candidate_hashes()}) {
+    bits.insert(bits.end(), numbers.begin(), numbers.end());
+  }
   for (std::size_t k = 0; k < points.points().size(); ++k) {
     const Point p = points.points()[k];
     for (const float number : {p.x, p.y, p.z}) bits.push_back(std::bit_cast<std::uint32_t>(number));
     bits.push_back(points.is_object()[k]);
-    bits.push_back(2 * points.in_column(k).column + (points.in_column(k).is_object ? 1 : 0));
+    bits.push_back(points.in_columns()[k]);
   }
   return bits;
 }
