@@ -706,6 +706,39 @@ def cost_tables(results):
     return {"cost": f"{table(head, rows, left=0)}\n\n{made_by(results)}. Command of the last row:\n\n    {command}"}
 
 
+# --- CPU time per scan, live ----------------------------------------------------------------------------------
+
+LIVE_SENSOR, LIVE_NOISE = "hdl-64e", "jitter"
+LIVE_STEPS = {
+    "segmentation": "segmentation",
+    "level": "levelling",
+    "moving_points": "moving points",
+    "add_to_map": "map",
+    "vote": "vote",
+    "compare_with_map": "comparison with the map",
+    "mapping": "all steps after the segmentation",
+}
+
+
+def measure_live(study):
+    """CPU time of one thread per scan, with live labels."""
+    rows = []
+    for scene in SCENES:
+        run = simulated(LIVE_SENSOR, 1, scene)
+        study.simulate(run)
+        command = f"scripts/benchmark live_map {run.directory} {study.poses(run, LIVE_NOISE)} {run.height:g}"
+        show_progress(f"timing {run.name}")
+        rows.append({"title": titled(scene), "command": command, **json.loads(study.call(command))})
+    return {"rows": rows}
+
+
+def live_tables(results):
+    rows = [[row["title"], *(f"{row[step]:.1f}" for step in LIVE_STEPS)] for row in results["rows"]]
+    command = results["rows"][-1]["command"]
+    text = table(["run", *LIVE_STEPS.values()], rows)
+    return {"live": f"{text}\n\n{made_by(results)}. Command of the last row:\n\n    {command}"}
+
+
 # --- published results ----------------------------------------------------------------------------------------
 
 MOS = "SemanticKITTI-MOS"
@@ -756,8 +789,15 @@ MEASUREMENTS = {
     "moving": measure_moving,
     "image": measure_image,
     "cost": measure_cost,
+    "live": measure_live,
 }
-TABLES = {"labels": labels_tables, "map": map_tables, "moving": moving_tables, "cost": cost_tables}
+TABLES = {
+    "labels": labels_tables,
+    "map": map_tables,
+    "moving": moving_tables,
+    "cost": cost_tables,
+    "live": live_tables,
+}
 
 
 def tables(results):

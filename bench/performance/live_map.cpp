@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 flagstone contributors
+// SPDX-License-Identifier: MIT
+//
+// Measures what mapping a run live costs per scan beside the segmentation, step by step: CPU time
+// of one thread. Prints one JSON object with medians over the scans, milliseconds.
+//
+//   live_map RUN POSES SENSOR_HEIGHT
+
+#include <time.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <flagstone/ground_map.hpp>
+#include <flagstone/label_vote.hpp>
+#include <flagstone/moving_points.hpp>
+#include <flagstone/surface.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/mapping/run_mapper.hpp"
+#include "app/run_poses.hpp"
+#include "app/scan_files.hpp"
+#include "files/io/read_cloud.hpp"
+#include "timing.hpp"
+
+namespace flagstone::performance {
+namespace {
+
+/// CPU time of this thread, milliseconds.
+double cpu_time() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+void throw_unless_ok(const Status& status) {
+  if (!status.ok()) throw std::runtime_error(status.message());
+}
+
+struct Step {
+  std::string_view name;
+  std::vector<double> times{};  // milliseconds, per scan
+
+  template <class Work>
+  void time(const Work& work) {
+    const double start = cpu_time();
+    throw_unless_ok(work());
+    times.push_back(cpu_time() - start);
+  }
+};
+
+/// The steps that RunMapper takes with live labels, with their own map and votes.
+class Steps {
+ public:
+  void add(app::RunScan& scan) {
+    const CloudView cloud = scan.level.cloud();
+    const Pose& pose = scan.level.pose();
+    scan.labels.resize(cloud.size());
+    level_.time([&] { return map_.level(cloud, scan.result, pose, scan.levelling); });
+    moving_points_.time([&] {
+      return moving_.add(cloud, scan.result, pose, scan.levelling, scan.time, scan.moving);
+    });
+    add_.time([&] { return map_.add_levelled(); });
+    labels_.time([&] { return vote_.add(cloud, scan.result, pose, scan.levelling, scan.labels); });
+    above_map_.time(
+        [&] { return map_.relabel(cloud, scan.result, pose, scan.levelling, scan.labels); });
+  }
+
+  [[nodiscard]] std::array<const Step*, 5> all() const {
+    return {&level_, &moving_points_, &add_, &labels_, &above_map_};
+  }
+
+ private:
+  GroundMap map_;
+  LabelVote vote_;
+  MovingPoints moving_{{.delay = 0}};
+  Step level_{"level"};
+  Step moving_points_{"moving_points"};
+  Step add_{"add_to_map"};
+  Step labels_{"vote"};
+  Step above_map_{"compare_with_map"};
+};
+
+void run(const std::string& directory, const std::string& pose_file, float sensor_height) {
+  const auto inputs = app::find_scans({directory + "/velodyne"});
+  const app::RunPoses poses = app::read_run_poses(directory, inputs, pose_file);
+  const std::vector<double> times = poses.times();
+  SurfaceConfig config;
+  config.sensor_height = sensor_height;
+  Surface surface(config);
+  Steps steps;
+  app::RunMapper mapper({.labels = app::LabelSource::live});
+  Step segmentation{"segmentation"};
+  Step mapping{"mapping"};
+  app::RunScan of_steps;  // its memory is used again
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    auto scan = std::make_unique<app::RunScan>();
+    scan->index = i;
+    scan->time = times.at(i);
+    throw_unless_ok(io::read_cloud(inputs[i].file, {}, scan->cloud));
+    const auto segment = [&] { return surface.segment(scan->cloud.view(), scan->result); };
+    segmentation.time(segment);
+    scan->level.set(scan->cloud.view(), {}, poses.scans[i].pose.value());
+    of_steps.time = scan->time;
+    of_steps.level = scan->level;
+    of_steps.result = scan->result;
+    steps.add(of_steps);
+    throw_unless_ok(segment());  // the caches are as after a segmentation
+    mapping.time([&] { return mapper.add(std::move(scan), [](const app::RunScan&) {}); });
+  }
+  nlohmann::ordered_json medians;
+  medians["scans"] = inputs.size();
+  const auto add = [&](const Step& step) { medians[step.name] = quantile(step.times, 0.5); };
+  add(segmentation);
+  add(mapping);
+  for (const Step* const step : steps.all()) add(*step);
+  std::printf("%s\n", medians.dump().c_str());
+}
+
+}  // namespace
+}  // namespace flagstone::performance
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::fputs("usage: live_map RUN POSES SENSOR_HEIGHT\n", stderr);
+    return 2;
+  }
+  try {
+    flagstone::performance::run(argv[1], argv[2], std::strtof(argv[3], nullptr));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "live_map: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
