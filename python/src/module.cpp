@@ -1,30 +1,13 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
-#include <new>
-#include <string>
-#include <string_view>
-
 #include "bindings.hpp"
 #include "flagstone/version.hpp"
 
 namespace flagstone::python {
 
-namespace {
-
-/// Replaces the name of the command's option by the name of the Python argument.
-std::string with_keywords(std::string message) {
-  constexpr std::string_view option = "--columns";
-  const std::size_t at = message.rfind(option);
-  if (at != std::string::npos) message.replace(at, option.size(), "columns=");
-  return message;
-}
-
-}  // namespace
-
 void raise_if_failed(const Status& status) {
   if (status.ok()) return;
-  const std::string text = with_keywords(status.message());
-  const char* const message = text.c_str();
+  const char* const message = status.message().c_str();
   switch (status.code()) {
     case StatusCode::out_of_memory: PyErr_SetString(PyExc_MemoryError, message); break;
     case StatusCode::not_found: PyErr_SetString(PyExc_FileNotFoundError, message); break;

@@ -723,7 +723,7 @@ TEST_F(EvalCommand, ReportsUsageErrorsOnOneLine) {
       {{"--set", "patchwork.seed_cuont=3"}, "no setting 'seed_cuont'"},
       {{"--set", "patchwork.distance_margin=-1"}, "distance_margin = -1"},
       {{"--set", "surface.distance_margin=1"},
-       "no setting 'distance_margin' (--method patchwork has it)"},
+       "no setting 'distance_margin' (method patchwork has it)"},
       {{"--methods", "surface", "--preset", "paper"}, "surface has no presets"},
       {{"--images", "-1"}, "--images"},
       {{"--label-map", "mine"}, "expected flagstone, semantic-kitti"},

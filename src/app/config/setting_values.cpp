@@ -189,7 +189,7 @@ class Settings {
       MountSettings mount;
       const Settings others(config, mount);
       if (!others.has(key) && !others.has_section(key)) continue;
-      return fmt::format("this method has no setting '{}' (--method {} has it)", key, method);
+      return fmt::format("this method has no setting '{}' (method {} has it)", key, method);
     }
     std::vector<std::string_view> known = keys_of(settings_);
     if (zones_ != nullptr) known.emplace_back("zones");
@@ -200,7 +200,7 @@ class Settings {
       meant = fmt::format(" (did you mean '{}'?)", *inside);
     }
     return fmt::format("no setting '{}'{}", key,
-                       meant.empty() ? " ('flagstone config --method NAME' lists them)" : meant);
+                       meant.empty() ? " (docs/reference/settings.md lists them)" : meant);
   }
 
   std::vector<Setting> settings_;

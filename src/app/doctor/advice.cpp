@@ -131,7 +131,7 @@ Advice advise(const Summary& summary, const CommonOrientation& orientation,
 std::string to_toml(const Advice& advice) {
   const Mount usual;
   const Mount& mount = advice.mount;
-  std::string text = "# Settings from 'flagstone doctor', for --config\n";
+  std::string text = "# Settings from 'flagstone doctor'\n";
   if (!advice.sensor.empty()) text += fmt::format("sensor = \"{}\"\n", advice.sensor);
   text += fmt::format("sensor_height = {}  # metres above the ground\n",
                       number(mount.sensor_height, 3));

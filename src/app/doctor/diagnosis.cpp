@@ -34,7 +34,7 @@ Finding points(const Summary& summary) {
   finding.sentence = fmt::format(
       "{:.0f} points per scan, {:.0f} of them valid: too few to examine (expected at least 1000).",
       summary.points, summary.usable);
-  finding.remedy = "Use complete scans. For .bin files, check --columns.";
+  finding.remedy = "Use complete scans. For .bin files, check the number of columns.";
   return finding;
 }
 

@@ -22,15 +22,14 @@ namespace {
 /// Checks that `size` bytes are a whole number of points.
 Status check_size(std::size_t size, std::size_t floats_per_point) {
   if (floats_per_point < 3 || floats_per_point > max_fields) {
-    return invalid("{} floats per point (expected 3 to {}; set --columns)", floats_per_point,
-                   max_fields);
+    return invalid("{} floats per point (expected 3 to {} columns)", floats_per_point, max_fields);
   }
   const std::size_t stride = floats_per_point * sizeof(float);
   const std::size_t rest = size % stride;
   if (rest == 0) return {};
   return bad_byte(size - rest,
                   "{} bytes are not a whole number of points (expected {} floats, {} bytes each; "
-                  "set --columns, or check whether the file is truncated)",
+                  "check the number of columns, and whether the file is truncated)",
                   size, floats_per_point, stride);
 }
 
@@ -135,8 +134,8 @@ Status CloudReader::load(const std::filesystem::path& path) {
   }
   const int columns = options_.columns;
   if (columns != 0 && (columns < 3 || columns > static_cast<int>(max_fields))) {
-    return refuse(path, fmt::format("{} floats per point (expected 3 to {}, or 0 to choose by file "
-                                    "extension; set --columns)",
+    return refuse(path, fmt::format("{} floats per point (expected 3 to {} columns, or 0 to choose by "
+                                    "file extension)",
                                     columns, max_fields));
   }
   // After raw points the memory of the file belongs to the cloud; after other formats it is here.

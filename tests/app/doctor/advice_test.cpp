@@ -130,7 +130,7 @@ TEST(MatchingSensors, HaveTheSameRange) {
 
 TEST(AdviceToml, HasOnlyTheHeightForTheDefaultMount) {
   EXPECT_EQ(to_toml({}),
-            "# Settings from 'flagstone doctor', for --config\n"
+            "# Settings from 'flagstone doctor'\n"
             "sensor_height = 1.73  # metres above the ground\n");
 }
 
@@ -140,7 +140,7 @@ TEST(AdviceToml, HasTheSettingsThatDiffer) {
       .sensor_height = 2, .up = {0, -1, 0}, .origin = {0, 0.25f, -1.5f}, .scale = 0.01f};
 
   EXPECT_EQ(to_toml(advice),
-            "# Settings from 'flagstone doctor', for --config\n"
+            "# Settings from 'flagstone doctor'\n"
             "sensor = \"os0-128\"\n"
             "sensor_height = 2.0  # metres above the ground\n"
             "\n[mount]\n"
