@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Adds the page of web/page to the site, as `try/`, if `make web` has built it."""
+"""Adds the page of web/page to the site, as `try/`, if `make web` has built it: its files, a tab and a button on the home page."""
 
 from __future__ import annotations
 
@@ -11,14 +11,31 @@ from mkdocs.structure.files import File, Files
 
 if TYPE_CHECKING:
     from mkdocs.config.defaults import MkDocsConfig
+    from mkdocs.structure.pages import Page
 
 BUILT = pathlib.Path(__file__).resolve().parents[2] / "web" / "page" / "dist"
 
 
+BUTTON = "\n[Try it in your browser: drop a scan, see its ground](try/index.html){ .md-button .md-button--primary }\n"
+
+
+def is_built() -> bool:
+    """True if `make web` has built the page."""
+    return (BUILT / "index.html").exists()
+
+
 def on_config(config: MkDocsConfig) -> None:
     """Adds a tab for the page."""
-    if config.nav and (BUILT / "index.html").exists():
+    if config.nav and is_built():
         config.nav.insert(1, {"Try it": "try/index.html"})
+
+
+def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Adds a button to the home page, above the images."""
+    if page.file.src_uri != "index.md" or not is_built():
+        return markdown
+    introduction, table, rest = markdown.partition("\n|")
+    return introduction + BUTTON + table + rest
 
 
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:

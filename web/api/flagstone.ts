@@ -392,8 +392,7 @@ export class Flagstone {
 
   /** Version of flagstone. */
   get version(): string {
-    this.#module.exports.flagstone_version();
-    return this.#module.text();
+    return this.#module.made(this.#module.exports.flagstone_version());
   }
 
   /**
@@ -401,8 +400,7 @@ export class Flagstone {
    * `columns` is the number of floats per point in `.bin` files (default: 5 for `.pcd.bin`, otherwise 4).
    */
   read(name: string, content: Uint8Array | ArrayBuffer, { columns = 0 } = {}): Scan {
-    this.#module.giveFile(name, content instanceof Uint8Array ? content : new Uint8Array(content));
-    this.#module.give(name);
+    this.#module.giveFile(name, content);
     return new Scan(this.#module, this.#module.check(this.#module.exports.flagstone_scan_read(columns)), name);
   }
 
@@ -437,8 +435,7 @@ export class Flagstone {
    * `.npy`. `points` is the number of points of the scan.
    */
   readLabels(name: string, content: Uint8Array | ArrayBuffer, points: number): Uint32Array {
-    this.#module.giveFile(name, content instanceof Uint8Array ? content : new Uint8Array(content));
-    this.#module.give(name);
+    this.#module.giveFile(name, content);
     this.#module.check(this.#module.exports.flagstone_read_labels(points));
     return new Uint32Array(this.#module.writtenFile().buffer);
   }

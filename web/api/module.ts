@@ -56,8 +56,7 @@ export class Module {
   /** Passes text to the next function that uses it. */
   give(text: string): void {
     const bytes = this.#encoder.encode(text);
-    const address = this.exports.flagstone_text_buffer(bytes.length);
-    if (address === 0) throw new Error("out of memory");
+    const address = this.check(this.exports.flagstone_text_buffer(bytes.length));
     this.bytes(address, bytes.length).set(bytes);
   }
 
@@ -80,10 +79,11 @@ export class Module {
   }
 
   /** Adds a file for the next function that reads one of this name, and passes the name. */
-  giveFile(name: string, content: Uint8Array): void {
+  giveFile(name: string, content: Uint8Array | ArrayBuffer): void {
+    const bytes = content instanceof Uint8Array ? content : new Uint8Array(content);
     this.give(name);
-    const address = this.check(this.exports.flagstone_file_new(content.length));
-    this.bytes(address, content.length).set(content);
+    const address = this.check(this.exports.flagstone_file_new(bytes.length));
+    this.bytes(address, bytes.length).set(bytes);
   }
 
   /** A copy of the file written last. */

@@ -123,15 +123,18 @@ config::MountChoice mount_of(const Json& options) {
       throw std::invalid_argument(std::string(key) + ": " + error.what());
     }
   };
+  const auto text_of = [](const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+  };
   read("sensor_height", [&](const Json& value) {
     if (value.is_number()) return mount.set_height(value.get<float>());
-    mount.set_height(std::string_view(value.is_string() ? value.get<std::string>() : value.dump()));
+    mount.set_height(std::string_view(text_of(value)));
   });
   read("tilt", [&](const Json& value) {
     if (value.is_array() && value.size() == 3) {
       return mount.set_tilt(value.get<std::array<float, 3>>());
     }
-    mount.set_tilt(std::string_view(value.is_string() ? value.get<std::string>() : value.dump()));
+    mount.set_tilt(std::string_view(text_of(value)));
   });
   return mount;
 }
@@ -158,31 +161,25 @@ config::ResolvedMethod method_of(const std::string& json) {
   return config::resolve_one(choice);
 }
 
-Json json_of(const Mount& mount) {
-  return {{"sensor_height", mount.sensor_height},
-          {"up", mount.up},
-          {"origin", mount.origin},
-          {"scale", mount.scale}};
-}
-
 }  // namespace
 
 FLAGSTONE_EXPORT(flagstone_text_buffer) char* text_buffer(std::size_t size) noexcept {
-  try {
+  return guarded([&] {
     text.resize(size);
-  } catch (const std::exception&) {
-    return nullptr;
-  }
-  return text.data();
+    return text.data();
+  });
 }
 
 FLAGSTONE_EXPORT(flagstone_text_size) std::size_t text_size() noexcept { return text.size(); }
 
 FLAGSTONE_EXPORT(flagstone_text) const char* text_data() noexcept { return text.data(); }
 
-FLAGSTONE_EXPORT(flagstone_version) const char* version() noexcept {
-  text = FLAGSTONE_VERSION;
-  return text.data();
+/// Makes the version the text.
+FLAGSTONE_EXPORT(flagstone_version) bool version() noexcept {
+  return guarded([] {
+    text = FLAGSTONE_VERSION;
+    return true;
+  });
 }
 
 /// Adds a file named by the text. Returns its bytes to fill.
@@ -307,10 +304,14 @@ FLAGSTONE_EXPORT(flagstone_segment) bool segment(Method* method, const Scan* sca
 FLAGSTONE_EXPORT(flagstone_mount) bool mount(const Method* method) noexcept {
   return guarded([&] {
     const GravityAlignedSegmenter& levelled = method->runner.levelled();
-    Json json = json_of(levelled.mount());
-    json["decision"] = to_sentence(levelled.decision());
-    json["accepted"] = levelled.decision().accepted();
-    text = json.dump();
+    const Mount& mount = levelled.mount();
+    text = Json{{"sensor_height", mount.sensor_height},
+                {"up", mount.up},
+                {"origin", mount.origin},
+                {"scale", mount.scale},
+                {"decision", to_sentence(levelled.decision())},
+                {"accepted", levelled.decision().accepted()}}
+               .dump();
     return true;
   });
 }

@@ -95,7 +95,7 @@ describe("readers", () => {
   });
 });
 
-describe("errors are one line, as the command prints them", () => {
+describe("errors are one line and name no option of the command", () => {
   const cases = {
     "an unknown extension": [() => flagstone.read("a.xyz", new Uint8Array(3)), "a.xyz: unknown file extension (expected"],
     "a truncated .bin file": [
@@ -112,6 +112,8 @@ describe("errors are one line, as the command prints them", () => {
     ],
     "an unknown method": [() => flagstone.segmenter({ method: "surfac" }), "did you mean 'surface'?"],
     "an unknown setting": [() => flagstone.segmenter({ sensor_heigth: 2 }), "no setting 'sensor_heigth' (did you mean"],
+    "a setting of another method": [() => flagstone.segmenter({ distance_margin: 0.2 }), "(method patchwork has it)"],
+    "a setting like no other": [() => flagstone.segmenter({ zzzzzzzz: 2 }), "no setting 'zzzzzzzz' (docs/reference/settings.md lists"],
     "an unknown sensor": [() => flagstone.segmenter({ sensor: "os2" }), "no sensor is named 'os2'"],
     "an unknown preset": [() => flagstone.segmenter({ method: "patchwork", preset: "papr" }), "papr"],
     "a value out of range": [
@@ -135,6 +137,7 @@ describe("errors are one line, as the command prints them", () => {
         assert.ok(error instanceof Error);
         assert.ok(error.message.includes(expected), error.message);
         assert.ok(!error.message.includes("\n"), error.message);
+        assert.doesNotMatch(error.message, /--[a-z]/);
         return true;
       });
     });

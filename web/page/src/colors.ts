@@ -17,6 +17,11 @@ interface Palette {
   difference: string[];
   verdicts: Record<Verdict, string>;
   noPatch: string;
+  /** The path of the sensor in a map, and its moving objects. */
+  path: string;
+  moving: string;
+  /** Static points of a map, from low to high. */
+  obstacles: readonly [Rgb, Rgb];
 }
 
 const verdicts: Record<Verdict, string> = {
@@ -38,6 +43,9 @@ export const palettes: Record<Theme, Palette> = {
     difference: ["#9a8440", "#4a5664", "#19c9ad", "#f062b0"],
     verdicts,
     noPatch: "#424b56",
+    path: "#5cb3ff",
+    moving: "#ff4f4f",
+    obstacles: [rgb("#4a6072"), rgb("#d5e2ea")],
   },
   light: {
     background: "#f5f6f7",
@@ -46,14 +54,19 @@ export const palettes: Record<Theme, Palette> = {
     difference: ["#d8c48a", "#b9c1ca", "#008f79", "#c81f7f"],
     verdicts,
     noPatch: "#bcc4cc",
+    path: "#1c4fa8",
+    moving: "#d61f1f",
+    obstacles: [rgb("#93a0b5"), rgb("#232a3d")],
   },
 };
 
-// Viridis, at equal distances.
-const ramp = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"].map(rgb);
+/** Viridis, at equal distances. */
+const viridis = ["#440154", "#46327e", "#365c8d", "#277f8e", "#1fa187", "#4ac16d", "#a0da39", "#fde725"].map(rgb);
+/** Elevations of a map, as in the image of the command. */
+export const terrain = ["#86b398", "#c3d3a4", "#e6e3a8", "#f0cf95", "#d8ad80", "#bf8f6b"].map(rgb);
 
 /** The colour of a number from 0 to 1. */
-export function rampColor(value: number): Rgb {
+export function rampColor(value: number, ramp: readonly Rgb[] = viridis): Rgb {
   const at = Math.min(Math.max(value, 0), 1) * (ramp.length - 1);
   const index = Math.min(Math.floor(at), ramp.length - 2);
   const part = at - index;

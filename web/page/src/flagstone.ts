@@ -4,7 +4,9 @@
 // The only file that calls the flagstone module. It copies what the page keeps, because the arrays of the module are
 // valid until its next call.
 import { load, type Flagstone, type Options, type Scan, type Segmentation, type Segmenter } from "flagstone";
-import { labels, type Points, type Report, type Result } from "./messages";
+import { readMap } from "./map";
+import type { Files } from "./map_files";
+import { labels, type MapCopy, type Points, type Report, type Result } from "./messages";
 import { patchOfPoints } from "./patches";
 
 /** One scan at a time, with a method that is reused as long as its options do not change. */
@@ -22,12 +24,17 @@ export class Session {
     return new Session(await load());
   }
 
-  open(name: string, content: ArrayBuffer): Points {
-    const scan = this.#module.read(name, content);
+  /** `columns` is the number of floats per point in `.bin` files, 0 to choose by file extension. */
+  open(name: string, content: ArrayBuffer, columns: number): Points {
+    const scan = this.#module.read(name, content, { columns });
     this.#scan?.delete();
     this.#scan = scan;
     this.#last = undefined;
     return { name, size: scan.size, positions: scan.positions.slice(), fields: scan.fields };
+  }
+
+  map(name: string, files: Files): Promise<MapCopy> {
+    return readMap(name, files, this.#module);
   }
 
   segment(options: Options): Result {

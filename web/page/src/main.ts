@@ -3,13 +3,15 @@
 
 import "./style.css";
 import { heightRange, palettes, pointColors, rampColor, type ColorMode, type Theme } from "./colors";
+import { chosenFiles, droppedFiles, type Dropped } from "./dropped";
 import { Engine } from "./engine";
 import { fromFragment, toFragment } from "./link";
-import { noPatch, type Options, type Points, type Report, type Result, type Verdict } from "./messages";
+import { aboutCell, contourOf, extentOf, mapGeometry, obstacleColors, rampOf, scaleOf, type MapColor } from "./map_panel";
+import { noPatch, type MapCopy, type Options, type Points, type Report, type Result, type Verdict } from "./messages";
 import { sensorHeight, sliders, valueOf, type Slider } from "./settings";
 import { surfaceMesh } from "./surface_mesh";
 import { View } from "./view";
-import { aboutPoint, labelTitles, verdictTitles } from "./words";
+import { aboutPoint, labelTitles, metres, verdictTitles } from "./words";
 
 const at = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 const count = (value: number) => value.toLocaleString("en-GB");
@@ -39,6 +41,10 @@ let doctor: Engine | undefined;
 let samples: Sample[] = [];
 let files: File[] = [];
 let frame = 0;
+/** Floats per point in `.bin` files; 0: by file extension. */
+let columns = 0;
+let mapFiles: { name: string; files: Map<string, File> } | undefined;
+let map: MapCopy | undefined;
 let points: Points | undefined;
 let result: Result | undefined;
 let other: Result | undefined;
@@ -65,8 +71,10 @@ const theme = (): Theme => chosenTheme ?? (systemTheme.matches ? "light" : "dark
 
 function showTheme(): void {
   document.documentElement.dataset.theme = theme();
-  view.setGround(groundHeight(), theme());
+  view.setTheme(theme());
+  if (map === undefined) view.setHomeOfScan(groundHeight());
   showColors();
+  showMap();
 }
 
 at("theme").onclick = () => {
@@ -96,23 +104,25 @@ const clearFaults = () => at("faults").replaceChildren();
 
 // ---- Requests: one at a time, and of the waiting ones only the last
 
+type Work = "segment" | "open" | "map";
 let running = false;
-let wanted: "nothing" | "segment" | "open" = "nothing";
+let wanted: Work | undefined;
 
-function request(what: "segment" | "open"): void {
-  if (what === "open" || wanted === "nothing") wanted = what;
+function request(what: Work): void {
+  if (what !== "segment" || wanted === undefined) wanted = what;
   if (!running) void work();
 }
 
 async function work(): Promise<void> {
   running = true;
-  while (wanted !== "nothing") {
-    const opens = wanted === "open";
-    wanted = "nothing";
+  while (wanted !== undefined) {
+    const what = wanted;
+    wanted = undefined;
     document.body.setAttribute("aria-busy", "true");
     try {
-      if (opens) await open();
-      if (points !== undefined) await segment(opens);
+      if (what === "map") await openMap();
+      if (what === "open") await open();
+      if (points !== undefined) await segment(what === "open");
     } catch (error) {
       showFault(error);
     }
@@ -122,13 +132,46 @@ async function work(): Promise<void> {
 }
 
 async function open(): Promise<void> {
-  const opened = await engine.ask("open", { file: files[frame] });
+  const opened = await engine.ask("open", { file: files[frame], columns });
   const first = points === undefined;
   points = opened;
   result = other = undefined;
-  view.setPositions(opened.positions);
   unpick();
-  if (first && shared.camera.length === 6) view.camera = shared.camera;
+  view.setPositions(opened.positions);
+  if (!first) return;
+  const fromMap = map !== undefined;
+  map = undefined;
+  showKind();
+  view.setRun(new Float32Array(), new Float32Array(), theme());
+  view.setHomeOfScan(groundHeight());
+  if (shared.camera.length === 6) view.camera = shared.camera;
+  else if (fromMap) view.look("reset");
+}
+
+async function openMap(): Promise<void> {
+  const opened = await engine.ask("map", mapFiles!);
+  map = opened;
+  points = result = other = undefined;
+  unpick();
+  clearFaults();
+  opened.problems.forEach(showFault);
+  showKind();
+  at("scan-name").textContent = at("scan-name").title = opened.name;
+  const path = opened.path.length > 0 ? `, ${count(Math.round(opened.length))} m of path` : "";
+  at("scan-facts").textContent = `${count(opened.scans)} scans${path}, ${count(Math.round(opened.area))} m² of ground`;
+  view.setScale(1);
+  view.setPositions(opened.points.positions);
+  const { center, radius } = extentOf(opened.ground);
+  view.setHomeOfMap(center, radius);
+  if (shared.camera.length === 6) view.camera = shared.camera;
+  else view.look("reset");
+  showMap();
+}
+
+/** Shows the controls of a scan or of a map. */
+function showKind(): void {
+  document.body.dataset.shows = map === undefined ? "scan" : "map";
+  at("scan-title").textContent = map === undefined ? "Scan" : "Map";
 }
 
 function options(method = shared.method): Options {
@@ -173,16 +216,32 @@ const groundHeight = () =>
 
 // ---- Files
 
-function openFiles(list: File[], sample = ""): void {
+/** Opens the map among the files, otherwise the scans. */
+function openFiles(list: Dropped[], sample = ""): void {
   if (list.length === 0) return;
-  files = [...list].sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
-  frame = 0;
+  clearFaults();
   shared.sample = sample;
   at<HTMLSelectElement>("sample").value = sample;
-  clearFaults();
+  showLink();
+  const maps = list.filter(({ file }) => file.name === "map.json");
+  if (maps.length > 1) return showFault(`${maps[1].path}: is a second map (open one map at a time)`);
+  if (maps.length === 1) {
+    // Of files with the same name, the one that is less deep belongs to the map.
+    const depth = ({ path }: Dropped) => path.split("/").length;
+    const byDepth = [...list].sort((a, b) => depth(b) - depth(a));
+    const name = list[0].path.split("/").slice(0, -1)[0] ?? "map.json";
+    mapFiles = { name, files: new Map(byDepth.map(({ file }) => [file.name, file])) };
+    return request("map");
+  }
+  const isInDirectory = list.some(({ path }) => path.includes("/"));
+  const scans = isInDirectory ? list.filter(({ path }) => /\.(bin|pcd|ply|npy)$/.test(path)) : list;
+  if (scans.length === 0) return showFault(`${list[0].path.split("/")[0]}: contains neither scans nor a map (expected .bin, .pcd, .ply or .npy files, or a map.json)`);
+  files = scans.map(({ file }) => file).sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
   at("sequence").hidden = files.length < 2;
-  const slider = at<HTMLInputElement>("frame");
-  slider.max = String(files.length);
+  at<HTMLInputElement>("frame").max = String(files.length);
+  columns = 0;
+  at<HTMLSelectElement>("columns").value = "0";
+  at("columns-row").hidden = sample !== "" || !files[0].name.endsWith(".bin");
   showFrame(0);
 }
 
@@ -195,12 +254,19 @@ function showFrame(index: number): void {
 }
 
 at<HTMLInputElement>("frame").oninput = (event) => showFrame(Number((event.target as HTMLInputElement).value) - 1);
-at("open").onclick = () => at("files").click();
-at<HTMLInputElement>("files").onchange = (event) => {
-  const input = event.target as HTMLInputElement;
-  openFiles([...(input.files ?? [])]);
-  input.value = "";
+at<HTMLSelectElement>("columns").onchange = (event) => {
+  columns = Number((event.target as HTMLSelectElement).value);
+  clearFaults();
+  request("open");
 };
+for (const [button, input] of [["open", "files"], ["open-directory", "directory"]]) {
+  at(button).onclick = () => at(input).click();
+  at<HTMLInputElement>(input).onchange = (event) => {
+    const { files: chosen } = event.target as HTMLInputElement;
+    openFiles(chosenFiles(chosen ?? []));
+    at<HTMLInputElement>(input).value = "";
+  };
+}
 
 addEventListener("dragover", (event) => {
   event.preventDefault();
@@ -212,7 +278,7 @@ addEventListener("dragleave", (event) => {
 addEventListener("drop", (event) => {
   event.preventDefault();
   at("drop").hidden = true;
-  openFiles([...(event.dataTransfer?.files ?? [])]);
+  if (event.dataTransfer !== null) droppedFiles(event.dataTransfer).then(openFiles).catch(showFault);
 });
 
 async function startSamples(): Promise<void> {
@@ -229,7 +295,7 @@ async function openSample({ name, files: names }: Sample): Promise<void> {
     names.map(async (file) => {
       const response = await fetch(`./samples/${file}`);
       if (!response.ok) throw new Error(`samples/${file}: cannot be loaded (expected next to this page; open a scan instead)`);
-      return new File([await response.blob()], file);
+      return { path: file, file: new File([await response.blob()], file.replace(/^.*\//, "")) };
     }),
   );
   openFiles(loaded, name);
@@ -253,7 +319,7 @@ function showResult(): void {
   at("mount").classList.toggle("warning", shared.config === "" && shared.height === "auto" && !found.mount.accepted);
   showSliders();
   view.setScale(found.mount.scale);
-  view.setGround(groundHeight(), theme());
+  view.setHomeOfScan(groundHeight());
   showSurface();
   showColors();
   if (picked !== undefined) showPicked(picked);
@@ -293,6 +359,14 @@ function swatch(color: string): HTMLElement {
   return made;
 }
 
+/** Colours from a low to a high value, and the texts below them. */
+function ramp(colorAt: (value: number) => number[], ...texts: string[]): HTMLElement[] {
+  const colors = element("span", { className: "ramp" });
+  const stops = Array.from({ length: 12 }, (_, i) => `rgb(${colorAt(i / 11).map(Math.round).join(" ")})`);
+  colors.style.background = `linear-gradient(to right, ${stops.join(", ")})`;
+  return [colors, element("p", { className: "ends" }, ...texts.map((text) => element("span", {}, text)))];
+}
+
 function entry(color: string, title: string, value: string): HTMLElement {
   return element("p", {}, swatch(color), title, element("span", { className: "count" }, value));
 }
@@ -321,15 +395,8 @@ function showLegend(mode: ColorMode): void {
     );
     if (focused !== undefined) legend.querySelector<HTMLElement>(`[data-label="${focused}"]`)?.focus();
   } else if (mode === "height") {
-    const ramp = element("span", { className: "ramp" });
-    const stops = Array.from({ length: 12 }, (_, i) => `rgb(${rampColor(i / 11).map(Math.round).join(" ")})`);
-    ramp.style.background = `linear-gradient(to right, ${stops.join(", ")})`;
     const [low, high] = heightRange.map((value) => `${String(value).replace("-", "−")} m`);
-    const what = found.heights.length > 0 ? "above the surface" : "above the base of the sensor";
-    legend.replaceChildren(
-      ramp,
-      element("p", { className: "ends" }, ...[low, what, high].map((text) => element("span", {}, text))),
-    );
+    legend.replaceChildren(...ramp(rampColor, low, found.heights.length > 0 ? "above the surface" : "above the base of the sensor", high));
   } else if (mode === "patch") {
     const numbers = new Map<Verdict, number>();
     for (const { verdict } of found.patches) numbers.set(verdict, (numbers.get(verdict) ?? 0) + 1);
@@ -478,6 +545,42 @@ for (const what of ["points", "surface"] as const) {
   box.onchange = () => setShown(what, box.checked);
 }
 
+// ---- Map
+
+let mapColor: MapColor = "height";
+
+function showMap(): void {
+  if (map === undefined) return;
+  const shown = (what: string) => at<HTMLInputElement>(`map-${what}`).checked;
+  const nothing = new Float32Array();
+  view.setColors(obstacleColors(map, theme(), shown("points")));
+  view.setSurface(shown("ground") ? mapGeometry(map, mapColor) : undefined, contourOf(map));
+  view.setRun(shown("path") ? map.path : nothing, shown("objects") ? map.objects : nothing, theme());
+  const { low, high, text, format } = scaleOf(map, mapColor);
+  at("map-legend").replaceChildren(
+    ...ramp(rampOf(mapColor), format(low), text, format(high)),
+    element("p", { className: "facts" }, `Contour lines every ${metres(contourOf(map)).replace(/\.?0+ /, " ")}`),
+  );
+  const palette = palettes[theme()];
+  for (const [what, color] of [["path", palette.path], ["objects", palette.moving]]) {
+    at(`map-${what}-color`).style.background = color;
+  }
+  for (const [what, values] of [["path", map.path], ["objects", map.objects], ["points", map.points.heights]] as const) {
+    (at(`map-${what}`).parentElement as HTMLElement).hidden = values.length === 0;
+  }
+}
+
+function setMapColor(color: MapColor): void {
+  mapColor = color;
+  (document.querySelector(`input[name=map-color][value=${color}]`) as HTMLInputElement).checked = true;
+  showMap();
+}
+
+document.querySelectorAll<HTMLInputElement>("input[name=map-color]").forEach((input) => {
+  input.onchange = () => setMapColor(input.value as MapColor);
+});
+for (const what of ["ground", "points", "path", "objects"]) at(`map-${what}`).onchange = showMap;
+
 // ---- Doctor
 
 let report: Report | undefined;
@@ -487,7 +590,7 @@ async function examine(file: File): Promise<void> {
   showReport();
   try {
     doctor ??= new Engine();
-    await doctor.ask("open", { file });
+    await doctor.ask("open", { file, columns });
     const found = await doctor.ask("doctor", { options: {} });
     if (file !== files[frame]) return; // another scan is open now
     report = found;
@@ -543,16 +646,14 @@ at("doctor-apply").onclick = at("advice-apply").onclick = () => {
 
 // ---- Points
 
+/** Shows a point of the scan, or a cell of the map. */
 function showPicked(index: number): void {
   picked = index;
-  view.mark(index);
-  at("card-number").textContent = count(index);
-  at("card-rows").replaceChildren(
-    ...aboutPoint(points as Points, result as Result, heights, index).flatMap(([term, text]) => [
-      element("dt", {}, term),
-      element("dd", {}, text),
-    ]),
-  );
+  const positions = map?.ground.positions ?? (points as Points).positions;
+  view.mark(positions.subarray(3 * index, 3 * index + 3));
+  at("card-title").textContent = map === undefined ? `Point ${count(index)}` : "Ground";
+  const rows = map === undefined ? aboutPoint(points as Points, result as Result, heights, index) : aboutCell(map, index);
+  at("card-rows").replaceChildren(...rows.flatMap(([term, text]) => [element("dt", {}, term), element("dd", {}, text)]));
   at("card").hidden = false;
 }
 
@@ -563,7 +664,7 @@ function unpick(): void {
 }
 
 function pick(x: number, y: number): void {
-  const index = result === undefined ? undefined : view.pick(x, y);
+  const index = map !== undefined ? view.pickSurface(x, y) : result !== undefined ? view.pick(x, y) : undefined;
   if (index === undefined) unpick();
   else showPicked(index);
 }
@@ -597,11 +698,11 @@ view.canvas.onkeydown = (event) => {
     "-": () => view.turn(0, 0, 1 / 0.85),
     Enter: () => pick(view.canvas.clientWidth / (shared.compare === "side" ? 4 : 2), view.canvas.clientHeight / 2),
     Escape: unpick,
-    "1": () => setColor("label"),
-    "2": () => setColor("height"),
-    "3": () => setColor("patch"),
-    s: () => setShown("surface", !shared.surface),
-    p: () => setShown("points", !shared.points),
+    "1": () => (map === undefined ? setColor("label") : setMapColor("height")),
+    "2": () => (map === undefined ? setColor("height") : setMapColor("deviation")),
+    "3": () => (map === undefined ? setColor("patch") : setMapColor("scans")),
+    s: () => (map === undefined ? setShown("surface", !shared.surface) : at("map-ground").click()),
+    p: () => (map === undefined ? setShown("points", !shared.points) : at("map-points").click()),
     t: () => view.look("top"),
     r: () => view.look("reset"),
   };
@@ -623,7 +724,7 @@ function showLink(): void {
 }
 
 view.onmove = () => {
-  if (points === undefined) return;
+  if (points === undefined && map === undefined) return;
   shared.camera = view.camera;
   showLink();
 };

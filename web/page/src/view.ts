@@ -13,13 +13,19 @@ import {
   MeshLambertMaterial,
   PerspectiveCamera,
   Points,
+  Raycaster,
   Scene,
   ShaderMaterial,
+  Vector2,
   Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { palettes, type Theme } from "./colors";
+import type { Position } from "./messages";
 
 const vertexShader = `
   attribute vec4 tint;
@@ -35,7 +41,50 @@ const fragmentShader = `
   varying vec3 shade;
   void main() { gl_FragColor = vec4(shade, 1.0); }`;
 
-/** Draws the points, the surface and a marked point. It draws only when something changed. */
+const discVertexShader = `
+  uniform float size;
+  void main() {
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    gl_PointSize = size;
+  }`;
+
+/** Discs of a size in pixels, with a hole of a part of the radius. */
+function discs(size: number, hole: number): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader: discVertexShader,
+    fragmentShader: `
+      uniform vec3 color;
+      void main() {
+        float away = 2.0 * length(gl_PointCoord - 0.5);
+        if (away > 1.0 || away < ${hole.toFixed(2)}) discard;
+        gl_FragColor = vec4(color, 1.0);
+      }`,
+    uniforms: { size: { value: size }, color: { value: new Color() } },
+  });
+}
+
+/** The surface. Contour lines are `contour` metres apart; 0: none. */
+function surfaceMaterial(contour: { value: number }): MeshLambertMaterial {
+  const material = new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1 });
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.contour = contour;
+    shader.vertexShader = `varying float level;\n${shader.vertexShader.replace("#include <begin_vertex>", "#include <begin_vertex>\nlevel = position.z;")}`;
+    shader.fragmentShader = `varying float level;\nuniform float contour;\n${shader.fragmentShader.replace(
+      "#include <dithering_fragment>",
+      `if (contour > 0.0) {
+        float at = level / contour;
+        float away = abs(fract(at - 0.5) - 0.5);
+        gl_FragColor.rgb *= mix(0.6, 1.0, smoothstep(0.0, 1.5 * fwidth(at), away));
+      }`,
+    )}`;
+  };
+  return material;
+}
+
+/**
+ * Draws the points, the surface, a marked point, and the path and moving objects of a map. It draws only when something
+ * changed, and a frame neither allocates nor uploads anything: one draw call per cloud.
+ */
 export class View {
   readonly #renderer: WebGLRenderer;
   readonly #camera = new PerspectiveCamera(50, 1, 0.1, 2000);
@@ -44,40 +93,26 @@ export class View {
   readonly #material = new ShaderMaterial({ vertexShader, fragmentShader, uniforms: { size: { value: 60 } } });
   /** The result, and the compared one. Both share the positions. */
   readonly #points = [this.#newPoints(), this.#newPoints()] as const;
-  readonly #mesh = new Mesh(
-    new BufferGeometry(),
-    new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1 }),
-  );
+  readonly #contour = { value: 0 };
+  readonly #mesh = new Mesh(new BufferGeometry(), surfaceMaterial(this.#contour));
   readonly #marker = new Points(
     new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(3), 3)),
-    new ShaderMaterial({
-      vertexShader: `
-        uniform float size;
-        void main() {
-          gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-          gl_PointSize = size;
-        }`,
-      fragmentShader: `
-        uniform vec3 color;
-        void main() {
-          float away = length(gl_PointCoord - 0.5);
-          if (away > 0.5 || away < 0.3) discard;
-          gl_FragColor = vec4(color, 1.0);
-        }`,
-      uniforms: { size: { value: 18 }, color: { value: new Color() } },
-      depthTest: false,
-    }),
+    discs(18, 0.6),
   );
+  readonly #path = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 3 }));
+  readonly #objects = new Points(new BufferGeometry(), discs(6, 0));
+  readonly #raycaster = new Raycaster();
   #grid: GridHelper | undefined;
   #positions: Float32Array = new Float32Array();
   #sideBySide = false;
   #requested = false;
-  #ground = -1.73;
   #scale = 1;
+  #home = homeOfScan(-1.73);
   onmove: () => void = () => {};
 
   constructor(readonly canvas: HTMLCanvasElement) {
-    this.#renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    // With small pixels, antialiasing is not visible, and it costs four times the memory and time of a frame.
+    this.#renderer = new WebGLRenderer({ canvas, antialias: devicePixelRatio < 2, powerPreference: "high-performance" });
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#camera.up.set(0, 0, 1);
     this.#controls = new OrbitControls(this.#camera, canvas);
@@ -90,10 +125,13 @@ export class View {
     });
     const sun = new DirectionalLight(0xffffff, 2.4);
     sun.position.set(-1, 1, 0.9);
-    this.#scene.add(...this.#points, this.#mesh, this.#marker, sun, new HemisphereLight(0xffffff, 0x8090a0, 0.7));
-    this.#mesh.visible = false;
-    this.#marker.visible = false;
-    this.#marker.frustumCulled = false;
+    const light = new HemisphereLight(0xffffff, 0x8090a0, 0.7);
+    this.#scene.add(...this.#points, this.#mesh, this.#marker, this.#path, this.#objects, sun, light);
+    for (const object of [this.#mesh, this.#marker, this.#path, this.#objects]) {
+      object.visible = false;
+      object.frustumCulled = false;
+    }
+    this.#marker.material.depthTest = false;
     this.#marker.renderOrder = 1;
     this.look("reset");
     new ResizeObserver(() => this.draw()).observe(canvas);
@@ -135,10 +173,25 @@ export class View {
     this.draw();
   }
 
-  setSurface(geometry: BufferGeometry | undefined): void {
+  setSurface(geometry: BufferGeometry | undefined, contour = 0): void {
     this.#mesh.geometry.dispose();
     this.#mesh.geometry = geometry ?? new BufferGeometry();
     this.#mesh.visible = geometry !== undefined;
+    this.#contour.value = contour;
+    this.draw();
+  }
+
+  /** The path of a run, pairs of positions, and the moving objects in it. Empty: none. */
+  setRun(path: Float32Array, objects: Float32Array, theme: Theme): void {
+    this.#path.geometry.dispose();
+    this.#path.geometry = new LineSegmentsGeometry();
+    this.#path.visible = path.length > 0;
+    if (path.length > 0) this.#path.geometry.setPositions(path);
+    this.#objects.geometry.dispose();
+    this.#objects.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(objects, 3));
+    this.#objects.visible = objects.length > 0;
+    this.#path.material.color.set(palettes[theme].path).convertLinearToSRGB();
+    setColor(this.#objects.material, palettes[theme].moving);
     this.draw();
   }
 
@@ -148,38 +201,57 @@ export class View {
     for (const object of [...this.#points, this.#mesh, this.#marker]) object.scale.setScalar(scale);
   }
 
-  setGround(height: number, theme: Theme): void {
-    this.#ground = height;
-    if (this.#grid !== undefined) {
-      this.#scene.remove(this.#grid);
-      this.#grid.dispose();
-    }
+  setTheme(theme: Theme): void {
+    this.#scene.background = new Color(palettes[theme].background);
+    setColor(this.#marker.material, theme === "dark" ? "#ffffff" : "#101318");
+    if (this.#grid !== undefined) this.#scene.remove(this.#grid);
+    this.#grid?.dispose();
     this.#grid = new GridHelper(200, 20, palettes[theme].grid, palettes[theme].grid);
     this.#grid.rotateX(Math.PI / 2);
-    this.#grid.position.z = height - 0.6;
     this.#scene.add(this.#grid);
-    this.#scene.background = new Color(palettes[theme].background);
-    const marker = this.#marker.material as ShaderMaterial;
-    (marker.uniforms.color.value as Color).set(theme === "dark" ? "#ffffff" : "#101318").convertLinearToSRGB();
     this.draw();
   }
 
-  /** Marks a point by its index. */
-  mark(index: number | undefined): void {
-    this.#marker.visible = index !== undefined;
-    if (index !== undefined) {
+  /** A scan: the views are around the sensor, and a grid is below the ground. */
+  setHomeOfScan(ground: number): void {
+    this.#home = homeOfScan(ground);
+    this.#setReach(600);
+    this.#grid!.visible = true;
+    this.#grid!.position.z = ground - 0.6;
+    this.draw();
+  }
+
+  /** A map: the views show all of it. */
+  setHomeOfMap(center: Position, radius: number): void {
+    const target = new Vector3(...center);
+    const distance = (2.2 * radius) / Math.min(1, this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1));
+    const from = (x: number, y: number, z: number) => new Vector3(x, y, z).normalize().multiplyScalar(distance).add(target);
+    this.#home = { reset: { target, position: from(-0.2, -0.7, 0.75) }, top: { target, position: from(0, -1e-4, 1) } };
+    this.#setReach(Math.max(600, 3 * distance));
+    this.#grid!.visible = false;
+    this.draw();
+  }
+
+  #setReach(metres: number): void {
+    this.#controls.maxDistance = metres;
+    this.#camera.far = 3 * metres;
+  }
+
+  /** Marks a position of the scan or map. */
+  mark(position: ArrayLike<number> | undefined): void {
+    this.#marker.visible = position !== undefined;
+    if (position !== undefined) {
       const attribute = this.#marker.geometry.getAttribute("position") as BufferAttribute;
-      attribute.array.set(this.#positions.subarray(3 * index, 3 * index + 3));
+      attribute.array.set(position);
       attribute.needsUpdate = true;
     }
     this.draw();
   }
 
   look(from: "reset" | "top"): void {
-    const target = new Vector3(from === "top" ? 0 : 4, 0, this.#ground);
+    const { target, position } = this.#home[from];
     this.#controls.target.copy(target);
-    if (from === "top") this.#camera.position.set(-0.01, 0, 75);
-    else this.#camera.position.set(-21, 9, 15);
+    this.#camera.position.copy(position);
     this.#controls.update();
     this.draw();
   }
@@ -251,13 +323,23 @@ export class View {
     return found;
   }
 
+  /** The corner of the surface nearest to a position on the canvas. */
+  pickSurface(x: number, y: number): number | undefined {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.#aim(clientWidth / clientHeight);
+    this.#raycaster.setFromCamera(new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.#camera);
+    const [hit] = this.#raycaster.intersectObject(this.#mesh);
+    if (!hit?.face) return undefined;
+    const corners = this.#mesh.geometry.getAttribute("position") as BufferAttribute;
+    const away = (corner: number) => new Vector3().fromBufferAttribute(corners, corner).distanceTo(hit.point);
+    const { a, b, c } = hit.face;
+    return [a, b, c].sort((one, two) => away(one) - away(two))[0];
+  }
+
   draw(): void {
     if (this.#requested) return;
     this.#requested = true;
-    requestAnimationFrame(() => {
-      this.#requested = false;
-      this.#drawNow();
-    });
+    requestAnimationFrame(this.#drawNow);
   }
 
   #aim(aspect: number): void {
@@ -266,7 +348,8 @@ export class View {
     this.#camera.updateMatrixWorld();
   }
 
-  #drawNow(): void {
+  readonly #drawNow = (): void => {
+    this.#requested = false;
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
     const ratio = this.#renderer.getPixelRatio();
@@ -274,7 +357,8 @@ export class View {
       this.#renderer.setSize(width, height, false);
     }
     this.#material.uniforms.size.value = 60 * ratio;
-    (this.#marker.material as ShaderMaterial).uniforms.size.value = 18 * ratio;
+    this.#marker.material.uniforms.size.value = 18 * ratio;
+    this.#objects.material.uniforms.size.value = 6 * ratio;
     const halves = this.#sideBySide ? 2 : 1;
     this.#renderer.setScissorTest(halves === 2);
     this.#aim(width / halves / height);
@@ -282,10 +366,23 @@ export class View {
       const left = (half * width) / halves;
       this.#renderer.setViewport(left, 0, width / halves, height);
       this.#renderer.setScissor(left, 0, width / halves, height);
-      this.#points.forEach((points, index) => {
+      for (let index = 0; index < 2; ++index) {
+        const points = this.#points[index];
         points.visible = index === half && points.geometry.getAttribute("tint") !== undefined;
-      });
+      }
       this.#renderer.render(this.#scene, this.#camera);
     }
-  }
+  };
+}
+
+/** Above and behind the sensor, or straight down on it. */
+function homeOfScan(ground: number): Record<"reset" | "top", { target: Vector3; position: Vector3 }> {
+  return {
+    reset: { target: new Vector3(4, 0, ground), position: new Vector3(-21, 9, 15) },
+    top: { target: new Vector3(0, 0, ground), position: new Vector3(-0.01, 0, 75) },
+  };
+}
+
+function setColor(material: ShaderMaterial, color: string): void {
+  (material.uniforms.color.value as Color).set(color).convertLinearToSRGB();
 }

@@ -3,6 +3,7 @@
 
 // Reads and segments scans, so that the page stays responsive.
 import { Session } from "./flagstone";
+import { contentOf } from "./map_files";
 import type { Kind, Requests } from "./messages";
 
 let session: Promise<Session> | undefined;
@@ -11,11 +12,12 @@ async function answer(kind: Kind, request: Requests[Kind]["request"]): Promise<u
   const running = await (session ??= Session.start());
   switch (kind) {
     case "open": {
-      const { file } = request as Requests["open"]["request"];
-      const content = await file.arrayBuffer().catch(() => {
-        throw new Error(`${file.name}: cannot be read (expected a file, not a directory; if it was moved, open it again)`);
-      });
-      return running.open(file.name, content);
+      const { file, columns } = request as Requests["open"]["request"];
+      return running.open(file.name, await contentOf(file), columns);
+    }
+    case "map": {
+      const { name, files } = request as Requests["map"]["request"];
+      return running.map(name, files);
     }
     case "segment":
       return running.segment((request as Requests["segment"]["request"]).options);

@@ -4,10 +4,11 @@
 // Opens the built page in headless Chromium, from a plain file server and under a path.
 import assert from "node:assert/strict";
 import { once } from "node:events";
-import { existsSync, mkdirSync, readdirSync, readFileSync } from "node:fs";
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { createRequire } from "node:module";
-import { extname, join, normalize } from "node:path";
+import { tmpdir } from "node:os";
+import { basename, extname, join, normalize } from "node:path";
 import { after, afterEach, before, beforeEach, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { load, labels } from "flagstone";
@@ -201,14 +202,12 @@ test("a slider changes the labels and the link, and the link restores the view",
   await page.waitForFunction((before) => document.querySelector("#legend").innerText !== before, start);
   const changed = await text("#legend");
   await page.waitForFunction(() => location.hash.includes("point.margin=0.36"));
-  await start_at(new URL(page.url()).hash);
+  await start({ fragment: new URL(page.url()).hash });
   assert.equal(await text("#legend"), changed);
   assert.equal(await text("[data-name='point.margin'] output"), "0.36 m");
   await page.click("#reset");
   await page.waitForFunction((before) => document.querySelector("#legend").innerText === before, start);
 });
-
-const start_at = (fragment) => start({ fragment });
 
 test("a value outside its limits in a link is reported", async () => {
   await context.close();
@@ -322,12 +321,232 @@ test("light, and the switch of the theme", async () => {
   assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), "dark");
 });
 
-test("a million points are drawn", async () => {
+test("a map is shown, and a click describes the ground", async () => {
+  await page.selectOption("#sample", "map");
+  await mapShown();
+  assert.equal(await text("#scan-title"), "MAP");
+  assert.match(await text("#scan-facts"), /^60 scans, 2\d\d m of path, \d,\d{3} m² of ground$/);
+  assert.ok(await page.locator("#sliders").isHidden());
+  await accessible("map");
+  await page.screenshot({ path: join(screenshots, "map.png") });
+  await page.click("#look-top");
+  await page.screenshot({ path: join(screenshots, "map-top.png") });
+  for (const [key, legend] of [["2", "expected error"], ["3", "scans per cell"], ["1", "height"]]) {
+    await page.locator("#view").press(key);
+    assert.match(await text("#map-legend"), new RegExp(legend));
+  }
+  const before = await page.locator("#view").screenshot();
+  for (const layer of ["path", "objects", "points"]) await page.uncheck(`#map-${layer}`);
+  assert.ok(!(await page.locator("#view").screenshot()).equals(before));
+  await page.click("#look-reset");
+  const box = await page.locator("#view").boundingBox();
+  for (let y = 0.85; y > 0.4 && !(await page.locator("#card").isVisible()); y -= 0.04) {
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height * y);
+  }
+  assert.match(await text("#card-rows"), /Height\s+−?\d+\.\d\d m\s+Error\s+0\.\d\d m \(expected\)\s+Measured\s+by \d+ of 60 scans/);
+  await accessible("ground of a map");
+  await page.screenshot({ path: join(screenshots, "map-ground.png") });
+  await page.selectOption("#sample", "park");
+  await settled();
+  assert.equal(await text("#scan-title"), "SCAN");
+  assert.ok(await page.locator("#sliders").isVisible());
+});
+
+test("a link shows the simulated map", async () => {
+  await context.close();
+  context = await browser.newContext({ viewport: { width: 390, height: 844 }, colorScheme: "light", isMobile: true, deviceScaleFactor: 2 });
+  page = await context.newPage();
+  await page.goto(`${address}#scan=map`);
+  await mapShown();
+  await page.screenshot({ path: join(screenshots, "map-phone-light.png") });
+  await accessible("map, light");
+});
+
+test("the output directory of flagstone map is opened, dropped or chosen", async (t) => {
+  const directory = mapDirectory(t);
+  await dropPaths([directory]);
+  await mapShown();
+  assert.equal(await text("#scan-name"), basename(directory));
+  assert.equal(await page.locator(".fault").count(), 0);
+  await page.selectOption("#sample", "park");
+  await settled();
+  await page.locator("#directory").setInputFiles(directory);
+  await mapShown();
+  rmSync(join(directory, "poses.txt"));
+  await dropPaths([directory]);
+  await page.waitForFunction(() => !document.querySelector("#scan-facts").textContent.includes("path"));
+  assert.ok(await page.locator("#map-path").isHidden());
+});
+
+test("the scans of a dropped directory are a sequence", async (t) => {
+  const directory = mkdtempSync(join(tmpdir(), "flagstone-page-"));
+  t.after(() => rmSync(directory, { recursive: true }));
+  for (const index of [0, 1]) cpSync(sample(`crossroads-00000${index}.bin`), join(directory, `scan-${index}.bin`));
+  writeFileSync(join(directory, "times.txt"), "0\n1\n");
+  await dropPaths([directory]);
+  await page.waitForFunction(() => document.querySelector("#scan-name").textContent === "scan-0.bin");
+  assert.equal(await text("#frame-text"), "1 of 2");
+  rmSync(join(directory, "scan-0.bin"));
+  rmSync(join(directory, "scan-1.bin"));
+  await dropPaths([directory]);
+  await page.waitForSelector(".fault");
+  assert.match(await text(".fault p"), /: contains neither scans nor a map \(expected /);
+});
+
+/** What is damaged, and the message. */
+const damages = [
+  [(name) => truncate(name("map.json")), /^map\.json: is not JSON \(expected/],
+  [(name) => replace(name("map.json"), '"version": 1', '"version": 2'), /^map\.json: is not a ground map \(expected .*version 1\)$/],
+  [(name) => replace(name("map.json"), '"cell": 0.5', '"cell": -1'), /^map\.json: cell is -1 \(expected/],
+  [(name) => replace(name("map.json"), /"tiles": \[[^]*\]/, '"tiles": []'), /^map\.json: the map has no tiles/],
+  [(name) => rmSync(name(".npy")), /\.npy: the tile is missing \(expected every tile of map\.json\)$/],
+  [(name) => truncate(name(".npy")), /\.npy: \d+ bytes are not a tile \(expected 6\d+ bytes; the file may be truncated\)$/],
+  [(name) => writeFileSync(name(".npy"), "oops"), /\.npy: is not a tile \(expected a NumPy array of 64 x 64 records with height, /],
+  [(name) => truncate(name("poses.txt")), /^poses\.txt: line \d+: \d+ numbers \(expected 12, /],
+  [(name) => replace(name("poses.txt"), " 0 ", " zero "), /^poses\.txt: line \d+: 'zero' is not a number$/],
+  [(name) => truncate(name("objects.csv")), /^objects\.csv: line \d+: is not an object \(expected \d+ values; the file may be truncated\)$/],
+  [(name) => truncate(name("run.json")), /^run\.json: is not JSON \(expected/],
+  [(name) => truncate(name("static.ply")), /^static\.ply: .*byte/],
+];
+
+test("each damaged file of a map is reported on one line, and what can be shown is shown", async (t) => {
+  for (const [damage, expected] of damages) {
+    const directory = mapDirectory(t);
+    const names = readdirSync(directory, { recursive: true }).sort();
+    damage((end) => join(directory, names.find((name) => name.endsWith(end))));
+    await dropPaths([directory]);
+    await page.waitForSelector(".fault");
+    const message = await text(".fault p");
+    assert.match(message, expected);
+    assert.ok(!message.includes("\n"));
+    const needed = /^(map\.json|.*\.npy)/.test(message);
+    assert.equal(await page.evaluate(() => document.body.dataset.shows), needed ? "scan" : "map");
+    await page.selectOption("#sample", "park");
+    await settled();
+    assert.equal(await page.locator(".fault").count(), 0);
+    await page.selectOption("#sample", "street");
+    await settled();
+  }
+});
+
+const mapShown = () => page.waitForFunction(() => !document.body.hasAttribute("aria-busy") && document.body.dataset.shows === "map");
+
+/** A copy of the simulated map, until the end of the test. */
+function mapDirectory(t) {
+  const directory = mkdtempSync(join(tmpdir(), "flagstone-page-"));
+  t.after(() => rmSync(directory, { recursive: true }));
+  cpSync(sample("map"), directory, { recursive: true });
+  return directory;
+}
+
+function truncate(path) {
+  const content = readFileSync(path);
+  writeFileSync(path, content.subarray(0, Math.floor(content.length / 2)));
+}
+
+function replace(path, from, to) {
+  const content = readFileSync(path, "utf8");
+  assert.ok(content.search(from) >= 0, `${path}: ${from}`);
+  writeFileSync(path, content.replace(from, to));
+}
+
+/** Drops files and directories of the file system on the page. */
+async function dropPaths(files) {
+  const session = await context.newCDPSession(page);
+  const data = { items: [], files, dragOperationsMask: 1 };
+  for (const type of ["dragEnter", "dragOver", "drop"]) await session.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data });
+  await session.detach();
+}
+
+test("the number of floats per point of a .bin file can be set", async () => {
+  const four = new Float32Array(new Uint8Array(readFileSync(sample("park-000000.bin"))).buffer);
+  const six = new Float32Array((four.length / 4) * 6);
+  for (let i = 0; i < four.length / 4; ++i) six.set(four.subarray(4 * i, 4 * i + 4), 6 * i);
+  await drop([{ name: "six.bin", content: new Uint8Array(six.buffer, 0, 6 * 4 * 26_247) }]);
+  assert.match(await text(".fault p"), /check the number of columns/);
+  await page.selectOption("#columns", "6");
+  await page.waitForFunction(() => document.querySelector("#scan-facts").textContent.startsWith("26,247 points"));
+  assert.equal(await page.locator(".fault").count(), 0);
+});
+
+test("a frame with a million points is one draw call, uploads nothing, and is drawn only after a change", async () => {
+  await context.addInitScript(() => {
+    const counts = (globalThis.counts = { draws: 0, points: 0, uploads: 0, uploaded: 0 });
+    const watch = (name, note) => {
+      const original = WebGL2RenderingContext.prototype[name];
+      WebGL2RenderingContext.prototype[name] = function (...args) {
+        note(args);
+        return original.apply(this, args);
+      };
+    };
+    for (const name of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced"]) {
+      watch(name, ([mode]) => {
+        ++counts.draws;
+        if (mode === WebGL2RenderingContext.POINTS) ++counts.points;
+      });
+    }
+    for (const name of ["bufferData", "bufferSubData", "texImage2D", "texSubImage2D", "texStorage2D"]) {
+      watch(name, (args) => {
+        ++counts.uploads;
+        counts.uploaded += args.find((argument) => ArrayBuffer.isView(argument))?.byteLength ?? 0;
+      });
+    }
+  });
+  await page.reload();
+  await settled();
+  await page.waitForFunction(() => document.querySelector("#doctor-fine:not([hidden])"));
+  const counts = () => page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve({ ...counts })))));
+  const before = await counts();
   const part = readFileSync(sample("street-000000.bin"));
   const content = Buffer.concat(Array.from({ length: Math.ceil(16e6 / part.length) }, () => part));
+  const size = content.length / 16;
   const milliseconds = await drop([{ name: "million.bin", content }]);
-  console.log(`${content.length / 16} points: labels ${milliseconds.toFixed(0)} ms after the drop`);
   assert.match(await text("#scan-facts"), /^1,\d{3},\d{3} points/);
+  await page.waitForFunction(() => document.querySelector("#doctor-fine:not([hidden])"));
+  const loaded = await counts();
+  const bytes = (loaded.uploaded - before.uploaded) / size;
+  assert.ok(bytes <= 16.1, `${bytes} bytes per point`);
+
+  const session = await context.newCDPSession(page);
+  await session.send("Performance.enable", { timeDomain: "threadTicks" });
+  const seconds = async () => {
+    const { metrics } = await session.send("Performance.getMetrics");
+    const value = (name) => metrics.find((metric) => metric.name === name).value;
+    return { script: value("ScriptDuration"), all: value("TaskDuration") };
+  };
+  const orbit = (frames) =>
+    page.evaluate(async (count) => {
+      const view = document.querySelector("#view");
+      for (let i = 0; i < count; ++i) {
+        view.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
+        await new Promise(requestAnimationFrame);
+      }
+    }, frames);
+  await orbit(10);
+  const still = await counts();
+  const start = await seconds();
+  const frames = 40;
+  await orbit(frames);
+  const end = await seconds();
+  const turned = await counts();
+  await session.send("HeapProfiler.enable");
+  await session.send("HeapProfiler.startSampling", { samplingInterval: 256, includeObjectsCollectedByMinorGC: true, includeObjectsCollectedByMajorGC: true });
+  await orbit(frames);
+  const { profile } = await session.send("HeapProfiler.stopSampling");
+  const allocated = (node) => node.selfSize + node.children.reduce((sum, child) => sum + allocated(child), 0);
+
+  assert.equal(turned.uploads - still.uploads, 0);
+  assert.equal(turned.points - still.points, frames);
+  assert.equal(turned.draws - still.draws, 2 * frames); // the points and the grid below them
+  const quiet = await counts();
+  await page.waitForTimeout(500);
+  assert.equal((await counts()).draws, quiet.draws);
+  const perFrame = (name) => ((1000 * (end[name] - start[name])) / frames).toFixed(2);
+  console.log(`${size} points: labels ${milliseconds.toFixed(0)} ms after the drop, ${bytes.toFixed(1)} bytes per point on the GPU`);
+  console.log(
+    `each frame: ${perFrame("script")} ms CPU time in JavaScript, ${perFrame("all")} ms in the main thread; 2 draw calls, no upload, ` +
+      `${(allocated(profile.head) / frames / 1024).toFixed(1)} KiB of garbage`,
+  );
 });
 
 test("the real scans of each set are read", { skip: data ? false : "FLAGSTONE_DATA is not set" }, async () => {
