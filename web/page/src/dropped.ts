@@ -16,8 +16,13 @@ export function chosenFiles(list: Iterable<File>): Dropped[] {
 
 /** Files and the contents of directories. Call it in the event itself: the browser empties `transfer` afterwards. */
 export async function droppedFiles(transfer: DataTransfer): Promise<Dropped[]> {
-  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry()).filter((entry) => entry !== null);
-  return (await Promise.all(entries.map(filesOf))).flat();
+  const items = [...transfer.items].map((item) => {
+    const entry = item.webkitGetAsEntry();
+    const file = item.getAsFile();
+    if (entry !== null) return filesOf(entry);
+    return file === null ? [] : chosenFiles([file]);
+  });
+  return (await Promise.all(items)).flat();
 }
 
 async function filesOf(entry: FileSystemEntry): Promise<Dropped[]> {

@@ -161,8 +161,8 @@ async function openMap(): Promise<void> {
   at("scan-facts").textContent = `${count(opened.scans)} scans${path}, ${count(Math.round(opened.area))} m² of ground`;
   view.setScale(1);
   view.setPositions(opened.points.positions);
-  const { center, radius } = extentOf(opened.ground);
-  view.setHomeOfMap(center, radius);
+  const { center, width, height } = extentOf(opened.ground);
+  view.setHomeOfMap(center, width, height);
   if (shared.camera.length === 6) view.camera = shared.camera;
   else view.look("reset");
   showMap();

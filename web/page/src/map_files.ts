@@ -99,7 +99,7 @@ function tileOf(name: string, x: number, y: number, width: number, content: Arra
   const view = new DataView(content);
   const isNpy = content.byteLength >= 10 && view.getUint32(0) === 0x934e554d && view.getUint32(4) === 0x50590100;
   const start = isNpy ? 10 + view.getUint16(8, true) : 0;
-  const header = new TextDecoder("latin1").decode(content.slice(10, start)).replace(/\s+/g, "");
+  const header = new TextDecoder("latin1").decode(content.slice(10, start)).replace(/\s+/g, "").replaceAll(",]", "]");
   const types = fields.map(([field, type]) => `('${field}','${type}')`).join(",");
   const expected = [`'descr':[${types}]`, "'fortran_order':False", `'shape':(${width},${width})`];
   if (!expected.every((part) => header.includes(part))) {
@@ -129,11 +129,15 @@ function tileOf(name: string, x: number, y: number, width: number, content: Arra
   return tile;
 }
 
+async function linesOf(file: File): Promise<string[]> {
+  const lines = (await textOf(file)).split("\n");
+  if (lines.pop() !== "") throw new Error(`${file.name}: line ${lines.length + 1}: is incomplete (the file may be truncated)`);
+  return lines;
+}
+
 /** One pose per line: `poses.txt`. */
 export async function readPoses(file: File): Promise<Pose[]> {
-  const lines = (await textOf(file)).split("\n");
-  if (lines.at(-1) === "") lines.pop();
-  return lines.map((line, index) => {
+  return (await linesOf(file)).map((line, index) => {
     const words = line.trim().split(/\s+/);
     if (words.length !== 12) {
       throw new Error(`${file.name}: line ${index + 1}: ${words.length} numbers (expected 12, the rows of a 3x4 matrix)`);
@@ -156,7 +160,7 @@ export async function readObjects(objects: File, run: File, poses: Pose[]): Prom
   if (tilt !== undefined && tilt !== "off") return new Float64Array();
   if (!Array.isArray(description.scans)) throw new Error(`${run.name}: scans are missing (expected a file of flagstone map)`);
   const indices = new Map(description.scans.map((path, index) => [String(path).replace(/^.*[/\\]|(\.pcd)?\.[^.]*$/g, ""), index]));
-  const lines = (await textOf(objects)).split("\n").filter((line) => line !== "");
+  const lines = await linesOf(objects);
   const columns = lines[0]?.split(",") ?? [];
   const sides = ["min_x", "min_y", "min_z", "max_x", "max_y", "max_z"].map((name) => columns.indexOf(name));
   if (columns[0] !== "scan" || sides.includes(-1)) {
@@ -167,7 +171,7 @@ export async function readObjects(objects: File, run: File, poses: Pose[]): Prom
     const words = line.split(",");
     const box = sides.map((column) => Number(words[column] || NaN));
     if (words.length !== columns.length || box.some(Number.isNaN)) {
-      throw new Error(`${objects.name}: line ${index + 2}: is not an object (expected ${columns.length} values; the file may be truncated)`);
+      throw new Error(`${objects.name}: line ${index + 2}: is not an object (expected ${columns.length} values)`);
     }
     const pose = poses[indices.get(words[0]) ?? -1];
     if (pose === undefined || pose.some(Number.isNaN)) return;

@@ -4,7 +4,7 @@
 // What the page says and draws of a map.
 import { BufferAttribute, BufferGeometry } from "three";
 import { palettes, rampColor, terrain, type Rgb, type Theme } from "./colors";
-import type { GroundMesh, MapCopy } from "./messages";
+import type { GroundMesh, MapCopy, Position } from "./messages";
 import { metres } from "./words";
 
 export type MapColor = "height" | "deviation" | "scans";
@@ -78,16 +78,16 @@ export function obstacleColors({ points: { heights } }: MapCopy, theme: Theme, s
   return colors;
 }
 
-/** The smallest circle around the middle that contains the ground, for the camera. */
-export function extentOf({ positions }: GroundMesh): { center: [number, number, number]; radius: number } {
+/** The middle of the ground, and its size in metres along x and y. */
+export function extentOf({ positions }: GroundMesh): { center: Position; width: number; height: number } {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   positions.forEach((value, index) => {
     low[index % 3] = Math.min(low[index % 3], value);
     high[index % 3] = Math.max(high[index % 3], value);
   });
-  const center = low.map((value, axis) => (value + high[axis]) / 2) as [number, number, number];
-  return { center, radius: Math.max(Math.hypot(high[0] - low[0], high[1] - low[1]) / 2, 10) };
+  const center = low.map((value, axis) => (value + high[axis]) / 2) as Position;
+  return { center, width: high[0] - low[0], height: high[1] - low[1] };
 }
 
 /** Term and description of a cell. */

@@ -100,7 +100,7 @@ export class View {
     discs(18, 0.6),
   );
   readonly #path = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 3 }));
-  readonly #objects = new Points(new BufferGeometry(), discs(6, 0));
+  readonly #objects = new Points(new BufferGeometry(), discs(5, 0));
   readonly #raycaster = new Raycaster();
   #grid: GridHelper | undefined;
   #positions: Float32Array = new Float32Array();
@@ -131,8 +131,11 @@ export class View {
       object.visible = false;
       object.frustumCulled = false;
     }
-    this.#marker.material.depthTest = false;
-    this.#marker.renderOrder = 1;
+    // In front of everything.
+    for (const object of [this.#marker, this.#path]) {
+      object.material.depthTest = false;
+      object.renderOrder = 1;
+    }
     this.look("reset");
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
@@ -190,7 +193,7 @@ export class View {
     this.#objects.geometry.dispose();
     this.#objects.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(objects, 3));
     this.#objects.visible = objects.length > 0;
-    this.#path.material.color.set(palettes[theme].path).convertLinearToSRGB();
+    this.#path.material.color.set(palettes[theme].path);
     setColor(this.#objects.material, palettes[theme].moving);
     this.draw();
   }
@@ -222,11 +225,13 @@ export class View {
   }
 
   /** A map: the views show all of it. */
-  setHomeOfMap(center: Position, radius: number): void {
+  setHomeOfMap(center: Position, width: number, height: number): void {
     const target = new Vector3(...center);
-    const distance = (2.2 * radius) / Math.min(1, this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1));
+    const { clientWidth, clientHeight } = this.canvas;
+    const half = Math.max((width * clientHeight) / Math.max(clientWidth, 1), height, 20) / 2;
+    const distance = (1.1 * half) / Math.tan(((this.#camera.fov / 2) * Math.PI) / 180);
     const from = (x: number, y: number, z: number) => new Vector3(x, y, z).normalize().multiplyScalar(distance).add(target);
-    this.#home = { reset: { target, position: from(-0.2, -0.7, 0.75) }, top: { target, position: from(0, -1e-4, 1) } };
+    this.#home = { reset: { target, position: from(-0.1, -0.6, 0.8) }, top: { target, position: from(0, -1e-4, 1) } };
     this.#setReach(Math.max(600, 3 * distance));
     this.#grid!.visible = false;
     this.draw();
@@ -358,7 +363,7 @@ export class View {
     }
     this.#material.uniforms.size.value = 60 * ratio;
     this.#marker.material.uniforms.size.value = 18 * ratio;
-    this.#objects.material.uniforms.size.value = 6 * ratio;
+    this.#objects.material.uniforms.size.value = 5 * ratio;
     const halves = this.#sideBySide ? 2 : 1;
     this.#renderer.setScissorTest(halves === 2);
     this.#aim(width / halves / height);
