@@ -80,11 +80,7 @@ if(FLAGSTONE_TWO_TARGETS)
 endif()
 list(JOIN disabled_targets "|" disabled_targets)
 target_compile_definitions(flagstone_highway INTERFACE "HWY_DISABLED_TARGETS=(${disabled_targets})")
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "^wasm")
-  # Highway 1.0.3 has no vectors of doubles for it. Its plain C++ works on arrays of 16 bytes, which the compiler turns into
-  # vector instructions.
-  target_compile_definitions(flagstone_highway INTERFACE HWY_COMPILE_ONLY_EMU128)
-else()
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^wasm") # has one instruction set; see web/CMakeLists.txt
   target_compile_definitions(flagstone_highway INTERFACE HWY_COMPILE_ALL_ATTAINABLE)
 endif()
 if(NOT TARGET hwy)

@@ -302,7 +302,7 @@ class LabelPoints {
     Counts counts;
     std::size_t squares = 0;  // that begin before the vector
     std::size_t i = 0;
-    const auto next_heights = [&] HWY_ATTR {
+    const auto next_heights = [&]() HWY_ATTR {
       const std::uint32_t starts = lookups.starts[i / hn::Lanes(d)];
       // If the first point starts no square, it uses the last one before.
       const FloatVector surface =
