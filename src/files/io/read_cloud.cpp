@@ -134,9 +134,10 @@ Status CloudReader::load(const std::filesystem::path& path) {
   }
   const int columns = options_.columns;
   if (columns != 0 && (columns < 3 || columns > static_cast<int>(max_fields))) {
-    return refuse(path, fmt::format("{} floats per point (expected 3 to {} columns, or 0 to choose by "
-                                    "file extension)",
-                                    columns, max_fields));
+    return refuse(path,
+                  fmt::format("{} floats per point (expected 3 to {} columns, or 0 to choose by "
+                              "file extension)",
+                              columns, max_fields));
   }
   // After raw points the memory of the file belongs to the cloud; after other formats it is here.
   if (bytes_.capacity() == 0) bytes_ = cloud_.release_rows();
