@@ -612,7 +612,7 @@ function showReport(): void {
   const fine = at<HTMLDetailsElement>("doctor-fine");
   const apply = at<HTMLButtonElement>("doctor-apply");
   fine.hidden = report === undefined;
-  apply.hidden = report?.toml == null;
+  apply.hidden = report?.toml == null || report.fix + report.note === 0;
   const first = report?.findings.find(({ severity }) => severity === "fix");
   at("advice").hidden = first === undefined || report?.toml === shared.config;
   at("advice-text").textContent = first === undefined ? "" : `Doctor: ${first.sentence}`;

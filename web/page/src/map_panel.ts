@@ -92,14 +92,15 @@ export function extentOf({ positions }: GroundMesh): { center: Position; width: 
 
 /** Term and description of a cell. */
 export function aboutCell({ ground, origin, scans }: MapCopy, corner: number): [string, string][] {
-  const [x, y, z] = ground.positions.subarray(3 * corner, 3 * corner + 3).map((value) => value);
+  const [x, y, z] = ground.positions.subarray(3 * corner, 3 * corner + 3);
   const position = [x + origin[0], y + origin[1]];
   const age = ground.ages[corner];
+  const others = ground.contradictions[corner];
   return [
     ["Height", metres(z + origin[2])],
     ["Error", `${metres(ground.deviations[corner])} (expected)`],
-    ["Measured", `by ${ground.scans[corner]} of ${scans} scans, last ${age === 0 ? "in the last one" : `${age} scans before the end`}`],
-    ["Contradictions", `${ground.contradictions[corner]} scans measured another height`],
+    ["Measured", `by ${ground.scans[corner]} of ${scans} scans${others > 0 ? `, ${others} others disagree` : ""}`],
+    ["Age", age === 0 ? "measured by the last scan" : `${age} scans`],
     ["Position", `${position.map((value) => value.toFixed(1).replace("-", "−")).join(", ")} m`],
   ];
 }

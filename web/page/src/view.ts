@@ -100,7 +100,7 @@ export class View {
     discs(18, 0.6),
   );
   readonly #path = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 3 }));
-  readonly #objects = new Points(new BufferGeometry(), discs(5, 0));
+  readonly #objects = new Points(new BufferGeometry(), discs(4, 0));
   readonly #raycaster = new Raycaster();
   #grid: GridHelper | undefined;
   #positions: Float32Array = new Float32Array();
@@ -224,14 +224,17 @@ export class View {
     this.draw();
   }
 
-  /** A map: the views show all of it. */
+  /** A map: the views show all of it, with its longer side along the longer side of the canvas. */
   setHomeOfMap(center: Position, width: number, height: number): void {
     const target = new Vector3(...center);
     const { clientWidth, clientHeight } = this.canvas;
-    const half = Math.max((width * clientHeight) / Math.max(clientWidth, 1), height, 20) / 2;
+    const turned = width > height !== clientWidth > clientHeight;
+    const [across, up] = turned ? [height, width] : [width, height];
+    const half = Math.max((across * clientHeight) / Math.max(clientWidth, 1), up, 20) / 2;
     const distance = (1.1 * half) / Math.tan(((this.#camera.fov / 2) * Math.PI) / 180);
-    const from = (x: number, y: number, z: number) => new Vector3(x, y, z).normalize().multiplyScalar(distance).add(target);
-    this.#home = { reset: { target, position: from(-0.1, -0.6, 0.8) }, top: { target, position: from(0, -1e-4, 1) } };
+    const from = (right: number, back: number, z: number) =>
+      new Vector3(turned ? -back : right, turned ? -right : -back, z).normalize().multiplyScalar(distance).add(target);
+    this.#home = { reset: { target, position: from(-0.1, 0.6, 0.8) }, top: { target, position: from(0, 1e-4, 1) } };
     this.#setReach(Math.max(600, 3 * distance));
     this.#grid!.visible = false;
     this.draw();
@@ -363,7 +366,7 @@ export class View {
     }
     this.#material.uniforms.size.value = 60 * ratio;
     this.#marker.material.uniforms.size.value = 18 * ratio;
-    this.#objects.material.uniforms.size.value = 5 * ratio;
+    this.#objects.material.uniforms.size.value = 4 * ratio;
     const halves = this.#sideBySide ? 2 : 1;
     this.#renderer.setScissorTest(halves === 2);
     this.#aim(width / halves / height);

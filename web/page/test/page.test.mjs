@@ -198,19 +198,19 @@ test("several files are a sequence with a slider", async () => {
 });
 
 test("a slider changes the labels and the link, and the link restores the view", async () => {
-  const start = await text("#legend");
+  const first = await text("#legend");
   await page.locator("#set-point-margin").focus();
   for (let i = 0; i < 12; ++i) await page.keyboard.press("ArrowRight");
   await page.waitForFunction(() => document.querySelector("[data-name='point.margin'] output").textContent === "0.36 m");
   await settled();
-  await page.waitForFunction((before) => document.querySelector("#legend").innerText !== before, start);
+  await page.waitForFunction((before) => document.querySelector("#legend").innerText !== before, first);
   const changed = await text("#legend");
   await page.waitForFunction(() => location.hash.includes("point.margin=0.36"));
   await start({ fragment: new URL(page.url()).hash });
   assert.equal(await text("#legend"), changed);
   assert.equal(await text("[data-name='point.margin'] output"), "0.36 m");
   await page.click("#reset");
-  await page.waitForFunction((before) => document.querySelector("#legend").innerText === before, start);
+  await page.waitForFunction((before) => document.querySelector("#legend").innerText === before, first);
 });
 
 test("a value outside its limits in a link is reported", async () => {
@@ -247,14 +247,14 @@ test("the doctor reports a scan in millimetres, and its settings fix the labels"
 });
 
 test("colours, surface and patchwork", async () => {
-  await page.click("text=Height");
+  await page.click(".of-scan >> text=Height");
   await page.check("#show-surface");
   await settled();
   await page.screenshot({ path: join(screenshots, "height-surface.png") });
   await page.uncheck("#show-points");
   await page.screenshot({ path: join(screenshots, "surface.png") });
   await page.check("#show-points");
-  await page.click("text=Patches");
+  await page.click(".of-scan >> text=Patches");
   await page.uncheck("#show-surface");
   await page.screenshot({ path: join(screenshots, "patches.png") });
   await page.locator("input[name=method][value=patchwork]").check({ force: true });
