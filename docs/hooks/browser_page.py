@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
-"""Adds the page of web/page to the site, as `try/`, if `make web` has built it: its files, a tab and a button on the home page."""
+"""Adds the page of web/page to the site, as `try/`, if `make web` has built it.
+
+A tab and a button on the home page lead to it.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,9 @@ if TYPE_CHECKING:
 BUILT = pathlib.Path(__file__).resolve().parents[2] / "web" / "page" / "dist"
 
 
-BUTTON = "\n[Try it in your browser: drop a scan, see its ground](try/index.html){ .md-button .md-button--primary }\n"
+BUTTON = """
+[Try it in your browser: drop a scan, see its ground](try/index.html){ .md-button .md-button--primary }
+"""
 
 
 def is_built() -> bool:
