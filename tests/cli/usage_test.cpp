@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
         segmenting("SectionAsASetting", {"--set", "point=0.1"},
                    {"point must be a table of settings, got a floating-point number"}),
         segmenting("ConfigOfPatchwork", {"--config", "TOML"},
-                   {"/mine.toml: line 1", "no setting 'seed_count'", "--method patchwork"}),
+                   {"/mine.toml: line 1", "no setting 'seed_count'", "(method patchwork has it)"}),
         segmenting("TintWithoutZones", {"--image", "--color-patches"},
                    {"--color-patches: method surface has no zones", "--method patchwork"}),
         segmenting("HeightOutOfRange", {"--sensor-height", "101"},
