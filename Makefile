@@ -5,7 +5,7 @@
 # for example CMAKE_FLAGS=-DBUILD_SHARED_LIBS=ON.
 export CMAKE_FLAGS
 PREFIX ?= /usr/local
-PACKAGES := deb conan vcpkg conda docker consumers
+PACKAGES := wheels deb conan vcpkg conda docker consumers
 MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence bench-codec latency soak-test surface-figures
 
 .PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
@@ -57,7 +57,7 @@ docs: ## build the documentation site, warnings are errors: build/site/index.htm
 	@scripts/setup python docs && NO_MKDOCS_2_WARNING=1 "$$(scripts/python environment)" -m mkdocs build --strict
 
 wheel: ## build the Python wheel into dist/ and test it in an empty environment; PYTHON selects another interpreter
-	@scripts/setup build python && wheel=$$(scripts/wheel) && scripts/check-wheel "$$wheel"
+	@scripts/setup build wheel && wheel=$$(scripts/wheel) && scripts/check-wheel "$$wheel"
 
 web: build ## build the WebAssembly module and the npm package into dist/, and the page into web/page/dist, print sizes
 	@scripts/setup web && scripts/web package && scripts/web-page build
@@ -68,9 +68,10 @@ test-page: web ## test the page in web/page/dist in headless Chromium; screensho
 test-web: ## compare all bytes and times of the WebAssembly module with the native build; on every scan of FLAGSTONE_DATA and in every scene
 	@scripts/setup build test python web && scripts/web build && scripts/test web
 
-packages: $(PACKAGES) ## build and test every package below, print a table
-	@scripts/packages/row
+packages: ## build and test every package below, print a table; a package that fails does not stop the others
+	@scripts/setup build packages && scripts/packages/run $(PACKAGES)
 
+wheels: ## build the source distribution and the wheels for Python 3.10 to 3.13, test each of them
 deb: ## build the Debian packages and test them in a new Debian system
 conan: ## build the Conan package and test it
 vcpkg: ## test the vcpkg port; VCPKG_ROOT: the directory of vcpkg, if you have it
@@ -78,7 +79,7 @@ conda: ## check the conda recipe
 docker: ## check the Dockerfile, build the image and test it
 consumers: ## build examples/consumer from the sources and with `make install`
 $(PACKAGES):
-	@scripts/setup build packages && scripts/packages/$@
+	@scripts/setup build packages && scripts/packages/run $@
 
 sbom: ## write the bill of materials: build-packages/flagstone.cdx.json
 	@mkdir -p build-packages && scripts/sbom > build-packages/flagstone.cdx.json && echo build-packages/flagstone.cdx.json
