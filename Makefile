@@ -56,7 +56,7 @@ tidy: ## run clang-tidy over the library and the command
 docs: ## build the documentation site, warnings are errors: build/site/index.html
 	@scripts/setup python docs && NO_MKDOCS_2_WARNING=1 "$$(scripts/python environment)" -m mkdocs build --strict
 
-wheel: ## build the Python wheel into dist/ and test it in an empty environment; PYTHON selects another interpreter
+wheel: ## build the Python wheel for glibc 2.31 into dist/ and test it in an empty environment; PYTHON selects another interpreter
 	@scripts/setup build wheel && wheel=$$(scripts/wheel) && scripts/check-wheel "$$wheel"
 
 web: build ## build the WebAssembly module and the npm package into dist/, and the page into web/page/dist, print sizes
