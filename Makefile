@@ -75,7 +75,7 @@ wheels: ## build the source distribution and the wheels for Python 3.10 to 3.13,
 deb: ## build the Debian packages and test them in a new Debian system
 conan: ## build the Conan package and test it
 vcpkg: ## test the vcpkg port; VCPKG_ROOT: the directory of vcpkg, if you have it
-conda: ## check the conda recipe
+conda: ## build the conda package with libraries of the system and test it
 docker: ## check the Dockerfile, build the image and test it
 consumers: ## build examples/consumer from the sources and with `make install`
 $(PACKAGES):
