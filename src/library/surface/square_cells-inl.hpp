@@ -60,22 +60,22 @@ class CellLocator {
         hn::And(hn::Gt(squared_range, hn::Zero(d)),
                 hn::Lt(squared_range, hn::Set(d, max_squared_range_))),
         hn::And(hn::Ge(z, hn::Set(d, noise_height_)), hn::Le(z, hn::Set(d, max_coordinate))));
-    Located found;
-    found.all_have_cells = hn::AllTrue(d, used);
-    if (HWY_UNLIKELY(!found.all_have_cells)) {
+    bool all_have_cells = hn::AllTrue(d, used);
+    if (HWY_UNLIKELY(!all_have_cells)) {
       used = hn::AndNot(is_below_cells(squared_range, z), is_good(squared_range, x, y, z));
-      found.all_have_cells = hn::AllTrue(d, used);
+      all_have_cells = hn::AllTrue(d, used);
       x = hn::IfThenElseZero(used, x);
       y = hn::IfThenElseZero(used, y);
       z = hn::IfThenElseZero(used, z);
     }
     const IntVector edges = from_edge(x, y);
-    found.cell = cell_of(edges);
-    found.packed = packed(edges, z);
-    if (HWY_UNLIKELY(!found.all_have_cells)) {
-      found.cell = hn::IfThenElse(hn::RebindMask(di, used), found.cell, hn::Set(di, none_));
+    IntVector cell = cell_of(edges);
+    if (HWY_UNLIKELY(!all_have_cells)) {
+      cell = hn::IfThenElse(hn::RebindMask(di, used), cell, hn::Set(di, none_));
     }
-    return found;
+    // Without a default constructor: GCC compiles it for any 64-bit Arm, and it cannot call those
+    // of vectors.
+    return {cell, packed(edges, z), all_have_cells};
   }
 
   /// Whether points are valid and in range. The squared range is infinite if it overflows.
