@@ -29,7 +29,7 @@ namespace {
 bool is_scan_despite_name(const fs::path& file) {
   constexpr std::array<std::string_view, 4> extensions{".label.npy", ".heights.npy", ".surface.npy",
                                                        ".ground.npy"};
-  const std::string_view name = io::file_name(file);
+  const io::PathText name = io::file_name(file);
   if (std::ranges::none_of(extensions, [&](auto end) { return io::ends_with(name, end); })) {
     return false;
   }

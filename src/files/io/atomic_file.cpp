@@ -2,18 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "files/io/atomic_file.hpp"
 
-#include <fcntl.h>
-#include <pthread.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
-#include <csignal>
-#include <cstdio>
 #include <system_error>
 #include <utility>
 
 #include "files/io/file_descriptor.hpp"
+#include "files/io/file_size_signal.hpp"
 #include "files/io/message.hpp"
 
 namespace flagstone::io {
@@ -21,9 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+Status unwritable(std::string_view what, const std::error_code& error) {
+  return Status(StatusCode::unwritable, fmt::format("{}: {}", what, error.message()));
+}
+
 Status unwritable(std::string_view what, int error) {
-  return Status(StatusCode::unwritable,
-                fmt::format("{}: {}", what, std::generic_category().message(error)));
+  return unwritable(what, std::error_code(error, std::generic_category()));
 }
 
 /// The path of the file itself, with symbolic links resolved. unwritable if renaming would replace
@@ -33,7 +33,7 @@ Status find_target(const fs::path& path, fs::path& target) {
   std::error_code error;
   if (fs::is_symlink(path, error)) {
     target = fs::canonical(path, error);
-    if (error) return unwritable("is a broken symbolic link", error.value());
+    if (error) return unwritable("is a broken symbolic link", error);
   }
   const fs::file_status status = fs::status(target, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
@@ -45,30 +45,6 @@ Status find_target(const fs::path& path, fs::path& target) {
   return {};
 }
 
-/// RAII guard for the current thread: a write beyond the file size limit (ulimit -f) fails as on a
-/// full disk. Without it, SIGXFSZ would end the process; the guard blocks and then discards it.
-class FileSizeSignalBlocked {
- public:
-  FileSizeSignalBlocked() {
-    ::sigemptyset(&signal_);
-    ::sigaddset(&signal_, SIGXFSZ);
-    ::pthread_sigmask(SIG_BLOCK, &signal_, &before_);
-  }
-  FileSizeSignalBlocked(const FileSizeSignalBlocked&) = delete;
-  FileSizeSignalBlocked& operator=(const FileSizeSignalBlocked&) = delete;
-  FileSizeSignalBlocked(FileSizeSignalBlocked&&) = delete;
-  FileSizeSignalBlocked& operator=(FileSizeSignalBlocked&&) = delete;
-  ~FileSizeSignalBlocked() {
-    const timespec now{};
-    if (::sigismember(&before_, SIGXFSZ) == 0) ::sigtimedwait(&signal_, nullptr, &now);
-    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
-
- private:
-  sigset_t signal_{};
-  sigset_t before_{};
-};
-
 /// A temporary file next to the file to be written. The destructor removes it unless it was
 /// renamed.
 class TemporaryFile {
@@ -77,7 +53,7 @@ class TemporaryFile {
     static std::atomic<unsigned> counter{0};
     do {  // skip files left behind by a killed process that had the same process id
       path_ = folder / fmt::format(".flagstone-{}-{}.tmp", ::getpid(), counter++);
-      number_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      number_ = create_to_write(path_);
     } while (number_ < 0 && errno == EEXIST);
     error_ = number_ < 0 ? errno : 0;
   }
@@ -86,7 +62,8 @@ class TemporaryFile {
   TemporaryFile(TemporaryFile&&) = delete;
   TemporaryFile& operator=(TemporaryFile&&) = delete;
   ~TemporaryFile() {
-    if (number_ >= 0 && !is_in_place_) ::unlink(path_.c_str());
+    std::error_code ignored;
+    if (number_ >= 0 && !is_in_place_) fs::remove(path_, ignored);
   }
 
   Status fill_and_put_in_place(std::span<const std::byte> bytes, const fs::path& target) {
@@ -94,15 +71,15 @@ class TemporaryFile {
     FileDescriptor file(number_);
     const FileSizeSignalBlocked signal_blocked;
     while (!bytes.empty()) {
-      const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
+      const std::ptrdiff_t written = file.write(bytes);
       if (written < 0 && errno == EINTR) continue;
       if (written < 0) return unwritable("cannot be written", errno);
       bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
     if (!file.close()) return unwritable("cannot be written", errno);
-    if (std::rename(path_.c_str(), target.c_str()) != 0) {
-      return unwritable("cannot be replaced", errno);
-    }
+    std::error_code error;
+    fs::rename(path_, target, error);
+    if (error) return unwritable("cannot be replaced", error);
     is_in_place_ = true;
     return {};
   }

@@ -141,7 +141,7 @@ Status parse_npy(std::span<const std::byte> bytes, std::size_t expected_points,
 }
 
 std::optional<ClassFormat> class_format_of(const std::filesystem::path& path) {
-  const std::string_view name = file_name(path);
+  const PathText name = file_name(path);
   if (ends_with(name, ".label")) return ClassFormat::label;
   if (ends_with(name, ".bin")) return ClassFormat::lidarseg;
   if (ends_with(name, ".npy")) return ClassFormat::npy;

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "files/io/load_bytes.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <span>
@@ -24,19 +22,30 @@ Status system_error(std::string_view what, int error) {
 }
 
 /// The error for anything that is not a regular file.
-Status not_a_file(mode_t mode) {
-  const char* const kind = S_ISDIR(mode)                    ? "a directory"
-                           : S_ISFIFO(mode)                 ? "a pipe"
-                           : S_ISSOCK(mode)                 ? "a socket"
-                           : S_ISCHR(mode) || S_ISBLK(mode) ? "a device"
-                                                            : "not a regular file";
-  return Status(StatusCode::unreadable, fmt::format("is {} (expected a regular file{})", kind,
-                                                    S_ISDIR(mode) ? "" : "; copy the data to one"));
+Status not_a_file(const std::filesystem::path& path) {
+  using enum std::filesystem::file_type;
+  std::error_code ignored;
+  const std::filesystem::file_type type = std::filesystem::status(path, ignored).type();
+  const char* const kind = type == directory                    ? "a directory"
+                           : type == fifo                       ? "a pipe"
+                           : type == socket                     ? "a socket"
+                           : type == character || type == block ? "a device"
+                                                                : "not a regular file";
+  return Status(StatusCode::unreadable,
+                fmt::format("is {} (expected a regular file{})", kind,
+                            type == directory ? "" : "; copy the data to one"));
 }
 
-Status read_all(int file, std::span<std::byte> to) {
+/// The error for a file that cannot be opened. Windows does not open directories.
+Status not_opened(const std::filesystem::path& path, int error) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return not_a_file(path);
+  return system_error("cannot be opened", error);
+}
+
+Status read_all(const FileDescriptor& file, std::span<std::byte> to) {
   for (std::size_t done = 0; done < to.size();) {
-    const ssize_t got = ::read(file, to.data() + done, to.size() - done);
+    const std::ptrdiff_t got = file.read(to.subspan(done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return system_error("cannot be read", errno);
     if (got == 0) {
@@ -50,9 +59,6 @@ Status read_all(int file, std::span<std::byte> to) {
   return {};
 }
 
-// Without O_NONBLOCK, opening a pipe waits for a writer.
-constexpr int reading = O_RDONLY | O_CLOEXEC | O_NONBLOCK;
-
 /// Sets the size of `bytes`. Its old contents are lost, and as little as possible is cleared.
 void resize(std::vector<std::byte>& bytes, std::size_t size) {
   if (size > bytes.capacity()) bytes = {};  // growing would copy bytes that are then overwritten
@@ -62,11 +68,11 @@ void resize(std::vector<std::byte>& bytes, std::size_t size) {
 // Not memory-mapped: mapping takes up to a third less time from the page cache, but a file that
 // shrinks while it is mapped ends the program with SIGBUS.
 Status read_whole(const std::filesystem::path& path, std::vector<std::byte>& out) {
-  const FileDescriptor file(::open(path.c_str(), reading));
-  if (!file.is_open()) return system_error("cannot be opened", errno);
+  const FileDescriptor file(open_to_read(path));
+  if (!file.is_open()) return not_opened(path, errno);
   struct stat about{};
   if (::fstat(file.get(), &about) != 0) return system_error("cannot be read", errno);
-  if (!S_ISREG(about.st_mode)) return not_a_file(about.st_mode);
+  if (!S_ISREG(about.st_mode)) return not_a_file(path);
   const auto size = static_cast<std::size_t>(about.st_size);
   if (size > max_file_size) {
     return Status(
@@ -74,7 +80,7 @@ Status read_whole(const std::filesystem::path& path, std::vector<std::byte>& out
         fmt::format("has {} bytes (expected at most {}; split the file)", size, max_file_size));
   }
   resize(out, size);
-  return read_all(file.get(), out);
+  return read_all(file, out);
 }
 
 }  // namespace
@@ -85,9 +91,11 @@ Status load_bytes(const std::filesystem::path& path, std::vector<std::byte>& out
   return status;
 }
 
-void read_ahead(const std::filesystem::path& path) noexcept {
-  const FileDescriptor file(::open(path.c_str(), reading));
+void read_ahead([[maybe_unused]] const std::filesystem::path& path) noexcept {
+#ifdef POSIX_FADV_WILLNEED  // neither macOS nor Windows has it
+  const FileDescriptor file(open_to_read(path));
   if (file.is_open()) ::posix_fadvise(file.get(), 0, 0, POSIX_FADV_WILLNEED);
+#endif
 }
 
 }  // namespace flagstone::io

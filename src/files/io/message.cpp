@@ -28,7 +28,7 @@ std::string quote(std::string_view text) {
 
 std::string printable(const std::filesystem::path& path) {
   std::string out;
-  for (const char c : path.native()) {
+  for (const char c : path.string()) {
     const auto code = static_cast<unsigned char>(c);
     if (code >= 0x20 && code != 0x7f) {
       out += c;

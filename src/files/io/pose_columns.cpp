@@ -110,7 +110,8 @@ std::optional<PoseColumn> content_of(const ColumnName& name) {
   for (const auto& [word, column] : words) {
     if (last == word) return column;
   }
-  if (ends_with(last, "timestamp") || ends_with(last, "time")) return time;
+  const std::string_view end = last;
+  if (ends_with(end, "timestamp") || ends_with(end, "time")) return time;
   return std::nullopt;
 }
 

@@ -74,7 +74,7 @@ Status write_raw_points(const Cloud& cloud, std::vector<std::byte>& out) {
 }
 
 std::optional<CloudFormat> format_of(const std::filesystem::path& path) noexcept {
-  const std::string_view name = file_name(path);
+  const PathText name = file_name(path);
   if (ends_with(name, ".bin")) return CloudFormat::raw;
   if (ends_with(name, ".pcd")) return CloudFormat::pcd;
   if (ends_with(name, ".ply")) return CloudFormat::ply;
@@ -83,7 +83,7 @@ std::optional<CloudFormat> format_of(const std::filesystem::path& path) noexcept
 }
 
 bool is_scan_name(const std::filesystem::path& path) noexcept {
-  const std::string_view name = file_name(path);
+  const PathText name = file_name(path);
   constexpr std::array<std::string_view, 9> beside_scans = {
       "_lidarseg.bin", ".label.npy",  ".heights.npy", ".surface.npy", ".ground.npy",
       ".return.npy",   ".motion.npy", ".time.npy",    ".moving.npy"};

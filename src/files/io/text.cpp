@@ -47,28 +47,18 @@ std::optional<double> real_number(std::string_view word) noexcept {
   return is_small ? 0 : std::numeric_limits<double>::infinity();
 }
 
-namespace {
-
-char in_lower_case(char c) noexcept {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-}  // namespace
-
-std::string_view file_name(const std::filesystem::path& path) noexcept {
-  const std::string_view text = path.native();
-  return text.substr(text.rfind('/') + 1);  // npos + 1 is 0
+PathText file_name(const std::filesystem::path& path) noexcept {
+  constexpr std::array separators{std::filesystem::path::value_type{'/'},
+                                  std::filesystem::path::preferred_separator};
+  const PathText text = path.native();
+  const std::size_t separator = text.find_last_of(separators.data(), PathText::npos, 2);
+  return text.substr(separator + 1);  // npos + 1 is 0
 }
 
 std::string lower_case_name(const std::filesystem::path& path) {
-  std::string name(file_name(path));
-  std::ranges::transform(name, name.begin(), in_lower_case);
+  std::string name = path.filename().string();
+  std::ranges::transform(name, name.begin(), in_lower_case<char>);
   return name;
-}
-
-bool ends_with(std::string_view name, std::string_view ending) noexcept {
-  if (name.size() < ending.size()) return false;
-  return std::ranges::equal(name.substr(name.size() - ending.size()), ending, {}, in_lower_case);
 }
 
 }  // namespace flagstone::io

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <filesystem>
@@ -47,13 +48,27 @@ constexpr bool is_blank(char c) noexcept {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
+/// The text of a path as the system has it: `char`, on Windows `wchar_t`.
+using PathText = std::basic_string_view<std::filesystem::path::value_type>;
+
 /// The last component of `path`. Valid as long as `path`.
-std::string_view file_name(const std::filesystem::path& path) noexcept;
+PathText file_name(const std::filesystem::path& path) noexcept;
 
 /// The last component of `path` in lower case.
 std::string lower_case_name(const std::filesystem::path& path);
 
+/// `c`, in lower case if it is one of A to Z.
+template <class Char>
+constexpr Char in_lower_case(Char c) noexcept {
+  return c >= 'A' && c <= 'Z' ? static_cast<Char>(c - 'A' + 'a') : c;
+}
+
 /// Whether `name`, in upper or lower case, ends with `ending`, which must be in lower case.
-bool ends_with(std::string_view name, std::string_view ending) noexcept;
+template <class Char>
+bool ends_with(std::basic_string_view<Char> name, std::string_view ending) noexcept {
+  if (name.size() < ending.size()) return false;
+  return std::ranges::equal(name.substr(name.size() - ending.size()), ending, {},
+                            in_lower_case<Char>);
+}
 
 }  // namespace flagstone::io

@@ -3,16 +3,18 @@
 #include "files/io/atomic_file.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 #include <string>
 #include <vector>
 
 #include "files/io/file_contents.hpp"
 #include "files/io/file_size_limit.hpp"
+#include "files/io/named_pipe.hpp"
 #include "files/io/status_matchers.hpp"
 #include "files/io/temporary_folder.hpp"
 #include "files/io/without_root.hpp"
+#include "skip_on_windows.hpp"
 
 namespace flagstone::io {
 namespace {
@@ -48,6 +50,7 @@ TEST(WriteFile, WritesAnEmptyFile) {
 }
 
 TEST(WriteFile, LeavesNothingBehindIfTheDiskIsFull) {
+  FLAGSTONE_SKIP_ON_WINDOWS("limits of file sizes");
   const TemporaryFolder folder;
   const FileSizeLimit limit(1000);
 
@@ -60,6 +63,7 @@ TEST(WriteFile, LeavesNothingBehindIfTheDiskIsFull) {
 }
 
 TEST(WriteFile, KeepsTheOldFileIfTheDiskIsFull) {
+  FLAGSTONE_SKIP_ON_WINDOWS("limits of file sizes");
   const TemporaryFolder folder;
   put_file(folder / "a", "old");
   const FileSizeLimit limit(1000);
@@ -79,6 +83,7 @@ TEST(WriteFile, RequiresAnExistingDirectory) {
 }
 
 TEST(WriteFile, RequiresAWritableDirectory) {
+  FLAGSTONE_SKIP_ON_WINDOWS("permission bits");
   const TemporaryFolder folder;
   using enum fs::perms;
   fs::permissions(folder.path(), owner_read | owner_exec | others_read | others_exec);
@@ -96,8 +101,9 @@ TEST(WriteFile, DoesNotReplaceADirectory) {
 }
 
 TEST(WriteFile, DoesNotReplaceAPipeOrDevice) {
+  FLAGSTONE_SKIP_ON_WINDOWS("pipes and devices in directories");
   const TemporaryFolder folder;
-  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  ASSERT_TRUE(make_pipe(folder / "pipe"));
 
   EXPECT_THAT(write_file(folder / "pipe", "x"),
               fails(StatusCode::unwritable, HasSubstr("not a regular file")));
@@ -109,6 +115,7 @@ TEST(WriteFile, DoesNotReplaceAPipeOrDevice) {
 }
 
 TEST(WriteFile, FollowsASymbolicLink) {
+  FLAGSTONE_SKIP_ON_WINDOWS("symbolic links that every user can create");
   const TemporaryFolder folder;
   put_file(folder / "target", "old");
   fs::create_symlink("target", folder / "link");
@@ -120,6 +127,7 @@ TEST(WriteFile, FollowsASymbolicLink) {
 }
 
 TEST(WriteFile, RejectsABrokenLink) {
+  FLAGSTONE_SKIP_ON_WINDOWS("symbolic links that every user can create");
   const TemporaryFolder folder;
   fs::create_symlink("nowhere", folder / "link");
   EXPECT_THAT(write_file(folder / "link", "x"),

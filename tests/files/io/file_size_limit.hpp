@@ -2,13 +2,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#ifndef _WIN32
 #include <sys/resource.h>
+#endif
 
 namespace flagstone::io {
 
 /// RAII guard that limits the size of every file to `bytes`, to simulate a full disk. A write
 /// beyond the limit fails, and raises SIGXFSZ unless it is blocked. Child processes inherit the
-/// limit.
+/// limit. Has no effect on Windows.
+#ifdef _WIN32
+struct [[maybe_unused]] FileSizeLimit {
+  explicit FileSizeLimit(int /*bytes*/) {}
+};
+#else
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
@@ -25,5 +32,6 @@ class FileSizeLimit {
  private:
   rlimit before_{};
 };
+#endif
 
 }  // namespace flagstone::io

@@ -3,16 +3,17 @@
 #include "files/io/load_bytes.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <string>
 
 #include "files/io/bytes.hpp"
 #include "files/io/file_contents.hpp"
+#include "files/io/named_pipe.hpp"
 #include "files/io/status_matchers.hpp"
 #include "files/io/temporary_folder.hpp"
 #include "files/io/text.hpp"
 #include "files/io/without_root.hpp"
+#include "skip_on_windows.hpp"
 
 namespace flagstone::io {
 namespace {
@@ -50,6 +51,7 @@ TEST(LoadBytes, ReportsAMissingFile) {
 }
 
 TEST(LoadBytes, ReportsOneLineForAnyPath) {
+  FLAGSTONE_SKIP_ON_WINDOWS("names with line breaks");
   Bytes bytes;
   EXPECT_THAT(load_bytes("no\nsuch\nfile", bytes),
               fails(StatusCode::not_found, StartsWith(R"(no\x0asuch\x0afile: )")));
@@ -63,20 +65,23 @@ TEST(LoadBytes, RejectsADirectory) {
 }
 
 TEST(LoadBytes, RejectsAPipeWithoutWaiting) {
+  FLAGSTONE_SKIP_ON_WINDOWS("pipes in directories");
   const TemporaryFolder folder;
-  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  ASSERT_TRUE(make_pipe(folder / "pipe"));
   Bytes bytes;
   EXPECT_THAT(load_bytes(folder / "pipe", bytes),
               fails(StatusCode::unreadable, HasSubstr("is a pipe")));
 }
 
 TEST(LoadBytes, RejectsADevice) {
+  FLAGSTONE_SKIP_ON_WINDOWS("devices in directories");
   Bytes bytes;
   EXPECT_THAT(load_bytes("/dev/zero", bytes),
               fails(StatusCode::unreadable, HasSubstr("is a device")));
 }
 
 TEST(LoadBytes, ReportsMissingPermission) {
+  FLAGSTONE_SKIP_ON_WINDOWS("permission bits");
   const TemporaryFolder folder;
   put_file(folder / "a", "x");
   std::filesystem::permissions(folder / "a", std::filesystem::perms::none);
@@ -117,9 +122,10 @@ TEST(LoadBytes, IsEmptyAfterAFailure) {
 }
 
 TEST(ReadAhead, LeavesFilesReadableAndDoesNotWaitForPipes) {
+  FLAGSTONE_SKIP_ON_WINDOWS("pipes in directories");
   const TemporaryFolder folder;
   put_file(folder / "a", "x");
-  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  ASSERT_TRUE(make_pipe(folder / "pipe"));
 
   read_ahead(folder / "none");
   read_ahead(folder / "pipe");

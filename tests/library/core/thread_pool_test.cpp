@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "child_process.hpp"
+#include "skip_on_windows.hpp"
 
 namespace flagstone {
 namespace {
@@ -130,6 +131,7 @@ TEST_P(ThreadPoolOf, CanRunFromAJobOfAnotherPool) {
 }
 
 TEST_P(ThreadPoolOf, StartsItsOwnWorkersAfterAFork) {
+  FLAGSTONE_SKIP_ON_WINDOWS("fork()");
   EXPECT_THAT(times_done(pool, 100), Each(1));
 
   const int exit_code = tests::exit_code_of_child([&] {
@@ -148,6 +150,7 @@ TEST_P(ThreadPoolOf, StartsItsOwnWorkersAfterAFork) {
 }
 
 TEST_P(ThreadPoolOf, CanBeDestroyedInAChildProcessThatDidNotUseIt) {
+  FLAGSTONE_SKIP_ON_WINDOWS("fork()");
   auto copied = std::make_unique<ThreadPool>(GetParam());
   EXPECT_EQ(tests::exit_code_of_child([&] {
               copied.reset();

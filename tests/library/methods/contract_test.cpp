@@ -13,6 +13,7 @@
 #include "child_process.hpp"
 #include "library/methods/methods.hpp"
 #include "random_cloud.hpp"
+#include "skip_on_windows.hpp"
 
 namespace flagstone {
 namespace {
@@ -47,6 +48,7 @@ TYPED_TEST(LibraryContract, SegmentsWithManyMoreThreadsThanCores) {
 }
 
 TYPED_TEST(LibraryContract, AChildProcessSegmentsWithItsOwnThreads) {
+  FLAGSTONE_SKIP_ON_WINDOWS("fork()");
   const std::vector<Point> cloud = random_cloud(40000, 16);  // enough for several threads
   TypeParam segmenter({}, 2);
   const auto before = segmented(segmenter, view_of(cloud));
