@@ -9,13 +9,13 @@ PACKAGES := wheels deb conan vcpkg conda docker consumers
 MEASUREMENTS := bench-scaling bench-steps bench-edges bench-confidence bench-codec latency soak-test surface-figures
 
 .PHONY: help build demo install test test-all test-python sanitize sanitize-thread format format-check tidy docs wheel \
-        web test-web test-page packages $(PACKAGES) sbom \
+        web test-web test-page test-arm64 test-windows build-macos packages $(PACKAGES) sbom \
         bench-compare bench-bags $(MEASUREMENTS) surface-study worlds-study invariance-study runs-study contact-sheet \
         map-image clean
 .DEFAULT_GOAL := build
 
 help: ## list the targets
-	@sed -n 's/^\([a-z-]*\):.* ## /\1\t/p' Makefile | expand -t 18
+	@sed -n 's/^\([a-z0-9-]*\):.* ## /\1\t/p' Makefile | expand -t 18
 
 build: ## install missing tools, build the library and the command: build/flagstone
 	@scripts/setup build
@@ -67,6 +67,15 @@ test-page: web ## test the page in web/page/dist in headless Chromium; screensho
 
 test-web: ## compare all bytes and times of the WebAssembly module with the native build; on every scan of FLAGSTONE_DATA and in every scene
 	@scripts/setup build test python web && scripts/web build && scripts/test web
+
+test-arm64: ## run the tests of the library and the readers on 64-bit Arm under QEMU, compare all bytes with the native build
+	@scripts/setup build test arm64 && scripts/cross arm64
+
+test-windows: ## the same on Windows under Wine
+	@scripts/setup build test windows && scripts/cross windows
+
+build-macos: ## compile the library and the readers for macOS on 64-bit Arm; nothing is run
+	@scripts/setup build macos && scripts/cross macos
 
 packages: ## build and test every package below, print a table; a package that fails does not stop the others
 	@scripts/setup build packages && scripts/packages/run $(PACKAGES)
@@ -122,4 +131,5 @@ map-image: build ## simulate and map a run and draw its ground and moving points
 
 clean: ## remove the build trees
 	@rm -rf build build-python build-tidy build-fuzz build-thread build-sanitize build-sanitize-thread build-compare build-web build-packages
+	@rm -rf build-arm64 build-windows build-macos
 	@rm -rf web/dist web/page/dist web/page/public/samples web/page/screenshots

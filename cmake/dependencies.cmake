@@ -50,8 +50,12 @@ function(flagstone_dependency name url sha256)
   endif()
 endfunction()
 
+option(FLAGSTONE_HOST_HEADERS "Take only headers from this system's packages, because their libraries are for another system"
+       ${FLAGSTONE_BUILD_WEB})
 if(FLAGSTONE_BUILD_WEB)
   flagstone_headers(hwy hwy::hwy hwy/highway.h)
+endif()
+if(FLAGSTONE_HOST_HEADERS)
   flagstone_headers(fmt fmt::fmt fmt/format.h)
   if(fmt_FOUND)
     target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
@@ -107,7 +111,10 @@ if(needs_command
     fc1a5eb410f3c67e90e5ad1264a1386d020067cfb01b633cc8c0441789aa6cf2 3.3)
 endif()
 
-if(needs_command OR FLAGSTONE_BUILD_FUZZERS OR FLAGSTONE_BUILD_WEB)
+if(needs_command
+   OR FLAGSTONE_BUILD_FUZZERS
+   OR FLAGSTONE_BUILD_WEB
+   OR web IN_LIST FLAGSTONE_SANITIZED_TESTS)
   flagstone_dependency(
     nlohmann_json https://github.com/nlohmann/json/archive/v3.11.2.tar.gz
     d69f9deb6a75e2580465c6c4c5111b89c4dc2fa94e3a85fcd2ffcd9a143d9273 3.11)
@@ -195,10 +202,12 @@ if(FLAGSTONE_BUILD_TESTS OR FLAGSTONE_SANITIZED_TESTS)
   flagstone_dependency(
     googletest https://github.com/google/googletest/archive/refs/tags/release-1.12.1.tar.gz
     81964fe578e9bd7c94dfdb09c8e4d6e6759e19967e397dbea48d1c10e45d0df2 1.12 NAMES GTest)
-  set(RC_ENABLE_GTEST ON)
-  flagstone_dependency(
-    rapidcheck https://github.com/emil-e/rapidcheck/archive/ff6af6fc683159deb51c543b065eba14dfcf329b.zip
-    60951dbc4de162622f51a4a34117c269a9921833a51dddce36f4cc80a5f7cf9f)
+  if(FLAGSTONE_BUILD_PROPERTY_TESTS)
+    set(RC_ENABLE_GTEST ON)
+    flagstone_dependency(
+      rapidcheck https://github.com/emil-e/rapidcheck/archive/ff6af6fc683159deb51c543b065eba14dfcf329b.zip
+      60951dbc4de162622f51a4a34117c269a9921833a51dddce36f4cc80a5f7cf9f)
+  endif()
   # Eigen's own build would bring hundreds of targets; its headers are all that is needed.
   FetchContent_Declare(
     Eigen3

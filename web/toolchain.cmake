@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 flagstone contributors
 # SPDX-License-Identifier: MIT
 
-# Compiles for WebAssembly with the compiler of web/requirements.txt. FLAGSTONE_ZIG is its program `zig`.
+# Compiles for WebAssembly with the compiler that scripts/zig installs. FLAGSTONE_ZIG is its program `zig`.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Segments scans for web/test/native.test.mjs, which compares all bytes of the result with those of
-// the WebAssembly module.
+// the WebAssembly module, and for scripts/cross, which compares them with those of other systems.
 //
 // Each line of standard input is METHOD PATH. The answer on standard output is the CPU time of the
 // segmentation in milliseconds (float64), the number of bytes of the result (uint32), and these
@@ -19,6 +19,11 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#ifdef _WIN32
+#include <fcntl.h>
+#include <io.h>
+#endif
 
 #include "app/config/method_choice.hpp"
 #include "files/io/read_cloud.hpp"
@@ -96,6 +101,9 @@ void answer_all() {
 }  // namespace flagstone
 
 int main() {
+#ifdef _WIN32
+  _setmode(_fileno(stdout), _O_BINARY);
+#endif
   try {
     flagstone::answer_all();
   } catch (const std::exception& error) {
