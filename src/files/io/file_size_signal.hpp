@@ -18,9 +18,10 @@ struct [[maybe_unused]] FileSizeSignalBlocked {};
 #else
 class FileSizeSignalBlocked {
  public:
-  FileSizeSignalBlocked() {
-    ::sigemptyset(&signal_);
-    ::sigaddset(&signal_, SIGXFSZ);
+  FileSizeSignalBlocked() {  // without ::, because macOS has macros with the names of these
+                             // functions
+    sigemptyset(&signal_);
+    sigaddset(&signal_, SIGXFSZ);
     ::pthread_sigmask(SIG_BLOCK, &signal_, &before_);
   }
   FileSizeSignalBlocked(const FileSizeSignalBlocked&) = delete;
@@ -28,7 +29,7 @@ class FileSizeSignalBlocked {
   FileSizeSignalBlocked(FileSizeSignalBlocked&&) = delete;
   FileSizeSignalBlocked& operator=(FileSizeSignalBlocked&&) = delete;
   ~FileSizeSignalBlocked() {
-    if (::sigismember(&before_, SIGXFSZ) == 0) discard();
+    if (sigismember(&before_, SIGXFSZ) == 0) discard();
     ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
 
@@ -38,7 +39,7 @@ class FileSizeSignalBlocked {
     sigset_t pending{};
     int number = 0;
     ::sigpending(&pending);
-    if (::sigismember(&pending, SIGXFSZ) == 1) ::sigwait(&signal_, &number);
+    if (sigismember(&pending, SIGXFSZ) == 1) ::sigwait(&signal_, &number);
 #else
     const timespec now{};
     ::sigtimedwait(&signal_, nullptr, &now);
