@@ -61,6 +61,9 @@ if(FLAGSTONE_HOST_HEADERS)
     target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY)
   endif()
   flagstone_headers(tomlplusplus tomlplusplus::tomlplusplus toml++/toml.h)
+  if(APPLE AND tomlplusplus_FOUND) # it checks FLT_RADIX, which Zig's headers for macOS do not define
+    target_compile_definitions(tomlplusplus::tomlplusplus INTERFACE TOML_DISABLE_ENVIRONMENT_CHECKS)
+  endif()
   flagstone_headers(nlohmann_json nlohmann_json::nlohmann_json nlohmann/json.hpp)
 endif()
 
