@@ -180,18 +180,23 @@ class GroundMap {
   /// Same as at(x, y).height, but faster.
   [[nodiscard]] double height(double x, double y) const noexcept;
 
-  /// Writes the height of each point of a scan above the map, metres; NaN where the map is unknown
-  /// and for points that are not finite. `levelling`: as add() or level() returned it for the scan.
-  /// invalid_argument if the sizes differ or the pose is not finite or not a rotation. Never
-  /// throws.
-  Status heights(CloudView cloud, const Pose& pose, const Levelling& levelling,
-                 std::span<float> heights) const;
+  /// Writes the height of each point of a scan above the ground, metres: the mean of its height
+  /// above the surface of the scan and its height above the map, weighted by their expected errors.
+  /// In cells in which the scan has points on the ground, this is nearly its own height. In other
+  /// cells, it is the height above the map. If one of them is unknown, it is the other one. NaN if
+  /// both are unknown, and for points that are invalid or out of range. `levelling`: as add() or
+  /// level() returned it for the scan. Errors as level(), and invalid_argument if `heights` has
+  /// another size than the cloud. Never throws.
+  Status heights(CloudView cloud, const Segmentation& result, const Pose& pose,
+                 const Levelling& levelling, std::span<float> heights) const;
 
-  /// Changes labels `ground` of a scan to `nonground` where a point is above the map by more than
-  /// the default PointRule::margin, 0.24 m. Far away, a scan has few points on the ground, and its
-  /// surface can follow the points on objects; the map has the ground from nearer scans. If the map
-  /// is unknown at a point, its label stays. `levelling`: as for heights(). Errors as add(), and
-  /// invalid_argument if `labels` has another size than the cloud. Never throws.
+  /// Changes labels `ground` of a scan to `nonground` where a point is too far above the map. Far
+  /// away, a scan has few points on the ground, and its surface can follow the points on objects;
+  /// the map has the ground from nearer scans. The margin is the default PointRule::margin, or
+  /// PointRule::obstacle_margin in cells that contain an obstacle in this scan, plus the expected
+  /// error of the map, at most 0.06 m. If the map is unknown at a point, its label stays.
+  /// `levelling`: as for heights(). Errors as level(), and invalid_argument if `labels` has another
+  /// size than the cloud. Never throws.
   Status relabel(CloudView cloud, const Segmentation& result, const Pose& pose,
                  const Levelling& levelling, std::span<Label> labels) const;
 

@@ -21,8 +21,8 @@ struct LabelVoteConfig {
   double voxel_height = 0.06;  ///< metres, 0.01 to 1
   /// Points lower than this above the ground of their scan keep their labels, metres, -10 to 10.
   float min_height = -0.4f;
-  float max_height = 1;   ///< points higher than this keep their labels, metres, -10 to 10
-  double max_range = 70;  ///< points farther from the sensor keep their labels, metres, 5 to 200
+  float max_height = 1;    ///< points higher than this keep their labels, metres, -10 to 10
+  double max_range = 100;  ///< points farther from the sensor keep their labels, metres, 5 to 200
   /// After each scan, tiles of 128 x 128 voxels whose centre is farther from the sensor than this
   /// are forgotten, metres, 100 to 1e6. 0: nothing is forgotten.
   double window = 0;

@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 
-// scripts/wheel links with the glibc of Debian 11. The static libraries of Debian 12 use three names that this glibc does
-// not have; they are defined here, for the wheel alone.
+// scripts/wheel links with the glibc of Debian 11. The static libraries of Debian 12 use three
+// names that this glibc does not have; they are defined here, for the wheel alone.
 #include <stdint.h>
 #include <stdlib.h>
 #include <sys/random.h>
 
 #define HIDDEN __attribute__((visibility("hidden")))
 
-// libstdc++: whether the process never had a second thread. With false, reference counts are always atomic.
+// libstdc++: whether the process never had a second thread. With false, reference counts are always
+// atomic.
 HIDDEN char __libc_single_threaded = 0;
 
 // Expat: random numbers for its hash tables.

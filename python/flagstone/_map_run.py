@@ -106,7 +106,7 @@ def map(
         labels: Scans that determine the labels and the moving points of a scan: `"live"`, the scans before it;
             `"delayed"`, also those of `delay` seconds after it; `"offline"`, all scans.
         delay: For `"delayed"`, 0 to 10 seconds.
-        heights: Write the height of each point above the map to `heights/NAME.heights.npy`.
+        heights: Write the height of each point above the ground to `heights/NAME.heights.npy`.
         voxel: Voxel size of `static.ply`, 0.01 to 10 metres; 0 for no cloud.
         rate: Scans per second, 0.01 to 1,000, if no file contains the times of the scans; 10 by default.
         map_memory: Memory of the map in megabytes, beyond which its tiles are kept in files; 0 for no limit.

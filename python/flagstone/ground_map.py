@@ -245,7 +245,11 @@ class GroundMap:
     def heights(
         self, points: PointsLike, result: Segmentation, pose: npt.ArrayLike, levelling: Levelling
     ) -> npt.NDArray[np.float32]:
-        """Heights of the points of a scan above the map.
+        """Heights of the points of a scan above the ground.
+
+        A height is the mean of the height above the surface of the scan and the height above the map, weighted by their
+        expected errors. In cells in which the scan has points on the ground, this is nearly the height of the scan. In
+        other cells, it is the height above the map. If one of them is unknown, it is the other one.
 
         Args:
             points: (N, >=3), the scan, as `Segmenter.segment` accepts it.
@@ -254,11 +258,11 @@ class GroundMap:
             levelling: What `add` or `level` returned for this scan.
 
         Returns:
-            (N,): metres; NaN where the map is unknown and for points that are not finite.
+            (N,): metres; NaN if both are unknown, and for points that are invalid or out of range.
 
         Raises:
             TypeError: The points are not floats, or not in CPU memory.
-            ValueError: The result is not of these points, or the pose is not a finite rotation and position.
+            ValueError: The result has no heights of these points, or the pose is not a finite rotation and position.
             MemoryError: There is not enough memory.
         """
         return self._core.heights(*columns_of(points), result._result, pose_rows(pose), levelling)
@@ -273,9 +277,11 @@ class GroundMap:
     ) -> npt.NDArray[np.uint8]:
         """The labels of a scan after a comparison with the map.
 
-        Points that are labelled ground but are more than 0.24 m above the map become `nonground`. Far away, a scan has
-        few points on the ground, and its surface can follow the points on objects; the map has the ground from nearer
-        scans. If the map is unknown at a point, its label stays. See `heights` for the other arguments and errors.
+        Points that are labelled ground but are too far above the map become `nonground`. Far away, a scan has few
+        points on the ground, and its surface can follow the points on objects; the map has the ground from nearer
+        scans. The margin is 0.24 m, or 0.06 m in cells that contain an obstacle in this scan, plus the expected error
+        of the map, at most 0.06 m. If the map is unknown at a point, its label stays. See `heights` for the other
+        arguments and errors.
 
         Args:
             points: The scan.

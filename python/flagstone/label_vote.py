@@ -46,7 +46,7 @@ class LabelVote:
         voxel_height: float = 0.06,
         min_height: float = -0.4,
         max_height: float = 1,
-        max_range: float = 70,
+        max_range: float = 100,
         window: float | None = None,
     ) -> None:
         self._settings: dict[str, Any] = {

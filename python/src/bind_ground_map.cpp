@@ -61,9 +61,10 @@ class SharedGroundMap : public Shared<GroundMap> {
     GivenScan scan(x, y, z, result, pose);
     const std::size_t count = result.segmentation().labels().size();
     NewArray<float> heights({count});
-    read_with(scan, [&](const GroundMap& map, CloudView cloud, const Segmentation&,
+    read_with(scan, [&](const GroundMap& map, CloudView cloud, const Segmentation& segmentation,
                         const Pose& level_pose) {
-      return map.heights(cloud, level_pose, levelling_of(levelling), {heights.data(), count});
+      return map.heights(cloud, segmentation, level_pose, levelling_of(levelling),
+                         {heights.data(), count});
     });
     return heights.release();
   }

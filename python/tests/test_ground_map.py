@@ -236,13 +236,25 @@ def test_only_labels_above_the_map_change(run: Run) -> None:
     assert changed.any()
     assert (labels[changed] == flagstone.Label.GROUND).all()
     assert (run.map.relabel(*arguments)[changed] == flagstone.Label.NONGROUND).all()
-    assert (run.map.heights(*arguments)[changed] > 0.24).all()
+    world = run.levellings[3].corrected(run.poses[3])
+    x, y, z = (run.scans[3][changed, :3] @ world[:, :3].T + world[:, 3]).T
+    assert (z - run.map.height(x, y) > 0.06 - 0.02).all()  # the corrected pose turns the scan, x and y too
 
 
-def test_heights_above_the_map_are_close_to_those_of_the_scan(run: Run) -> None:
-    heights = run.map.heights(run.scans[3], run.results[3], run.poses[3], run.levellings[3])
+def test_heights_combine_those_of_the_scan_and_those_above_the_map(run: Run) -> None:
+    points, result, pose, levelling = run.scans[3], run.results[3], run.poses[3], run.levellings[3]
+    heights = run.map.heights(points, result, pose, levelling)
+    world = levelling.corrected(pose)
+    x, y, z = (points[:, :3] @ world[:, :3].T + world[:, 3]).T
+    above_map = z - run.map.height(x, y)
     assert heights.dtype == np.float32
-    assert np.nanmedian(np.abs(heights - run.results[3].heights)) < 0.03
+    known = np.isfinite(above_map) & np.isfinite(result.heights)
+    lower, higher = np.minimum(above_map, result.heights), np.maximum(above_map, result.heights)
+    assert ((heights >= lower - 0.02) & (heights <= higher + 0.02))[known].all()
+    both = known & (np.abs(above_map - result.heights) > 0.1)
+    assert (np.abs(heights - above_map) < 0.02)[both].any()
+    unknown = np.isnan(above_map)
+    np.testing.assert_array_equal(heights[unknown], result.heights[unknown])
 
 
 def test_labels_of_another_length_are_an_error(run: Run) -> None:

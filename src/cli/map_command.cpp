@@ -201,7 +201,7 @@ void add_label_options(CLI::App& command, MapOptions& options) {
       ->capture_default_str()
       ->type_name("S");
   command.add_flag("--heights", options.heights,
-                   "Write the height of each point above the map to heights/NAME.heights.npy");
+                   "Write the height of each point above the ground to heights/NAME.heights.npy");
   command
       .add_option("--voxel", options.voxel,
                   "Voxel size of static.ply in metres; 0: do not write this cloud")

@@ -559,7 +559,7 @@ bool MapJob::write_scan(ScanSource& source, Entry& entry, std::vector<StaticPoin
   }
   const bool needs_heights = request_.heights || (request_.voxel > 0 && entry.is_used);
   std::vector<float> heights;
-  if (status.ok() && needs_heights) mapper_->heights_above_map(scan, heights);
+  if (status.ok() && needs_heights) status = mapper_->heights(scan, heights);
   if (status.ok() && request_.heights) {
     status = io::write_npy_file(files_.heights(entry.name), heights, std::array{heights.size()});
   }

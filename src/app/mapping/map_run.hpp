@@ -26,7 +26,7 @@ struct MapRequest {
   LabelSource labels = LabelSource::offline;
   double delay = 2;              ///< for LabelSource::delayed, seconds
   std::optional<double> rate{};  ///< scans per second, if no file contains times
-  bool heights = false;          ///< write heights above the map
+  bool heights = false;          ///< write heights above the ground
   double voxel = 0.2;            ///< of the static cloud, metres; 0: no cloud
   /// Memory of the map, megabytes; tiles beyond it are in files in the output directory. 0: no
   /// limit.

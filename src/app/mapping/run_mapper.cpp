@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/mapping/run_mapper.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "library/core/setting.hpp"
@@ -121,22 +120,16 @@ Status RunMapper::relabel(const RunScan& scan, std::vector<Label>& labels) const
   return status.ok() ? correct(scan, labels) : status;
 }
 
-// Labels after the vote: neither points above the map nor moving points are ground.
+// Labels after the vote: neither points too far above the map nor moving points are ground.
 Status RunMapper::correct(const RunScan& scan, std::vector<Label>& labels) const {
   label_moving_points(scan.moving, Label::nonground, labels);
   return map_.relabel(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling, labels);
 }
 
-void RunMapper::heights_above_map(const RunScan& scan, std::vector<float>& heights) const {
+Status RunMapper::heights(const RunScan& scan, std::vector<float>& heights) const {
   heights.assign(scan.result.heights().begin(), scan.result.heights().end());
-  if (!scan.fits) return;
-  std::vector<float> above_map(heights.size());
-  if (!map_.heights(scan.level.cloud(), scan.level.pose(), scan.levelling, above_map).ok()) return;
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    const Label label = scan.result.labels()[i];
-    if (label == Label::invalid || label == Label::out_of_range) continue;
-    if (std::isfinite(above_map[i])) heights[i] = above_map[i];
-  }
+  if (!scan.fits) return {};
+  return map_.heights(scan.level.cloud(), scan.result, scan.level.pose(), scan.levelling, heights);
 }
 
 }  // namespace flagstone::app

@@ -37,7 +37,7 @@ struct RunScan {
   LevelScan level;      ///< with the pose
   Levelling levelling;  ///< of the pose; set by RunMapper
   MovingMask moving;    ///< set by RunMapper
-  /// Labels with the votes of the scans so far, and `nonground` for all points above the map and
+  /// Labels with the votes of the scans so far, and `nonground` for points above the map and
   /// all moving points; set by RunMapper. Empty for LabelSource::offline.
   std::vector<Label> labels;
   /// False: the ground of the scan does not fit the map, and the scan was not used.
@@ -85,9 +85,9 @@ class RunMapper {
   /// Several threads may call it at the same time.
   Status relabel(const RunScan& scan, std::vector<Label>& labels) const;
 
-  /// Heights of the points of a finished scan above the map, metres; where the map is unknown,
-  /// their heights in the scan. Several threads may call it at the same time.
-  void heights_above_map(const RunScan& scan, std::vector<float>& heights) const;
+  /// Heights of the points of a finished scan above the ground of the map and of the scan, see
+  /// GroundMap::heights(). Several threads may call it at the same time.
+  Status heights(const RunScan& scan, std::vector<float>& heights) const;
 
   /// True after finish().
   [[nodiscard]] bool is_finished() const noexcept { return is_finished_; }

@@ -19,6 +19,7 @@
 #include "library/ground_map/grid_points.hpp"
 #include "library/ground_map/map_tiles.hpp"
 #include "library/ground_map/poses.hpp"
+#include "library/ground_map/scan_heights.hpp"
 #include "library/ground_map/tile_indices.hpp"
 
 namespace flagstone {
@@ -43,19 +44,32 @@ float deviation_of(const MapCell& cell) noexcept {
 struct Corners {
   std::array<MapCell, 4> cells{};  // x ascending, then y
   double u = 0, v = 0;             // 0..1 between the centres
+  CellIndex first{.x = nowhere};   // of cells[0]
 
+  Corners() = default;
   template <class Cells>  // map.cell(index) is a cell
   Corners(Cells& map, double x, double y, double size) noexcept {
+    move_to(map, x, y, size);
+  }
+
+  /// Cells are only read if they differ from those of the position before.
+  template <class Cells>
+  void move_to(Cells& map, double x, double y, double size) noexcept {
+    if (!(std::abs(x) <= max_world_position) || !(std::abs(y) <= max_world_position)) {
+      *this = Corners();
+      return;
+    }
     const double column = x / size - 0.5;
     const double row = y / size - 0.5;
-    if (!(std::abs(x) <= max_world_position) || !(std::abs(y) <= max_world_position)) return;
-    const auto first_column = static_cast<std::int64_t>(std::floor(column));
-    const auto first_row = static_cast<std::int64_t>(std::floor(row));
+    const CellIndex corner{.x = static_cast<std::int64_t>(std::floor(column)),
+                           .y = static_cast<std::int64_t>(std::floor(row))};
     u = column - std::floor(column);
     v = row - std::floor(row);
+    if (corner == first) return;
+    first = corner;
     for (std::size_t k = 0; k < 4; ++k) {
-      cells[k] = map.cell({.x = first_column + static_cast<std::int64_t>(k & 1U),
-                           .y = first_row + static_cast<std::int64_t>(k >> 1U)});
+      cells[k] = map.cell({.x = corner.x + static_cast<std::int64_t>(k & 1U),
+                           .y = corner.y + static_cast<std::int64_t>(k >> 1U)});
     }
   }
 
@@ -76,6 +90,9 @@ struct Corners {
     return cells[(u >= 0.5 ? 1U : 0U) + (v >= 0.5 ? 2U : 0U)];
   }
   [[nodiscard]] bool all() const noexcept { return std::ranges::all_of(cells, has_height); }
+
+ private:
+  static constexpr std::int64_t nowhere = std::numeric_limits<std::int64_t>::max();
 };
 
 }  // namespace
@@ -144,11 +161,18 @@ class NearbyCells {
   const CellTiles::Tile* last_ = nullptr;
 };
 
-/// Heights of the points of a scan above a map.
+/// A point above a map.
+struct PointAboveMap {
+  double x = 0, y = 0;  // world frame, metres
+  float height = 0;     // metres; NaN if the map or the point is unknown
+  const MapCell& cell;  // the cell of the map that contains it; valid until the next point
+};
+
+/// Finds the points of a scan above a map.
 template <class Tiles>
-class HeightsAboveMap {
+class PointsAboveMap {
  public:
-  HeightsAboveMap(const Tiles& tiles, const Pose& pose, const Levelling& levelling) noexcept
+  PointsAboveMap(const Tiles& tiles, const Pose& pose, const Levelling& levelling) noexcept
       : cells_(tiles),
         cell_(tiles.config.cell),
         pose_(pose),
@@ -156,95 +180,229 @@ class HeightsAboveMap {
         slope_y_(levelling.slope_y),
         sensor_height_(pose.position[2] - levelling.offset - tiles.base) {}
 
-  /// Metres; NaN if the map or the point is unknown.
-  float operator()(const Point& point) noexcept {
+  PointAboveMap operator()(const Point& point) noexcept {
     const auto [dx, dy, dz] = rotated(pose_, double{point.x}, double{point.y}, double{point.z});
-    const Corners corners(cells_, pose_.position[0] + dx, pose_.position[1] + dy, cell_);
+    const double x = pose_.position[0] + dx;
+    const double y = pose_.position[1] + dy;
+    corners_.move_to(cells_, x, y, cell_);
     const double z = sensor_height_ + dz - slope_x_ * dx - slope_y_ * dy;
-    return static_cast<float>(z - corners.height());
+    return {.x = x,
+            .y = y,
+            .height = static_cast<float>(z - corners_.height()),
+            .cell = corners_.nearest()};
   }
 
  private:
   NearbyCells<Tiles> cells_;
+  Corners corners_;
   double cell_;  // metres
   const Pose& pose_;
   double slope_x_, slope_y_, sensor_height_;  // the last one above the base of the map, metres
 };
 
-// Calls `check(i)` for each point that is labelled ground and is more than `height` metres above
-// the cell of the map that contains it.
+/// The cells of a map around a sensor, as a grid for find_in_grid().
+struct CellsAround {
+  /// `reach` in metres.
+  CellsAround(double cell, double reach, const Pose& pose, const Levelling& levelling) noexcept
+      : first{.x = static_cast<std::int64_t>(std::floor((pose.position[0] - 2 * reach) / cell)),
+              .y = static_cast<std::int64_t>(std::floor((pose.position[1] - 2 * reach) / cell))},
+        // Levels are relative to the sensor.
+        grid{.rotation = pose.rotation,
+             .to_sensor = {pose.position[0] - static_cast<double>(first.x) * cell,
+                           pose.position[1] - static_cast<double>(first.y) * cell, 0},
+             .slope_x = levelling.slope_x,
+             .slope_y = levelling.slope_y,
+             .per_metre = 1 / cell,
+             .per_metre_up = units_per_metre,
+             .width = static_cast<std::uint32_t>(4 * reach / cell)} {}
+
+  [[nodiscard]] std::size_t size() const noexcept { return std::size_t{grid.width} * grid.width; }
+  /// The number of the cell of a point that is inside.
+  [[nodiscard]] std::size_t cell(const GridPoints& points, std::size_t k) const noexcept {
+    return static_cast<std::size_t>(points.row[k]) * grid.width +
+           static_cast<std::size_t>(points.column[k]);
+  }
+  [[nodiscard]] CellIndex index(const GridPoints& points, std::size_t k) const noexcept {
+    return {.x = first.x + points.column[k], .y = first.y + points.row[k]};
+  }
+  /// Metres above the sensor.
+  static float up(const GridPoints& points, std::size_t k) noexcept {
+    return static_cast<float>(points.level[k]) * static_cast<float>(1 / units_per_metre);
+  }
+
+  static constexpr double units_per_metre = 1U << 20U;  // of levels
+
+  CellIndex first;
+  WorldGrid grid;
+};
+
+// The label of a point above the map depends on obstacles in its cell, as in stage F of `surface`.
+// The map is uncertain by its expected error, but walls that some scans label ground increase that.
+constexpr float max_uncertainty = 0.06F;  // metres
+
+float margin_of(const MapCell& cell, bool has_obstacle) noexcept {
+  const PointRule rule;
+  return (has_obstacle ? rule.obstacle_margin : rule.margin) +
+         std::min(deviation_of(cell), max_uncertainty);
+}
+
+constexpr float reach_of_labels = 200;  // metres
+
+// The cells that contain an obstacle in one scan. May throw std::bad_alloc.
+std::vector<bool> find_obstacles(const CellsAround& around, CloudView cloud,
+                                 const Segmentation& result) {
+  constexpr float overhang = 2.5F;  // metres
+  const PointFilter filter{.nonground = true,
+                           .min_height = 1.25F * PointRule().obstacle_height,
+                           .max_height = overhang,
+                           .reach = reach_of_labels};
+  std::vector<bool> has_obstacle(around.size());
+  const LabelledScan scan{.cloud = cloud, .labels = result.labels(), .heights = result.heights()};
+  GridPoints points;
+  for (std::size_t begin = 0; begin < cloud.size(); begin += GridPoints::capacity) {
+    find_in_grid(scan, filter, around.grid, begin, points);
+    for (std::size_t k = 0; k < points.count; ++k) has_obstacle[around.cell(points, k)] = true;
+  }
+  return has_obstacle;
+}
+
+// Calls `check(i, has_obstacle)` for points that are labelled ground, unless they are clearly lower
+// than the margin above the cell of the map that contains them. May throw std::bad_alloc.
 template <class Tiles, class Check>
-void for_each_high_point(const Tiles& tiles, const LabelledScan& scan, const Pose& pose,
-                         const Levelling& levelling, float height, const Check& check) noexcept {
+void for_each_high_point(const Tiles& tiles, CloudView cloud, const Segmentation& result,
+                         const Pose& pose, const Levelling& levelling,
+                         std::span<const Label> labels, const Check& check) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  constexpr float reach = 200;                   // metres
-  constexpr double units_per_metre = 1U << 20U;  // of levels
-  const double size = tiles.config.cell;
-  const CellIndex first{
-      .x = static_cast<std::int64_t>(std::floor((pose.position[0] - 2 * reach) / size)),
-      .y = static_cast<std::int64_t>(std::floor((pose.position[1] - 2 * reach) / size))};
-  // Levels are relative to the sensor.
-  const WorldGrid grid{.rotation = pose.rotation,
-                       .to_sensor = {pose.position[0] - static_cast<double>(first.x) * size,
-                                     pose.position[1] - static_cast<double>(first.y) * size, 0},
-                       .slope_x = levelling.slope_x,
-                       .slope_y = levelling.slope_y,
-                       .per_metre = 1 / size,
-                       .per_metre_up = units_per_metre,
-                       .width = static_cast<std::uint32_t>(4 * reach / size)};
-  const PointFilter filter{.min_height = -infinity, .max_height = infinity, .reach = reach};
+  constexpr float clearly = 0.12F;  // metres: half of a cell on a slope
+  const PointRule rule;
+  const CellsAround around(tiles.config.cell, reach_of_labels, pose, levelling);
+  const std::vector<bool> has_obstacle = find_obstacles(around, cloud, result);
+  const LabelledScan scan{.cloud = cloud, .labels = labels, .heights = result.heights()};
+  const PointFilter filter{
+      .min_height = -infinity, .max_height = infinity, .reach = reach_of_labels};
   const auto sensor = static_cast<float>(pose.position[2] - levelling.offset - tiles.base);
   NearbyCells cells(tiles);
   GridPoints points;
-  for (std::size_t begin = 0; begin < scan.cloud.size(); begin += GridPoints::capacity) {
-    find_in_grid(scan, filter, grid, begin, points);
+  for (std::size_t begin = 0; begin < cloud.size(); begin += GridPoints::capacity) {
+    find_in_grid(scan, filter, around.grid, begin, points);
     for (std::size_t k = 0; k < points.count; ++k) {
-      const HeightEvidence ground =
-          cells.best({.x = first.x + points.column[k], .y = first.y + points.row[k]});
-      const float up =
-          static_cast<float>(points.level[k]) * static_cast<float>(1 / units_per_metre);
-      if (ground.weight > 0 && sensor + up - ground.height > height) {
-        check(static_cast<std::size_t>(points.point[k]));
+      const HeightEvidence ground = cells.best(around.index(points, k));
+      const bool is_narrow = has_obstacle[around.cell(points, k)];
+      const float lowest = (is_narrow ? rule.obstacle_margin : rule.margin) - clearly;
+      const float height = sensor + CellsAround::up(points, k) - ground.height;
+      if (ground.weight > 0 && height > lowest) {
+        check(static_cast<std::size_t>(points.point[k]), is_narrow);
       }
     }
   }
 }
 
-Status check_values(CloudView cloud, const Pose& pose, std::size_t values, const char* name) {
-  if (values != cloud.size()) {
-    return Status(StatusCode::invalid_argument,
-                  std::string("ground map: the number of ") + name +
-                      " differs from the number of points (expected one per point)");
+/// The number of points in each cell that measure the ground in one scan: those that a map uses,
+/// within `reach`.
+class GroundCounts {
+ public:
+  static constexpr double reach = 100;  // metres
+
+  /// May throw std::bad_alloc.
+  GroundCounts(double cell, CloudView cloud, const Segmentation& result, const Pose& pose)
+      : cell_(cell), around_(cell, reach, pose, {}), counts_(around_.size()) {
+    const PointFilter filter{.min_height = -ScanHeights::max_deviation,
+                             .max_height = ScanHeights::max_deviation,
+                             .reach = static_cast<float>(reach)};
+    const LabelledScan scan{.cloud = cloud, .labels = result.labels(), .heights = result.heights()};
+    GridPoints points;
+    for (std::size_t begin = 0; begin < cloud.size(); begin += GridPoints::capacity) {
+      find_in_grid(scan, filter, around_.grid, begin, points);
+      for (std::size_t k = 0; k < points.count; ++k) {
+        std::uint16_t& count = counts_[around_.cell(points, k)];
+        if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
+      }
+    }
   }
-  return is_valid(pose) ? Status() : invalid_pose();
+
+  /// At (x, y), world frame, metres.
+  [[nodiscard]] std::uint16_t at(double x, double y) const noexcept {
+    const double column = std::floor(x / cell_) - static_cast<double>(around_.first.x);
+    const double row = std::floor(y / cell_) - static_cast<double>(around_.first.y);
+    const double width = around_.grid.width;
+    const bool is_inside = column >= 0 && column < width && row >= 0 && row < width;
+    if (!is_inside) return 0;
+    return counts_[static_cast<std::size_t>(row) * around_.grid.width +
+                   static_cast<std::size_t>(column)];
+  }
+
+ private:
+  double cell_;
+  CellsAround around_;
+  std::vector<std::uint16_t> counts_;
+};
+
+// The mean of a height above the surface of a scan and a height above the map, weighted by their
+// expected errors. `points`: of the scan on the ground, in the same cell.
+float combined_height(float own, const PointAboveMap& map, std::uint16_t points) noexcept {
+  if (std::isnan(map.height)) return own;
+  if (std::isnan(own) || points == 0) return map.height;
+  if (!has_height(map.cell)) return own;
+  constexpr float surface = 0.003F;  // metres
+  constexpr float point = 0.01F;     // metres: small, since beams meet the ground at small angles
+  const float own_variance = surface * surface + point * point / static_cast<float>(points);
+  const float deviation = deviation_of(map.cell);
+  const float map_variance = deviation * deviation;
+  return (own * map_variance + map.height * own_variance) / (map_variance + own_variance);
+}
+
+Status check_values(CloudView cloud, std::size_t values, const char* name) {
+  if (values == cloud.size()) return {};
+  return Status(StatusCode::invalid_argument,
+                std::string("ground map: the number of ") + name +
+                    " differs from the number of points (expected one per point)");
+}
+
+// Heights of all points above the ground of the scan and the map.
+template <class Tiles>
+void combine_heights(const Tiles& tiles, CloudView cloud, const Segmentation& result,
+                     const Pose& pose, const Levelling& levelling, std::span<float> heights) {
+  const GroundCounts counts(tiles.config.cell, cloud, result, pose);
+  PointsAboveMap above_map(tiles, pose, levelling);
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const Label label = result.labels()[i];
+    heights[i] = result.heights()[i];
+    if (label == Label::invalid || label == Label::out_of_range) continue;
+    const PointAboveMap above = above_map(cloud[i]);
+    heights[i] = combined_height(heights[i], above, counts.at(above.x, above.y));
+  }
 }
 
 }  // namespace
 
-Status GroundMap::heights(CloudView cloud, const Pose& pose, const Levelling& levelling,
-                          std::span<float> heights) const {
-  if (Status status = check_values(cloud, pose, heights.size(), "heights"); !status.ok()) {
-    return status;
+Status GroundMap::heights(CloudView cloud, const Segmentation& result, const Pose& pose,
+                          const Levelling& levelling, std::span<float> heights) const {
+  if (Status status = check_scan("ground map", cloud, result, pose); !status.ok()) return status;
+  if (Status status = check_values(cloud, heights.size(), "heights"); !status.ok()) return status;
+  const ScopedFloatingPointMode mode;
+  try {
+    combine_heights(*tiles_, cloud, result, pose, levelling, heights);
+  } catch (const std::bad_alloc&) {
+    return Status(StatusCode::out_of_memory);
   }
-  HeightsAboveMap height_of(*tiles_, pose, levelling);
-  for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = height_of(cloud[i]);
   return {};
 }
 
 Status GroundMap::relabel(CloudView cloud, const Segmentation& result, const Pose& pose,
                           const Levelling& levelling, std::span<Label> labels) const {
   if (Status status = check_scan("ground map", cloud, result, pose); !status.ok()) return status;
-  if (Status status = check_values(cloud, pose, labels.size(), "labels"); !status.ok()) {
-    return status;
-  }
+  if (Status status = check_values(cloud, labels.size(), "labels"); !status.ok()) return status;
   const ScopedFloatingPointMode mode;
-  const float margin = PointRule().margin;
-  HeightsAboveMap height_of(*tiles_, pose, levelling);
-  // Only points that are clearly above the nearest cell need the slower exact height.
-  const LabelledScan scan{.cloud = cloud, .labels = labels, .heights = result.heights()};
-  for_each_high_point(*tiles_, scan, pose, levelling, margin / 2, [&](std::size_t i) {
-    if (height_of(cloud[i]) > margin) labels[i] = Label::nonground;
-  });
+  PointsAboveMap above_map(*tiles_, pose, levelling);
+  const auto check = [&](std::size_t i, bool has_obstacle) {
+    const PointAboveMap above = above_map(cloud[i]);
+    if (above.height > margin_of(above.cell, has_obstacle)) labels[i] = Label::nonground;
+  };
+  try {
+    for_each_high_point(*tiles_, cloud, result, pose, levelling, labels, check);
+  } catch (const std::bad_alloc&) {
+    return Status(StatusCode::out_of_memory);
+  }
   return {};
 }
 

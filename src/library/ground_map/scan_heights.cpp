@@ -11,7 +11,6 @@ namespace flagstone {
 namespace {
 
 constexpr double fixed_point = 1 << 20;  // units per metre
-constexpr float max_deviation = 0.08F;   // of a point from the surface of its scan, metres
 
 constexpr double rounding = 0.5 / fixed_point;  // so that rounding down gives the nearest number
 

@@ -27,6 +27,9 @@ struct MeasuredHeight {
 /// order of the points.
 class ScanHeights {
  public:
+  /// Only points within this distance of the surface of their scan measure the ground, metres.
+  static constexpr float max_deviation = 0.08F;
+
   /// The heights of all cells with ground points within `config.max_range`, row by row. They are
   /// valid until the next call. `cloud` and `result` must have the same size. May throw
   /// std::bad_alloc.

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -400,17 +401,50 @@ struct RaisedScan {
   std::size_t raised = 0;  // index of the point
 };
 
+// The label of the raised point after a comparison with the map.
+Label relabelled(const GroundMap& map, RaisedScan& raised, const Pose& pose) {
+  EXPECT_TRUE(map.relabel(raised.scan.view(), raised.scan.result, pose, {}, raised.labels).ok());
+  return raised.labels[raised.raised];
+}
+
 TEST(GroundMap, PointsFarAboveTheKnownMapAreNotGround) {
   GroundMap map;
   const Pose pose = upright_pose(hills, 3, 4);
-  const Levelling levelling = add(map, GroundScan(hills, pose), pose);
-  for (const auto& [up, label] : {std::pair(0.2F, Label::ground), {0.3F, Label::nonground}}) {
+  add(map, GroundScan(hills, pose), pose);
+  for (const auto& [up, label] : {std::pair(0.2F, Label::ground), {0.35F, Label::nonground}}) {
     RaisedScan raised(pose, up);
-    ASSERT_TRUE(
-        map.relabel(raised.scan.view(), raised.scan.result, pose, levelling, raised.labels).ok());
-    EXPECT_EQ(raised.labels[raised.raised], label);
+    EXPECT_EQ(relabelled(map, raised, pose), label);
     EXPECT_EQ(std::ranges::count(raised.labels, Label::nonground), label == Label::ground ? 0 : 1);
   }
+}
+
+TEST(GroundMap, TheMarginAboveTheMapIsSmallerInACellWithAnObstacle) {
+  GroundMap map;
+  const Pose pose = upright_pose(hills, 3, 4);
+  add(map, GroundScan(hills, pose), pose);
+  // A point in the same cell, metres above the ground: a wall, and two that are not obstacles.
+  for (const auto& [above, label] :
+       {std::pair(1.5F, Label::nonground), {0.8F, Label::ground}, {2.6F, Label::ground}}) {
+    RaisedScan raised(pose, 0.15F);
+    const std::size_t other = raised.raised + 1;
+    raised.scan.xyz[3 * other + 2] += above;
+    const std::span<float> heights = raised.scan.result.start_heights();
+    std::ranges::fill(heights, 0.0F);
+    heights[other] = above;
+    raised.labels[other] = Label::nonground;
+    EXPECT_EQ(relabelled(map, raised, pose), label) << above;
+  }
+}
+
+TEST(GroundMap, TheMarginAboveTheMapIncludesItsExpectedError) {
+  GroundMap map;
+  const Pose pose = upright_pose(hills, 3, 4);
+  const GroundScan scan(hills, pose);
+  add(map, scan, pose);
+  RaisedScan raised(pose, 0.26F);
+  EXPECT_EQ(relabelled(map, raised, pose), Label::ground);
+  for (int i = 0; i < 20; ++i) add(map, scan, pose);
+  EXPECT_EQ(relabelled(map, raised, pose), Label::nonground);
 }
 
 TEST(GroundMap, OnlyLabelsOfGroundChangeAndOnlyWhereTheMapIsKnown) {
@@ -430,21 +464,81 @@ TEST(GroundMap, OnlyLabelsOfGroundChangeAndOnlyWhereTheMapIsKnown) {
   EXPECT_EQ(unknown.labels[unknown.raised], Label::ground);
 }
 
-TEST(GroundMap, HeightsOfPointsAreThoseAboveTheMapAfterLevelling) {
-  GroundMap map;
-  const Pose pose = upright_pose(hills, 3, 4);
-  add(map, GroundScan(hills, pose), pose);
-  const RaisedScan raised(pose, 2);
-  const Pose off = wrong(pose, 0.4, 0.01);
-  const Levelling levelling = add(map, raised.scan, off);
-  std::vector<float> heights(raised.labels.size());
-  ASSERT_TRUE(map.heights(raised.scan.view(), off, levelling, heights).ok());
-  EXPECT_NEAR(heights[raised.raised], 2, 0.05);
-  EXPECT_LT(std::abs(heights[raised.raised + 1]), 0.05);
+/// A scan of the ground whose surface is 5 cm too low.
+struct LowScan {
+  explicit LowScan(const Pose& the_pose)
+      : pose(the_pose), scan(hills, pose), own(scan.result.labels().size(), error) {}
 
-  const GroundMap empty;
-  ASSERT_TRUE(empty.heights(raised.scan.view(), off, levelling, heights).ok());
-  EXPECT_TRUE(std::ranges::all_of(heights, [](float height) { return std::isnan(height); }));
+  static constexpr float error = 0.05F;
+
+  /// The heights of its points, with those of a map.
+  [[nodiscard]] std::vector<float> heights(const GroundMap& map, const Levelling& levelling = {}) {
+    std::ranges::copy(own, scan.result.start_heights().begin());
+    std::vector<float> heights(own.size());
+    EXPECT_TRUE(map.heights(scan.view(), scan.result, pose, levelling, heights).ok());
+    return heights;
+  }
+
+  Pose pose;
+  GroundScan scan;
+  std::vector<float> own;  // heights above its surface
+};
+
+TEST(GroundMap, HeightsAreNearlyThoseOfTheScanWhereItMeasuresTheGround) {
+  GroundMap map;
+  LowScan low(upright_pose(hills, 3, 4));
+  add(map, GroundScan(hills, low.pose), low.pose);
+  EXPECT_THAT(low.heights(map), testing::Each(testing::FloatNear(LowScan::error, 0.005F)));
+}
+
+TEST(GroundMap, HeightsDependMoreOnACertainMapThanOnAnUncertainOne) {
+  GroundMap map;
+  LowScan low(upright_pose(hills, 3, 4));
+  const GroundScan scan(hills, low.pose);
+  add(map, scan, low.pose);
+  const std::vector<float> uncertain = low.heights(map);
+  for (int i = 0; i < 20; ++i) add(map, scan, low.pose);
+  const std::vector<float> certain = low.heights(map);
+  const std::size_t middle = certain.size() / 2;
+  EXPECT_LT(certain[middle], uncertain[middle] - 0.001F);
+}
+
+TEST(GroundMap, HeightsAreThoseAboveTheLevelledMapWhereTheScanHasNoGround) {
+  GroundMap map;
+  LowScan low(upright_pose(hills, 3, 4));
+  add(map, GroundScan(hills, low.pose), low.pose);
+  const GroundScan scan(hills, low.pose);
+  low.pose = wrong(low.pose, 0.4, 0.01);
+  const Levelling levelling = add(map, scan, low.pose);
+  std::ranges::fill(low.scan.result.mutable_labels(), Label::nonground);
+  const std::size_t middle = low.own.size() / 2;
+  low.scan.xyz[3 * middle + 2] += 2;
+  const std::vector<float> heights = low.heights(map, levelling);
+  EXPECT_NEAR(heights[middle], 2, 0.02);
+  EXPECT_NEAR(heights[middle + 1], 0, 0.02);
+}
+
+TEST(GroundMap, HeightsAreThoseOfTheScanWhereTheMapIsUnknownAndTheOtherWayRound) {
+  GroundMap map;
+  LowScan low(upright_pose(hills, 3, 4));
+  EXPECT_THAT(low.heights(map), testing::Each(LowScan::error));
+
+  add(map, GroundScan(hills, low.pose), low.pose);
+  const std::size_t middle = low.own.size() / 2;
+  low.own[middle] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_NEAR(low.heights(map)[middle], 0, 0.005);
+}
+
+TEST(GroundMap, PointsThatAreInvalidOrOutOfRangeKeepTheirHeight) {
+  GroundMap map;
+  LowScan low(upright_pose(hills, 3, 4));
+  add(map, GroundScan(hills, low.pose), low.pose);
+  const std::size_t middle = low.own.size() / 2;
+  for (const Label label : {Label::invalid, Label::out_of_range}) {
+    low.scan.result.mutable_labels()[middle] = label;
+    low.own[middle] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(std::isnan(low.heights(map)[middle])) << to_string(label);
+  }
 }
 
 TEST(GroundMap, RejectsValuesThatAreNotOnePerPoint) {
@@ -453,7 +547,7 @@ TEST(GroundMap, RejectsValuesThatAreNotOnePerPoint) {
   const GroundScan scan(hills, pose);
   std::vector<float> heights(scan.result.labels().size() - 1);
   std::vector<Label> labels(scan.result.labels().size() + 1);
-  EXPECT_THAT(map.heights(scan.view(), pose, {}, heights).message(),
+  EXPECT_THAT(map.heights(scan.view(), scan.result, pose, {}, heights).message(),
               testing::HasSubstr("the number of heights differs from the number of points"));
   EXPECT_THAT(map.relabel(scan.view(), scan.result, pose, {}, labels).message(),
               testing::HasSubstr("the number of labels differs from the number of points"));
