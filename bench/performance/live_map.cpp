@@ -17,18 +17,17 @@
 #include <flagstone/label_vote.hpp>
 #include <flagstone/moving_points.hpp>
 #include <flagstone/surface.hpp>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "app/mapping/run_mapper.hpp"
 #include "app/run_poses.hpp"
 #include "app/scan_files.hpp"
 #include "files/io/read_cloud.hpp"
+#include "library/moving_points/moving_labels.hpp"
 #include "timing.hpp"
 
 namespace flagstone::performance {
@@ -57,31 +56,40 @@ struct Step {
   }
 };
 
-/// The steps that RunMapper takes with live labels, with their own map and votes.
+/// The steps that RunMapper takes with live labels.
 class Steps {
  public:
   void add(app::RunScan& scan) {
     const CloudView cloud = scan.level.cloud();
     const Pose& pose = scan.level.pose();
     scan.labels.resize(cloud.size());
+    const double start = cpu_time();
     level_.time([&] { return map_.level(cloud, scan.result, pose, scan.levelling); });
     moving_points_.time([&] {
       return moving_.add(cloud, scan.result, pose, scan.levelling, scan.time, scan.moving);
     });
     add_.time([&] { return map_.add_levelled(); });
-    labels_.time([&] { return vote_.add(cloud, scan.result, pose, scan.levelling, scan.labels); });
-    above_map_.time(
-        [&] { return map_.relabel(cloud, scan.result, pose, scan.levelling, scan.labels); });
+    labels_.time([&] {
+      label_moving_points(scan.moving, Label::out_of_range, scan.result.mutable_labels());
+      return vote_.add(cloud, scan.result, pose, scan.levelling, scan.labels);
+    });
+    above_map_.time([&] {
+      label_moving_points(scan.moving, Label::nonground, scan.result.mutable_labels());
+      label_moving_points(scan.moving, Label::nonground, scan.labels);
+      return map_.relabel(cloud, scan.result, pose, scan.levelling, scan.labels);
+    });
+    mapping_.times.push_back(cpu_time() - start);
   }
 
-  [[nodiscard]] std::array<const Step*, 5> all() const {
-    return {&level_, &moving_points_, &add_, &labels_, &above_map_};
+  [[nodiscard]] std::array<const Step*, 6> all() const {
+    return {&mapping_, &level_, &moving_points_, &add_, &labels_, &above_map_};
   }
 
  private:
   GroundMap map_;
   LabelVote vote_;
   MovingPoints moving_{{.delay = 0}};
+  Step mapping_{"mapping"};
   Step level_{"level"};
   Step moving_points_{"moving_points"};
   Step add_{"add_to_map"};
@@ -97,30 +105,19 @@ void run(const std::string& directory, const std::string& pose_file, float senso
   config.sensor_height = sensor_height;
   Surface surface(config);
   Steps steps;
-  app::RunMapper mapper({.labels = app::LabelSource::live});
   Step segmentation{"segmentation"};
-  Step mapping{"mapping"};
-  app::RunScan of_steps;  // its memory is used again
+  app::RunScan scan;  // its memory is used again
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    auto scan = std::make_unique<app::RunScan>();
-    scan->index = i;
-    scan->time = times.at(i);
-    throw_unless_ok(io::read_cloud(inputs[i].file, {}, scan->cloud));
-    const auto segment = [&] { return surface.segment(scan->cloud.view(), scan->result); };
-    segmentation.time(segment);
-    scan->level.set(scan->cloud.view(), {}, poses.scans[i].pose.value());
-    of_steps.time = scan->time;
-    of_steps.level = scan->level;
-    of_steps.result = scan->result;
-    steps.add(of_steps);
-    throw_unless_ok(segment());  // the caches are as after a segmentation
-    mapping.time([&] { return mapper.add(std::move(scan), [](const app::RunScan&) {}); });
+    scan.time = times.at(i);
+    throw_unless_ok(io::read_cloud(inputs[i].file, {}, scan.cloud));
+    segmentation.time([&] { return surface.segment(scan.cloud.view(), scan.result); });
+    scan.level.set(scan.cloud.view(), {}, poses.scans[i].pose.value());
+    steps.add(scan);
   }
   nlohmann::ordered_json medians;
   medians["scans"] = inputs.size();
   const auto add = [&](const Step& step) { medians[step.name] = quantile(step.times, 0.5); };
   add(segmentation);
-  add(mapping);
   for (const Step* const step : steps.all()) add(*step);
   std::printf("%s\n", medians.dump().c_str());
 }

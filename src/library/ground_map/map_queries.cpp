@@ -204,8 +204,8 @@ class PointsAboveMap {
 struct CellsAround {
   /// `reach` in metres.
   CellsAround(double cell, double reach, const Pose& pose, const Levelling& levelling) noexcept
-      : first{.x = static_cast<std::int64_t>(std::floor((pose.position[0] - 2 * reach) / cell)),
-              .y = static_cast<std::int64_t>(std::floor((pose.position[1] - 2 * reach) / cell))},
+      : first{.x = static_cast<std::int64_t>(std::floor((pose.position[0] - reach) / cell)),
+              .y = static_cast<std::int64_t>(std::floor((pose.position[1] - reach) / cell))},
         // Levels are relative to the sensor.
         grid{.rotation = pose.rotation,
              .to_sensor = {pose.position[0] - static_cast<double>(first.x) * cell,
@@ -214,7 +214,7 @@ struct CellsAround {
              .slope_y = levelling.slope_y,
              .per_metre = 1 / cell,
              .per_metre_up = units_per_metre,
-             .width = static_cast<std::uint32_t>(4 * reach / cell)} {}
+             .width = static_cast<std::uint32_t>(2 * reach / cell) + 2} {}
 
   [[nodiscard]] std::size_t size() const noexcept { return std::size_t{grid.width} * grid.width; }
   /// The number of the cell of a point that is inside.
@@ -238,12 +238,12 @@ struct CellsAround {
 
 // The label of a point above the map depends on obstacles in its cell, as in stage F of `surface`.
 // The map is uncertain by its expected error, but walls that some scans label ground increase that.
-constexpr float max_uncertainty = 0.06F;  // metres
-
-float margin_of(const MapCell& cell, bool has_obstacle) noexcept {
+bool is_too_high(const PointAboveMap& point, bool has_obstacle) noexcept {
+  constexpr float max_uncertainty = 0.06F;  // metres
   const PointRule rule;
-  return (has_obstacle ? rule.obstacle_margin : rule.margin) +
-         std::min(deviation_of(cell), max_uncertainty);
+  const float margin = has_obstacle ? rule.obstacle_margin : rule.margin;
+  return point.height > margin &&
+         point.height > margin + std::min(deviation_of(point.cell), max_uncertainty);
 }
 
 constexpr float reach_of_labels = 200;  // metres
@@ -282,15 +282,22 @@ void for_each_high_point(const Tiles& tiles, CloudView cloud, const Segmentation
       .min_height = -infinity, .max_height = infinity, .reach = reach_of_labels};
   const auto sensor = static_cast<float>(pose.position[2] - levelling.offset - tiles.base);
   NearbyCells cells(tiles);
+  std::size_t last = around.size();  // consecutive points are often in one cell
+  bool is_narrow = false;
+  float limit = infinity;  // metres above the sensor
   GridPoints points;
   for (std::size_t begin = 0; begin < cloud.size(); begin += GridPoints::capacity) {
     find_in_grid(scan, filter, around.grid, begin, points);
     for (std::size_t k = 0; k < points.count; ++k) {
-      const HeightEvidence ground = cells.best(around.index(points, k));
-      const bool is_narrow = has_obstacle[around.cell(points, k)];
-      const float lowest = (is_narrow ? rule.obstacle_margin : rule.margin) - clearly;
-      const float height = sensor + CellsAround::up(points, k) - ground.height;
-      if (ground.weight > 0 && height > lowest) {
+      const std::size_t cell = around.cell(points, k);
+      if (cell != last) {
+        last = cell;
+        is_narrow = has_obstacle[cell];
+        const HeightEvidence ground = cells.best(around.index(points, k));
+        const float margin = is_narrow ? rule.obstacle_margin : rule.margin;
+        limit = ground.weight > 0 ? ground.height - sensor + margin - clearly : infinity;
+      }
+      if (CellsAround::up(points, k) > limit) {
         check(static_cast<std::size_t>(points.point[k]), is_narrow);
       }
     }
@@ -395,8 +402,7 @@ Status GroundMap::relabel(CloudView cloud, const Segmentation& result, const Pos
   const ScopedFloatingPointMode mode;
   PointsAboveMap above_map(*tiles_, pose, levelling);
   const auto check = [&](std::size_t i, bool has_obstacle) {
-    const PointAboveMap above = above_map(cloud[i]);
-    if (above.height > margin_of(above.cell, has_obstacle)) labels[i] = Label::nonground;
+    if (is_too_high(above_map(cloud[i]), has_obstacle)) labels[i] = Label::nonground;
   };
   try {
     for_each_high_point(*tiles_, cloud, result, pose, levelling, labels, check);
