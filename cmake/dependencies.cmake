@@ -156,7 +156,7 @@ if(needs_command)
     file(READ ${FLAGSTONE_CHART_JS} chart_js_banner LIMIT 100)
   endif()
   if(NOT chart_js_banner MATCHES "Chart\\.js v3\\.")
-    set(chart_js_url https://registry.npmjs.org/chart.js/-/chart.js-3.9.1.tgz)
+    set(chart_js_url https://github.com/chartjs/Chart.js/releases/download/v3.9.1/chart.js-3.9.1.tgz)
     FetchContent_Declare(
       chart_js
       SOURCE_SUBDIR no-build
