@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// Measures what mapping a run live costs per scan beside the segmentation, step by step: CPU time
-// of one thread. Prints one JSON object with medians over the scans, milliseconds.
+// Measures the cost of mapping a run live, per scan and step, in addition to the segmentation: CPU
+// time of one thread. Prints one JSON object with medians over the scans, milliseconds.
 //
 //   live_map RUN POSES SENSOR_HEIGHT
 

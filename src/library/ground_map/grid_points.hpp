@@ -39,7 +39,7 @@ struct WorldGrid {
   bool on_ground = false;             ///< points are moved down to the ground below them
 };
 
-/// Those of a few consecutive points that pass a filter and are in a grid.
+/// The points that pass a filter and are in a grid, out of a few consecutive points.
 struct GridPoints {
   static constexpr std::size_t capacity = 512;
 

@@ -81,7 +81,7 @@ bool is_moving(const LookCounts& counts) noexcept {
          20 * counts.through > 7 * (counts.through + counts.occupied);
 }
 
-// So many looks agree that more of them nearly never change the result.
+// Four looks agree: more of them nearly never change the result.
 bool is_clear(const LookCounts& counts) noexcept {
   constexpr int min_looks = 4;
   return counts.through + counts.occupied >= min_looks &&

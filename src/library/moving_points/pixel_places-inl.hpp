@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 flagstone contributors
 // SPDX-License-Identifier: MIT
 //
-// RangeImage::place for vectors. Included once per instruction set.
+// The positions of pixels in a RangeImage, for vectors. Included once per instruction set.
 
 // clang-format off
 #if defined(FLAGSTONE_MOVING_POINTS_PIXEL_PLACES_INL_HPP) == defined(HWY_TARGET_TOGGLE)

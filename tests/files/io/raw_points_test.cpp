@@ -49,13 +49,13 @@ TEST(RawPoints, MayBeEmpty) {
   EXPECT_EQ(cloud.fields().size(), 5U);
 }
 
-TEST(RawPoints, ReportSizeRowAndOptionOfAnIncompletePoint) {
+TEST(RawPoints, ReportSizeRowAndColumnsOfAnIncompletePoint) {
   Cloud cloud;
   const Status status = read_raw_points(Bytes(45), 4, cloud);
 
   EXPECT_THAT(status, is_bad_at(32, "45 bytes"));
   EXPECT_THAT(status, is_bad_at(32, "4 floats, 16 bytes each"));
-  EXPECT_THAT(status, is_bad_at(32, "--columns"));
+  EXPECT_THAT(status, is_bad_at(32, "check the number of columns"));
 }
 
 TEST(RawPoints, Require3To1024Columns) {

@@ -60,7 +60,7 @@ TEST(ReadCloud, RejectsColumnsOutOfRange) {
   for (const int columns : {-1, 1, 2, 1025}) {
     Cloud cloud;
     EXPECT_THAT(read_cloud("a.bin", {.columns = columns}, cloud),
-                fails(StatusCode::invalid_argument, HasSubstr("expected 3 to 1024, or 0")));
+                fails(StatusCode::invalid_argument, HasSubstr("expected 3 to 1024 columns, or 0")));
   }
 }
 

@@ -484,7 +484,7 @@ struct LowScan {
   std::vector<float> own;  // heights above its surface
 };
 
-TEST(GroundMap, HeightsAreNearlyThoseOfTheScanWhereItMeasuresTheGround) {
+TEST(GroundMap, HeightsFollowTheScanInCellsWithItsGround) {
   GroundMap map;
   LowScan low(upright_pose(hills, 3, 4));
   add(map, GroundScan(hills, low.pose), low.pose);
@@ -503,7 +503,7 @@ TEST(GroundMap, HeightsDependMoreOnACertainMapThanOnAnUncertainOne) {
   EXPECT_LT(certain[middle], uncertain[middle] - 0.001F);
 }
 
-TEST(GroundMap, HeightsAreThoseAboveTheLevelledMapWhereTheScanHasNoGround) {
+TEST(GroundMap, HeightsFollowTheLevelledMapInCellsWithoutGroundInTheScan) {
   GroundMap map;
   LowScan low(upright_pose(hills, 3, 4));
   add(map, GroundScan(hills, low.pose), low.pose);
@@ -518,7 +518,7 @@ TEST(GroundMap, HeightsAreThoseAboveTheLevelledMapWhereTheScanHasNoGround) {
   EXPECT_NEAR(heights[middle + 1], 0, 0.02);
 }
 
-TEST(GroundMap, HeightsAreThoseOfTheScanWhereTheMapIsUnknownAndTheOtherWayRound) {
+TEST(GroundMap, HeightsOfOneSourceAreUsedIfTheOtherIsUnknown) {
   GroundMap map;
   LowScan low(upright_pose(hills, 3, 4));
   EXPECT_THAT(low.heights(map), testing::Each(LowScan::error));
